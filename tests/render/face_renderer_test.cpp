@@ -107,6 +107,26 @@ TEST(FaceRenderer, FittingTheTreeToAFaceChangesNoPixel) {
   EXPECT_EQ(several(fitted), several(anew)) << "from several threads at once";
 }
 
+// Of a mesh as fine as this light is kept out by a reduced one.
+TEST(FaceRenderer, OfAFineMeshAFittedFaceLooksAsWhenItIsDrawnAnew) {
+  const Mesh balls =
+      join_meshes(make_sphere(1, 240, 480), make_sphere(0.5, 60, 120), {0.9, 0.5, 0.9});
+  ASSERT_GT(balls.topology.face_count(), 100'000);
+  Positions face = balls.positions;
+  face.col(1) *= 1.3;
+  const Camera camera = camera_for(1.3 * balls.positions);
+  const RenderOptions options = {.size_px = 128};
+  const Rgb8Image anew = FaceRenderer(balls.topology, options).render(face, camera);
+  const Rgb8Image fitted =
+      FaceRenderer(balls.topology, options, {}, &balls.positions).render(face, camera);
+  double sum = 0;
+  for (std::size_t i = 0; i < anew.pixels.size(); ++i) {
+    sum += std::abs(anew.pixels[i] - fitted.pixels[i]);
+  }
+  EXPECT_LT(sum / static_cast<double>(anew.pixels.size()), 0.1) << "of 255";
+  EXPECT_LE(largest_difference(anew, fitted), 40) << "a shadow's edge moves by little";
+}
+
 TEST(FaceRenderer, OneFlatShapeLooksTheSameInTrianglesQuadsAndOnePolygon) {
   Positions square(6, 3);
   square << -1, -1, 0, 0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0;

@@ -17,11 +17,12 @@ namespace {
 
 constexpr Index kVertexBlock = 4096;
 
-void check_finite(const Positions& positions) {
-  if (positions.allFinite()) return;
+/// \param first  row of the whole that these begin with
+void check_finite(const Eigen::Ref<const Positions>& some, Index first) {
+  if (some.allFinite()) return;
   Index i = 0;
-  while (positions.row(i).allFinite()) ++i;
-  throw InvalidInput(concat("a render needs finite positions, vertex ", i + 1, " is not"));
+  while (some.row(i).allFinite()) ++i;
+  throw InvalidInput(concat("a render needs finite positions, vertex ", first + i + 1, " is not"));
 }
 
 }  // namespace
@@ -38,15 +39,17 @@ std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
 }
 
 void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points) {
-  check_finite(positions);
   Eigen::Matrix3d axes;
   axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
   axes /= camera.half_extent();
   points.reserve(static_cast<std::size_t>(positions.rows()) * 3 + 1);  // RayScene adds one
   points.resize(static_cast<std::size_t>(positions.rows()) * 3);
-  parallel_for_each(positions.rows(), kVertexBlock, [&](Index i) {
-    const Eigen::Vector3f point = (axes * (row3(positions, i) - camera.target)).cast<float>();
-    std::copy_n(point.data(), 3, points.begin() + 3 * i);
+  parallel_blocks(positions.rows(), kVertexBlock, [&](Index begin, Index end) {
+    check_finite(positions.middleRows(begin, end - begin), begin);
+    for (Index i = begin; i < end; ++i) {
+      const Eigen::Vector3f point = (axes * (row3(positions, i) - camera.target)).cast<float>();
+      std::copy_n(point.data(), 3, points.begin() + 3 * i);
+    }
   });
 }
 

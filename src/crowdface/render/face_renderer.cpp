@@ -14,11 +14,13 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/gleam.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/sampling_pattern.h"
+#include "crowdface/render/screen_quads.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/tile_renderer.h"
 
@@ -26,11 +28,17 @@ namespace crowdface {
 
 namespace {
 
+// Rays to the lights start this far above the surface, in half the side of the image: above a reduced one, too.
+constexpr float kRayClearance = 2e-4F;
+constexpr float kReducedClearance = 2e-3F;
+
 /// What rendering a face takes: large, and used again for the next face.
 struct Workspace {
   std::vector<float> points;
   CameraNormals normals;
-  std::unique_ptr<RayScene> scene;
+  ScreenQuads screen;
+  std::vector<float> occluder_points;
+  std::unique_ptr<RayScene> occluders;
 };
 
 /// Workspaces, each for one thread at a time. All have the same tree, that of the typical face, so that it does
@@ -54,6 +62,38 @@ class WorkspacePool {
   std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
+/// What keeps light from a face.
+struct Occluders {
+  std::vector<std::uint32_t> vertices;  ///< rows of the mesh; empty: all
+  std::vector<Quad> quads;              ///< of `vertices`; empty: all of the mesh's
+  std::vector<float>
+      typical;  ///< their points in the typical face; empty: scenes are built for once
+};
+
+/// Most triangles that light is kept out by: of a larger mesh, what goes is far smaller than a pixel.
+constexpr std::size_t kMostOccluders = 100'000;
+
+Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical) {
+  Occluders occluders;
+  const auto points = [](const Positions& positions) {
+    return std::vector<float>(positions.data(), positions.data() + positions.size());
+  };
+  if (quads.size() <= kMostOccluders) {
+    occluders.typical = points(typical);
+    return occluders;
+  }
+  std::vector<Triangle> triangles;
+  for (const Quad& quad : quads) {
+    triangles.push_back({quad[0], quad[1], quad[2]});
+    if (quad[2] != quad[3]) triangles.push_back({quad[0], quad[2], quad[3]});
+  }
+  ReducedMesh reduced = reduce_mesh(triangles, typical, kMostOccluders);
+  occluders.vertices = std::move(reduced.vertices);
+  for (const Triangle& t : reduced.triangles) occluders.quads.push_back({t[0], t[1], t[2], t[2]});
+  occluders.typical = points(typical(occluders.vertices, Eigen::all));
+  return occluders;
+}
+
 }  // namespace
 
 struct FaceRenderer::Prepared {
@@ -67,7 +107,7 @@ struct FaceRenderer::Prepared {
   std::vector<TexturedQuad> quad_uvs;             ///< or empty: no texture coordinates
   Eyeballs eyeballs;
   RayDevice device;
-  std::vector<float> typical;  ///< points of the typical face; empty: scenes are built for once
+  Occluders occluders;
   WorkspacePool workspaces;
   std::optional<float> winding;  ///< of the typical face, which all others share
 
@@ -79,15 +119,26 @@ struct FaceRenderer::Prepared {
 
   /// Has the workspace's points in its scene.
   void put_into_scene(Workspace& workspace) const {
-    if (typical.empty()) {
-      workspace.scene = std::make_unique<RayScene>(device, std::move(workspace.points), quads);
+    std::vector<float>& points = workspace.occluder_points;
+    if (occluders.vertices.empty()) {
+      points = workspace.points;
+    } else {
+      points.resize(3 * occluders.vertices.size());
+      for (std::size_t i = 0; i < occluders.vertices.size(); ++i) {
+        std::copy_n(workspace.points.data() + std::size_t{3} * occluders.vertices[i], 3,
+                    points.data() + 3 * i);
+      }
+    }
+    if (occluders.typical.empty()) {
+      workspace.occluders = std::make_unique<RayScene>(device, std::move(points), quads);
       return;
     }
-    if (workspace.scene == nullptr) {
-      workspace.scene =
-          std::make_unique<RayScene>(device, typical, quads, RayScene::Tree::kForMoves);
+    if (workspace.occluders == nullptr) {
+      workspace.occluders = std::make_unique<RayScene>(
+          device, occluders.typical, occluders.vertices.empty() ? quads : occluders.quads,
+          RayScene::Tree::kForMoves);
     }
-    workspace.scene->move_points(workspace.points);
+    workspace.occluders->move_points(points);
   }
 };
 
@@ -157,7 +208,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
   }
   if (typical == nullptr) return;
   // Whatever the camera: it turns a tree and scales it, no more.
-  prepared_->typical.assign(typical->data(), typical->data() + typical->size());
+  prepared_->occluders = occluders_of(prepared_->quads, *typical);
 }
 FaceRenderer::~FaceRenderer() = default;
 
@@ -177,6 +228,8 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   // A crowd is wound like its heads: there is no need to find that out for every face.
   const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
   workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
+  const auto distance = static_cast<float>(1 / camera.half_tangent);
+  workspace->screen.put(workspace->points, prepared_->quads, distance, prepared_->options.size_px);
   prepared_->put_into_scene(*workspace);
   std::optional<WornStage> worn_stage;
   if (!worn.empty()) worn_stage.emplace(prepared_->device, worn, camera);
@@ -184,7 +237,10 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   if (coat != nullptr) {
     for (const auto& texture : coat->textures) skin_lightnesses.push_back(skin_lightness(*texture));
   }
-  const Stage stage{*workspace->scene,
+  const Stage stage{workspace->points,
+                    workspace->screen,
+                    *workspace->occluders,
+                    prepared_->occluders.vertices.empty() ? kRayClearance : kReducedClearance,
                     workspace->normals.normals,
                     sign,
                     colours,
@@ -199,7 +255,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     gaze,
                     worn_stage ? &*worn_stage : nullptr,
                     prepared_->options.occlusion,
-                    Eigen::Vector3f(0, 0, static_cast<float>(1 / camera.half_tangent))};
+                    Eigen::Vector3f(0, 0, distance)};
   const int size = prepared_->options.size_px;
   const int tiles = (size + kTile - 1) / kTile;
   Rgb8Image image(size, size);

@@ -118,9 +118,8 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kForMoves;
-  // Robust: no pinholes along edges.
-  rtcSetSceneFlags(state.scene,
-                   moves ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
+  // Robust: no pinholes along edges, which what moves can do without: it only keeps light out.
+  rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   // Embree refits a geometry's tree only in scenes of low quality, which differ from others in what
   // joins the trees of several geometries; there is one.
   if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
@@ -195,12 +194,7 @@ std::vector<bool> RayScene::occluded(std::span<const Ray> rays) const {
 }
 
 Eigen::Vector3f RayScene::point(std::uint32_t vertex) const {
-  const float* p = place(vertex);
-  return {p[0], p[1], p[2]};
-}
-
-const float* RayScene::place(std::uint32_t vertex) const {
-  return state_->points.data() + std::size_t{3} * vertex;
+  return Eigen::Map<const Eigen::Vector3f>(state_->points.data() + std::size_t{3} * vertex);
 }
 
 }  // namespace crowdface

@@ -53,7 +53,7 @@ using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 /// Quads that rays can be shot at, from any thread.
 class RayScene {
  public:
-  /// How the tree over the quads is built: well, or so that move_points is quick.
+  /// How the tree over the quads is built: well, or so that move_points is quick. Rays may then slip between quads.
   enum class Tree { kForOnce, kForMoves };
 
   /// \param points  x, y, z of each vertex. Kept by the scene.
@@ -79,8 +79,6 @@ class RayScene {
   /// Whether each ray meets anything.
   std::vector<bool> occluded(std::span<const Ray> rays) const;
   Eigen::Vector3f point(std::uint32_t vertex) const;
-  /// Where its coordinates lie.
-  const float* place(std::uint32_t vertex) const;
 
  private:
   struct State;

@@ -18,9 +18,9 @@ namespace {
 using Vector = Eigen::Vector3f;
 
 // Lengths are in half the side of the image, so that these hold for any unit.
-constexpr float kSkyReach = 0.55F;      // how far ambient occlusion looks
-constexpr float kRayClearance = 2e-4F;  // rays start this far above the surface
-constexpr float kThickness = 0.012F;    // how deep light soaks in: softens where shadows begin
+constexpr float kSkyReach = 0.55F;       // how far ambient occlusion looks
+constexpr float kWornClearance = 2e-4F;  // rays start this far above what is worn
+constexpr float kThickness = 0.012F;     // how deep light soaks in: softens where shadows begin
 constexpr float kThrough = 0.8F;  // of the light on its other side a thin surface lets through
 
 constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
@@ -97,9 +97,9 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
   const TexturedQuad& textured = stage.uvs[primitive];
   // The triangle at the first corner, which tells where the picture's axes run on all of the quad.
   const std::size_t last = quad[2] == quad[3] ? 2 : 3;
-  const Vector origin = stage.scene.point(quad[0]);
-  const Vector one = stage.scene.point(quad[1]) - origin;
-  const Vector other = stage.scene.point(quad[last]) - origin;
+  const Vector origin = stage.point(quad[0]);
+  const Vector one = stage.point(quad[1]) - origin;
+  const Vector other = stage.point(quad[last]) - origin;
   const Eigen::Vector2f uv_one = textured.uvs[1] - textured.uvs[0];
   const Eigen::Vector2f uv_other = textured.uvs[last] - textured.uvs[0];
   const float area = uv_one.x() * uv_other.y() - uv_other.x() * uv_one.y();
@@ -164,9 +164,9 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
     const Vector n = side * stage.normals[vertex];
     if (n.dot(side * geometric) <= 0) continue;
-    lift -= weights[c] * std::min(0.0F, (meeting.point - stage.scene.point(vertex)).dot(n)) * n;
+    lift -= weights[c] * std::min(0.0F, (meeting.point - stage.point(vertex)).dot(n)) * n;
   }
-  meeting.start = meeting.point + lift + kRayClearance * side * geometric.normalized();
+  meeting.start = meeting.point + lift + stage.clearance * side * geometric.normalized();
   return meeting;
 }
 
@@ -182,7 +182,7 @@ void fetch_ahead(const Stage& stage, std::span<const std::optional<RayHit>> hits
   if (here + kCorners < hits.size() && hits[here + kCorners]) {
     for (const std::uint32_t vertex : stage.quads[hits[here + kCorners]->primitive]) {
       __builtin_prefetch(&stage.normals[vertex]);
-      __builtin_prefetch(stage.scene.place(vertex));
+      __builtin_prefetch(stage.points.data() + std::size_t{3} * vertex);
     }
   }
 }
@@ -202,7 +202,7 @@ Meeting meet_worn(const WornStage& worn, const Vector& viewer, const RayHit& hit
   meeting.surface.normal =
       towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
   meeting.asks_key = faces_key(meeting.surface);
-  meeting.start = meeting.point + kRayClearance * geometric;
+  meeting.start = meeting.point + kWornClearance * geometric;
   return meeting;
 }
 
@@ -250,24 +250,22 @@ class Tile {
         rim_top_(std::max(top - 1, 0)),
         rim_right_(std::min(right_ + 1, size)),
         rim_bottom_(std::min(bottom_ + 1, size)),
-        outer_left_(std::max(left - 2, 0)),
-        outer_top_(std::max(top - 2, 0)),
-        outer_right_(std::min(right_ + 2, size)),
-        outer_bottom_(std::min(bottom_ + 2, size)),
-        pixels_(static_cast<std::size_t>(outer_right_ - outer_left_) *
-                static_cast<std::size_t>(outer_bottom_ - outer_top_)) {}
+        outer_{std::max(left - 2, 0), std::max(top - 2, 0), std::min(right_ + 2, size),
+               std::min(bottom_ + 2, size)},
+        pixels_(outer_.count()) {}
 
   void render(Rgb8Image& image) {
-    look(stage_.worn != nullptr ? sampling_.coarse : sampling_.middle,
-         [](const Pixel&) { return true; });
-    if (sampling_.fine.size() > 1) {
+    const PixelPlaces& first = stage_.worn != nullptr ? sampling_.coarse : sampling_.middle;
+    look([&](const Pixel&) { return &first; });
+    if (sampling_.fine.count() > 1) {
       for (int y = rim_top_; y < rim_bottom_; ++y) {
         for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = change_at(x, y);
       }
-      if (stage_.worn == nullptr) {  // else they were looked at so
-        look(sampling_.coarse, [](const Pixel& pixel) { return pixel.change == Change::kRelief; });
-      }
-      look(sampling_.fine, [](const Pixel& pixel) { return pixel.change == Change::kEdge; });
+      look([&](const Pixel& pixel) -> const PixelPlaces* {
+        if (pixel.change == Change::kEdge) return &sampling_.fine;
+        const bool asks = pixel.change == Change::kRelief && &first != &sampling_.coarse;
+        return asks ? &sampling_.coarse : nullptr;
+      });
     }
     ask_key();
     if (stage_.occlusion) ask_sky();
@@ -289,15 +287,12 @@ class Tile {
     Summary summary = {};
   };
 
-  Pixel& pixel(int x, int y) {
-    const int width = outer_right_ - outer_left_;
-    return pixels_[static_cast<std::size_t>((y - outer_top_) * width + x - outer_left_)];
-  }
+  Pixel& pixel(int x, int y) { return pixels_[outer_.index(x, y)]; }
 
   template <class Body>
   void for_each_pixel(const Body& body) {
-    for (int y = outer_top_; y < outer_bottom_; ++y) {
-      for (int x = outer_left_; x < outer_right_; ++x) body(x, y, pixel(x, y));
+    for (int y = outer_.top; y < outer_.bottom; ++y) {
+      for (int x = outer_.left; x < outer_.right; ++x) body(x, y, pixel(x, y));
     }
   }
 
@@ -306,20 +301,24 @@ class Tile {
     return (corner + place) / static_cast<float>(size_);
   }
 
-  /// What the camera's rays meet at these places of the pixels that ask.
-  template <class Asks>
-  void look(const std::vector<Eigen::Vector2f>& places, const Asks& asks) {
+  /// What the camera's rays meet in each pixel.
+  /// \param places_of  where they go in a pixel, or null: what is known of it stays
+  template <class PlacesOf>
+  void look(const PlacesOf& places_of) {
+    std::vector<const PixelPlaces*> places;
     std::vector<Ray>& rays = emptied<Ray>();
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
-      if (!asks(pixel)) return;
+      places.push_back(places_of(pixel));
+      if (places.back() == nullptr) return;
       std::uint32_t number = 0;
-      for (const Eigen::Vector2f& place : places) {
+      for (const Eigen::Vector2f& place : places.back()->list()) {
         const Eigen::Vector2f at = on_image(x, y, place);
         rays.push_back({stage_.viewer, Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer});
-        rays.back().lot = (2 * number++ + 1) * 32768U / static_cast<std::uint32_t>(places.size());
+        rays.back().lot = (2 * number++ + 1) * 32768U / places.back()->count();
       }
     });
-    const auto hits = stage_.scene.nearest_hits(rays);
+    std::vector<std::optional<RayHit>>& hits = emptied<std::optional<RayHit>>();
+    stage_.screen.nearest_hits({left_ / kTile, top_ / kTile}, outer_, places, hits);
     std::vector<std::optional<RayHit>> worn(rays.size());
     if (stage_.worn != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
@@ -328,12 +327,14 @@ class Tile {
       worn = stage_.worn->scene().nearest_hits(rays);
     }
     std::size_t ray = 0;
+    auto at = places.begin();
     for_each_pixel([&](int x, int y, Pixel& pixel) {
-      if (!asks(pixel)) return;
+      const PixelPlaces* const looked = *at++;
+      if (looked == nullptr) return;
       pixel.first = static_cast<std::uint32_t>(meetings_.size());
       pixel.missed = 0;
       pixel.backdrop = Light::Zero();
-      for (const Eigen::Vector2f& place : places) {
+      for (const Eigen::Vector2f& place : looked->list()) {
         fetch_ahead(stage_, hits, ray);
         if (worn[ray]) {
           meetings_.push_back(
@@ -363,7 +364,7 @@ class Tile {
     for (const Meeting& other : meetings) most = std::max(most, change(meetings.front(), other));
     if (stage_.worn != nullptr) return most;  // its samples tell
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
-      if (i < outer_left_ || i >= outer_right_ || j < outer_top_ || j >= outer_bottom_) continue;
+      if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
       const std::span<const Meeting> beside = meetings_of(pixel(i, j));
       if (beside.empty() != meetings.empty()) return Change::kEdge;
       if (!beside.empty()) most = std::max(most, change(meetings.front(), beside.front()));
@@ -474,7 +475,7 @@ class Tile {
   }
 
   std::vector<bool> are_blocked(const std::vector<Ray>& rays) const {
-    std::vector<bool> blocked = stage_.scene.occluded(rays);
+    std::vector<bool> blocked = stage_.occluders.occluded(rays);
     if (stage_.worn == nullptr) return blocked;
     std::vector<Ray> free;
     for (std::size_t r = 0; r < rays.size(); ++r) {
@@ -568,7 +569,7 @@ class Tile {
   int size_;
   int left_, top_, right_, bottom_;
   int rim_left_, rim_top_, rim_right_, rim_bottom_;
-  int outer_left_, outer_top_, outer_right_, outer_bottom_;
+  PixelRectangle outer_;
   std::vector<Pixel> pixels_;
   std::vector<Meeting>& meetings_ = emptied<Meeting>();
 };

@@ -13,6 +13,7 @@
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/sampling_pattern.h"
+#include "crowdface/render/screen_quads.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
@@ -30,7 +31,10 @@ struct TexturedQuad {
 /// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
 /// the image's side as unit.
 struct Stage {
-  const RayScene& scene;
+  const std::vector<float>& points;             ///< x, y, z of each vertex
+  const ScreenQuads& screen;                    ///< all quads
+  const RayScene& occluders;                    ///< what keeps light out: all of it, or reduced
+  float clearance;                              ///< rays start this far above the surface
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outwards
   float winding;                                ///< −1 where the faces' own normals look inwards
   const VertexColours* colours;                 ///< #V in place of all others, or nullptr
@@ -46,15 +50,19 @@ struct Stage {
   const WornStage* worn;  ///< or nullptr
   bool occlusion;         ///< whether the sky's light is kept out of hollows
   Eigen::Vector3f viewer;
+
+  Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {
+    return Eigen::Map<const Eigen::Vector3f>(points.data() + std::size_t{3} * vertex);
+  }
 };
 
 /// Where rays go.
 struct Sampling {
-  std::vector<Eigen::Vector2f> middle;  ///< the place in every pixel
-  std::vector<Eigen::Vector2f>
-      coarse;                         ///< those where something is worn, which may be there in part
-  std::vector<Eigen::Vector2f> fine;  ///< those where the picture changes
-  int light_rays;                     ///< a pixel, towards each light
+  PixelPlaces middle;  ///< the place in every pixel
+  PixelPlaces
+      coarse;  ///< those where something is worn, which may be there in part, or where relief is
+  PixelPlaces fine;  ///< those where the picture changes
+  int light_rays;    ///< a pixel, towards each light
   InterleavedDisc lights;
 
   Sampling(int samples_per_side, int rays)
@@ -66,7 +74,7 @@ struct Sampling {
 };
 
 /// Side of the squares that an image is rendered in, in pixels.
-inline constexpr int kTile = 32;
+inline constexpr int kTile = kSquare;
 
 /// Renders one square of an image, whatever else there is of it. What a pixel knows of its lights
 /// it shares with those around it that show the same surface: each has tried other directions, and

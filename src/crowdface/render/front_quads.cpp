@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/front_quads.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crowdface/render/front_quads.cpp"
+#include "hwy/foreach_target.h"
+// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+#include <algorithm>
+#include <limits>
+
+#include "hwy/cache_control.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace crowdface::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, 16>;
+using Numbers = hn::VFromD<Lanes>;
+
+/// A corner as seen from places of a pixel.
+struct Corner {
+  Numbers x, y;
+};
+
+/// Twice the area of the triangle between two corners and the place; exactly the opposite if they change places, so that no
+/// place lies between two triangles that share an edge. (A fused operation would not be exact that way.)
+HWY_INLINE Numbers turn(const Corner& a, const Corner& b) {
+  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
+}
+
+/// A triangle in front where it is nearer.
+/// \param a, b, c  parts of its area opposite to its corners, whose nearness is n_a, n_b and n_c.
+HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n_b, float n_c,
+                             std::uint32_t front, float* nearness, std::uint32_t* fronts) {
+  const Lanes lanes;
+  const hn::Rebind<std::uint32_t, Lanes> whole;
+  const Numbers zero = hn::Zero(lanes);
+  const auto inside = hn::Or(hn::And(hn::And(hn::Ge(a, zero), hn::Ge(b, zero)), hn::Ge(c, zero)),
+                             hn::And(hn::And(hn::Le(a, zero), hn::Le(b, zero)), hn::Le(c, zero)));
+  if (hn::AllFalse(lanes, inside)) return;
+  const Numbers area = hn::Add(hn::Add(a, b), c);
+  const Numbers sum =
+      hn::Add(hn::Add(hn::Mul(a, hn::Set(lanes, n_a)), hn::Mul(b, hn::Set(lanes, n_b))),
+              hn::Mul(c, hn::Set(lanes, n_c)));
+  const Numbers near = hn::Div(sum, area);  // no number where there is no area: never nearer
+  const Numbers before = hn::LoadU(lanes, nearness);
+  const auto nearer = hn::And(inside, hn::Gt(near, before));
+  hn::StoreU(hn::IfThenElse(nearer, near, before), lanes, nearness);
+  hn::StoreU(hn::IfThenElse(hn::RebindMask(whole, nearer), hn::Set(whole, front),
+                            hn::LoadU(whole, fronts)),
+             whole, fronts);
+}
+
+/// Puts quads in front at the places of one pixel.
+HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad, const PlacedVertex* placed,
+                             float left, float top, const LookedPixel& pixel, float* nearness,
+                             std::uint32_t* fronts) {
+  const Lanes lanes;
+  const PlacedVertex* const vertices[] = {placed + quad[0], placed + quad[1], placed + quad[2],
+                                          placed + quad[3]};
+  for (std::uint32_t i = 0; i < pixel.places->count();
+       i += static_cast<std::uint32_t>(hn::Lanes(lanes))) {
+    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.places->x() + i));
+    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.places->y() + i));
+    Corner c[4];
+    for (int k = 0; k < 4; ++k) {
+      c[k] = {hn::Sub(hn::Set(lanes, vertices[k]->x), x),
+              hn::Sub(hn::Set(lanes, vertices[k]->y), y)};
+    }
+    float* const near = nearness + pixel.first + i;
+    std::uint32_t* const front = fronts + pixel.first + i;
+    const Numbers across = turn(c[1], c[3]);
+    put_triangle(across, turn(c[3], c[0]), turn(c[0], c[1]), vertices[0]->nearness,
+                 vertices[1]->nearness, vertices[3]->nearness, 2 * on.quad, near, front);
+    put_triangle(hn::Neg(across), turn(c[1], c[2]), turn(c[2], c[3]), vertices[2]->nearness,
+                 vertices[3]->nearness, vertices[1]->nearness, 2 * on.quad + 1, near, front);
+  }
+}
+
+void put_in_front(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad* quads,
+                  const PlacedVertex* placed, int corner_x, int corner_y, const LookedPixel* pixels,
+                  float* nearness, std::uint32_t* fronts) {
+  constexpr std::ptrdiff_t kQuadsAhead = 16, kCornersAhead = 8;
+  for (; begin != end; ++begin) {
+    // On a large mesh what comes lies in no near cache.
+    if (end - begin > kQuadsAhead) hwy::Prefetch(quads + begin[kQuadsAhead].quad);
+    if (end - begin > kCornersAhead) {
+      for (const std::uint32_t vertex : quads[begin[kCornersAhead].quad]) {
+        hwy::Prefetch(placed + vertex);
+      }
+    }
+    for (int y = begin->top; y <= begin->bottom; ++y) {
+      for (int x = begin->left; x <= begin->right; ++x) {
+        const LookedPixel& pixel = pixels[y * kRimmed + x];
+        if (pixel.places == nullptr) continue;
+        put_in_pixel(*begin, quads[begin->quad], placed, static_cast<float>(corner_x + x),
+                     static_cast<float>(corner_y + y), pixel, nearness, fronts);
+      }
+    }
+  }
+}
+
+/// In pixels, more than places are rounded by.
+constexpr float kBlur = 1e-2F;
+
+/// The pixels that some quads may lie on, counted from the corner of the first square's rim.
+struct Boxes {
+  static constexpr std::size_t kCount = 8;
+  alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
+  alignas(64) std::int32_t square[kCount];     ///< the last it lies in; −1: none
+  alignas(64) std::int32_t alone[kCount];      ///< not 0: it lies in no other
+  alignas(64) std::int32_t no_middle[kCount];  ///< 1: it lies on no pixel's middle
+  alignas(64) std::int32_t in_square[kCount];  ///< a byte each: left, top, right and bottom there
+};
+
+/// \param quads  Boxes::kCount
+void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes& boxes) {
+  const hn::CappedTag<float, Boxes::kCount> lanes;
+  const hn::Rebind<std::int32_t, decltype(lanes)> whole;
+  alignas(64) float ends[4 * Boxes::kCount];
+  for (std::size_t i = 0; i < Boxes::kCount; ++i) {
+    const auto corner = [&](std::size_t c) {
+      return Eigen::Map<const Eigen::Array4f, Eigen::Aligned16>(&placed[quads[i][c]].x);
+    };
+    const Eigen::Array4f low = corner(0).min(corner(1)).min(corner(2).min(corner(3)));
+    const Eigen::Array4f high = corner(0).max(corner(1)).max(corner(2).max(corner(3)));
+    std::copy_n(low.data(), 2, ends + 4 * i);
+    std::copy_n(high.data(), 2, ends + 4 * i + 2);
+  }
+  const auto most = hn::Set(lanes, static_cast<float>(a_row * kSquare + 2 * kRim - 1));
+  const auto zero = hn::Zero(lanes), half = hn::Set(lanes, 0.5F);
+  const auto one = hn::Set(whole, 1), none = hn::Zero(whole), last = hn::Set(whole, a_row - 1);
+  const auto pixel = [&](auto place) { return hn::ConvertTo(whole, place); };
+  const auto has_middle = [&](auto from, auto to) {
+    return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
+  };
+  const auto first_square = [&](auto from) {  // its rim ends so much later than it
+    return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRim)), none));
+  };
+  const auto last_square = [&](auto to) { return hn::Min(hn::ShiftRight<kSquareBits>(to), last); };
+  for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
+    hn::VFromD<decltype(lanes)> left, top, right, bottom;
+    hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
+    left = hn::Add(left, hn::Set(lanes, kRim - kBlur));
+    top = hn::Add(top, hn::Set(lanes, kRim - kBlur));
+    right = hn::Add(right, hn::Set(lanes, kRim + kBlur));
+    bottom = hn::Add(bottom, hn::Set(lanes, kRim + kBlur));
+    const auto outside = hn::Or(hn::Or(hn::Lt(right, zero), hn::Lt(bottom, zero)),
+                                hn::Or(hn::Gt(left, most), hn::Gt(top, most)));
+    const auto unseen = hn::Or(outside, hn::IsInf(right));
+    left = hn::Max(left, zero);
+    top = hn::Max(top, zero);
+    right = hn::Min(right, most);
+    bottom = hn::Min(bottom, most);
+    const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
+    const auto column = last_square(r), row = last_square(b);
+    const auto x = hn::ShiftLeft<kSquareBits>(column), y = hn::ShiftLeft<kSquareBits>(row);
+    const auto low_ends = hn::Or(hn::Sub(l, x), hn::ShiftLeft<8>(hn::Sub(t, y)));
+    const auto high_ends = hn::Or(hn::Sub(r, x), hn::ShiftLeft<8>(hn::Sub(b, y)));
+    hn::Store(l, whole, boxes.left + i);
+    hn::Store(t, whole, boxes.top + i);
+    hn::Store(r, whole, boxes.right + i);
+    hn::Store(b, whole, boxes.bottom + i);
+    hn::Store(hn::IfThenElse(hn::RebindMask(whole, unseen), hn::Set(whole, -1),
+                             hn::Add(hn::Mul(row, hn::Set(whole, a_row)), column)),
+              whole, boxes.square + i);
+    hn::Store(hn::IfThenElseZero(
+                  hn::And(hn::Eq(first_square(l), column), hn::Eq(first_square(t), row)), one),
+              whole, boxes.alone + i);
+    hn::Store(hn::IfThenElse(hn::And(has_middle(left, right), has_middle(top, bottom)), none, one),
+              whole, boxes.no_middle + i);
+    hn::Store(hn::Or(low_ends, hn::ShiftLeft<16>(high_ends)), whole, boxes.in_square + i);
+  }
+}
+
+void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
+                    const PlacedVertex* placed, int a_row, SquareLists& squares) {
+  Boxes boxes;
+  std::array<Quad, Boxes::kCount> some;
+  const auto byte = [](auto number) { return static_cast<std::uint8_t>(number); };
+  const auto within = [&](int pixel, int square) {
+    return byte(std::clamp(pixel - square * kSquare, 0, kRimmed - 1));
+  };
+  for (; begin < end; begin += Boxes::kCount) {
+    const std::size_t count = std::min(Boxes::kCount, end - begin);
+    for (std::size_t i = 0; i < Boxes::kCount; ++i) some[i] = quads[begin + std::min(i, count - 1)];
+    find_boxes(some.data(), placed, a_row, boxes);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (boxes.square[i] < 0) continue;
+      const auto quad = static_cast<std::uint32_t>(begin + i);
+      const auto list = static_cast<std::size_t>(boxes.no_middle[i]);
+      if (boxes.alone[i] != 0) {
+        const auto ends = static_cast<std::uint32_t>(boxes.in_square[i]);
+        squares[static_cast<std::size_t>(boxes.square[i])][list].push_back(
+            {quad, byte(ends), byte(ends >> 8U), byte(ends >> 16U), byte(ends >> 24U)});
+        continue;
+      }
+      const int right = boxes.square[i] % a_row, bottom = boxes.square[i] / a_row;
+      for (int y = std::max(boxes.top[i] - 2 * kRim, 0) / kSquare; y <= bottom; ++y) {
+        for (int x = std::max(boxes.left[i] - 2 * kRim, 0) / kSquare; x <= right; ++x) {
+          squares[static_cast<std::size_t>(y * a_row + x)][list].push_back(
+              {quad, within(boxes.left[i], x), within(boxes.top[i], y), within(boxes.right[i], x),
+               within(boxes.bottom[i], y)});
+        }
+      }
+    }
+  }
+}
+
+}  // namespace crowdface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kMostLanes = 16;
+
+}  // namespace
+
+HWY_EXPORT(add_to_squares);
+HWY_EXPORT(put_in_front);
+
+PixelPlaces::PixelPlaces(std::vector<Eigen::Vector2f> list) : list_(std::move(list)) {
+  for (const Eigen::Vector2f& place : list_) {
+    x_.push_back(place.x());
+    y_.push_back(place.y());
+  }
+  x_.resize(list_.size() + kMostLanes, std::numeric_limits<float>::quiet_NaN());
+  y_.resize(list_.size() + kMostLanes, std::numeric_limits<float>::quiet_NaN());
+}
+
+FrontQuads::FrontQuads(std::size_t places)
+    : nearness(places + kMostLanes, 0.0F), front(places + kMostLanes, kNothing) {}
+
+void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
+                    std::span<const PlacedVertex> placed, int a_row, SquareLists& squares) {
+  HWY_DYNAMIC_DISPATCH(add_to_squares)
+  (quads.data(), first, end, placed.data(), a_row, squares);
+}
+
+void put_in_front(std::span<const QuadOnPixels> some, std::span<const Quad> quads,
+                  std::span<const PlacedVertex> placed, std::array<int, 2> corner,
+                  std::span<const LookedPixel> pixels, FrontQuads& fronts) {
+  HWY_DYNAMIC_DISPATCH(put_in_front)
+  (some.data(), some.data() + some.size(), quads.data(), placed.data(), corner[0], corner[1],
+   pixels.data(), fronts.nearness.data(), fronts.front.data());
+}
+
+}  // namespace crowdface
+#endif

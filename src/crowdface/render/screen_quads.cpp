@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/screen_quads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/parallel.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kVerticesATask = 8192;
+constexpr std::size_t kQuadsABlock = 16384;
+
+float cross(const Eigen::Array2f& a, const Eigen::Array2f& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+}  // namespace
+
+void ScreenQuads::put(const std::vector<float>& points, const std::vector<Quad>& quads,
+                      float distance, int size) {
+  points_ = points.data();
+  quads_ = quads;
+  const float half_side = 0.5F * static_cast<float>(size);
+  placed_.resize(points.size() / 3);
+  parallel_for_each(placed_.size(), kVerticesATask, [&](std::size_t v) {
+    const float* p = points_ + 3 * v;
+    const float nearness = distance / (distance - p[2]);
+    placed_[v] = {half_side * (1 + p[0] * nearness), half_side * (1 - p[1] * nearness), nearness};
+    if (p[2] >= distance) placed_[v].x = std::numeric_limits<float>::infinity();
+  });
+  a_row_ = (size + kSquare - 1) / kSquare;
+  blocks_.resize((quads.size() + kQuadsABlock - 1) / kQuadsABlock);
+  parallel_for_each(blocks_.size(), [&](std::size_t b) {
+    SquareLists& squares = blocks_[b];
+    squares.resize(static_cast<std::size_t>(a_row_ * a_row_));
+    for (auto& lists : squares) {
+      for (auto& list : lists) list.clear();
+    }
+    const std::size_t end = std::min(quads.size(), (b + 1) * kQuadsABlock);
+    add_to_squares(quads, b * kQuadsABlock, end, placed_, a_row_, squares);
+  });
+}
+
+void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
+                               std::span<const PixelPlaces* const> places,
+                               std::vector<std::optional<RayHit>>& hits) const {
+  const std::array<int, 2> corner = {square[0] * kSquare - kRim, square[1] * kSquare - kRim};
+  std::array<LookedPixel, kRimmed * kRimmed> looked{};
+  std::uint32_t count = 0;
+  bool middles = true;
+  const auto for_each_looked = [&](const auto& body) {
+    for (int y = pixels.top; y < pixels.bottom; ++y) {
+      for (int x = pixels.left; x < pixels.right; ++x) {
+        if (const PixelPlaces* const here = places[pixels.index(x, y)]) body(x, y, *here);
+      }
+    }
+  };
+  for_each_looked([&](int x, int y, const PixelPlaces& here) {
+    looked[static_cast<std::size_t>((y - corner[1]) * kRimmed + x - corner[0])] = {&here, count};
+    count += here.count();
+    middles = middles && here.list() == std::vector<Eigen::Vector2f>{{0.5F, 0.5F}};
+  });
+  FrontQuads fronts(count);
+  for (const SquareLists& squares : blocks_) {
+    const auto& lists = squares[static_cast<std::size_t>(square[1] * a_row_ + square[0])];
+    for (const auto& list : std::span(lists).first(middles ? 1 : 2)) {
+      put_in_front(list, quads_, placed_, corner, looked, fronts);
+    }
+  }
+  hits.assign(count, std::nullopt);
+  std::size_t i = 0;
+  for_each_looked([&](int x, int y, const PixelPlaces& here) {
+    const Eigen::Vector2f pixel(static_cast<float>(x), static_cast<float>(y));
+    for (const Eigen::Vector2f& place : here.list()) {
+      if (fronts.front[i] != FrontQuads::kNothing) hits[i] = hit(fronts.front[i], pixel + place);
+      ++i;
+    }
+  });
+}
+
+RayHit ScreenQuads::hit(std::uint32_t front, const Eigen::Array2f& at) const {
+  const std::uint32_t number = front / 2;
+  const Quad& quad = quads_[number];
+  const bool second = front % 2 == 1;
+  const auto& [i, j, k] = kQuadHalves[front % 2];
+  const PlacedVertex &a = placed_[quad[i]], &b = placed_[quad[j]], &c = placed_[quad[k]];
+  const auto from = [&](const PlacedVertex& corner) -> Eigen::Array2f {
+    return Eigen::Array2f(corner.x, corner.y) - at;
+  };
+  const Eigen::Array3f areas(cross(from(b), from(c)), cross(from(c), from(a)),
+                             cross(from(a), from(b)));
+  // What is straight on the surface is not on the image: shares go with nearness.
+  const Eigen::Array3f shares = areas * Eigen::Array3f(a.nearness, b.nearness, c.nearness);
+  const float sum = shares.sum();
+  const float u = shares[1] / sum, v = shares[2] / sum;
+  const auto point = [&](std::uint32_t vertex) {
+    return Eigen::Map<const Eigen::Vector3f>(points_ + std::size_t{3} * vertex);
+  };
+  const Eigen::Vector3f normal =
+      (point(quad[j]) - point(quad[i])).cross(point(quad[k]) - point(quad[i]));
+  return {number, second ? 1 - u : u, second ? 1 - v : v, areas.sum() / sum, normal};
+}
+
+}  // namespace crowdface
