@@ -205,10 +205,13 @@ RigidMotion PartFollower::State::follow_rigid(const RigidPart& part, std::size_t
 void PartFollower::follow(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
   const Positions& before = state_->faces.heads[t].positions;
-  std::vector<RigidMotion> motions;
-  for (const RigidPart& part : state_->rigid) {
-    const RigidMotion motion = state_->follow_rigid(part, t, result);
-    if (!part.eyeball) motions.push_back(motion);
+  // Each looks at skin alone, and moves vertices of its own.
+  std::vector<RigidMotion> of_rigid(state_->rigid.size()), motions;
+  parallel_for_each(of_rigid.size(), [&](std::size_t p) {
+    of_rigid[p] = state_->follow_rigid(state_->rigid[p], t, result);
+  });
+  for (std::size_t p = 0; p < of_rigid.size(); ++p) {
+    if (!state_->rigid[p].eyeball) motions.push_back(of_rigid[p]);
   }
   state_->anchors.put(before, state_->places[t], result);
   state_->ties.pull(before, motions, result);

@@ -22,6 +22,8 @@ constexpr double kRounding = 0.006;      // size of what is smoothed out of a si
 constexpr double kTolerance = 1e-5;      // by which a gap may miss its range
 constexpr double kLeastWeight = 1e-3;    // what moves less does not move
 constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices
+constexpr std::size_t kPointsPerBlock =
+    256;  // of profiles: their motions stay in a core's nearest cache
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
 /// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
@@ -225,8 +227,11 @@ std::vector<std::uint32_t> SkinContacts::moved() const {
 /// not too wide or to open what is not too narrow, so that neighbours seldom pull against each other: a
 /// linear complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, chapter 5).
 /// Which points of the profiles are nearest changes on the way, so the gap is told anew each time.
-void SkinContacts::ask(const Contact& contact, std::span<const Range> ranges, double most,
-                       Profiles& profiles, std::vector<double>& asked) const {
+std::vector<SkinContacts::Change> SkinContacts::ask(const Contact& contact,
+                                                    std::span<const Range> ranges, double most,
+                                                    Profiles& profiles,
+                                                    std::vector<double>& asked) const {
+  std::vector<Change> changes;
   double largest = std::numeric_limits<double>::max();
   for (int sweep = 0; sweep < kSweeps && largest > tolerance_; ++sweep) {
     largest = 0;
@@ -239,13 +244,22 @@ void SkinContacts::ask(const Contact& contact, std::span<const Range> ranges, do
       if (change == 0) continue;
       asked[i] += change;
       largest = std::max(largest, std::abs(change));
-      const Motions& motions = contact.motions[i];
-      for (std::size_t k = 0; k < profiles.heights.size(); ++k) {
-        profiles.heights[k] += motions.heights[k] * change;
-        profiles.depths[k] += motions.depths[k] * change;
-      }
+      changes.push_back({i, change});
+      const std::vector<double>& heights = contact.motions[i].heights;
+      for (std::size_t k = 0; k < heights.size(); ++k) profiles.heights[k] += heights[k] * change;
     }
   }
+  return changes;
+}
+
+void SkinContacts::move_depths(const Contact& contact, std::span<const Change> changes,
+                               std::vector<double>& depths) {
+  parallel_blocks(depths.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (const Change& change : changes) {
+      const std::vector<double>& motions = contact.motions[change.place].depths;
+      for (std::size_t k = begin; k < end; ++k) depths[k] += motions[k] * change.by;
+    }
+  });
 }
 
 double SkinContacts::Profiles::gap(std::size_t place) const {
@@ -281,8 +295,10 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
       append(clearances_[p].depths(positions), profiles.depths);
     }
     std::vector<double> asked(contact.end - contact.begin, 0.0);
+    std::vector<Change> changes;
     double most = 0;
     for (int round = 0; round < kRounds; ++round) {
+      move_depths(contact, changes, profiles.depths);
       double missing = 0;
       profiles.opposites.clear();
       for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -294,7 +310,7 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
       }
       if (missing <= tolerance_) break;
       if (round == 0) most = kMost * missing;
-      ask(contact, ranges, most, profiles, asked);
+      changes = ask(contact, ranges, most, profiles, asked);
     }
     if (most > 0) move(contact, asked, positions);
   }

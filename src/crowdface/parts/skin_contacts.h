@@ -83,8 +83,16 @@ class SkinContacts {
   void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_motions(Contact& contact) const;
-  void ask(const Contact& contact, std::span<const Range> ranges, double most, Profiles& profiles,
-           std::vector<double>& asked) const;
+  /// What was asked for at a place, beside what was before.
+  struct Change {
+    std::size_t place;  ///< of the contact's
+    double by;
+  };
+  /// \return in this order; depths of profiles have not followed.
+  std::vector<Change> ask(const Contact& contact, std::span<const Range> ranges, double most,
+                          Profiles& profiles, std::vector<double>& asked) const;
+  static void move_depths(const Contact& contact, std::span<const Change> changes,
+                          std::vector<double>& depths);
   void move(const Contact& contact, std::span<const double> by, Positions& positions) const;
 
   double tolerance_ = 0;
