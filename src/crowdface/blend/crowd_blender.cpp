@@ -8,6 +8,7 @@
 #include "crowdface/blend/crowd_product_kernels.h"
 #include "crowdface/blend/recipe_check.h"
 #include "crowdface/blend/single_face_sums.h"
+#include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 
@@ -259,7 +260,9 @@ void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockVa
 
 void CrowdBlender::prepare(const Recipe& recipe, Positions& result) const {
   require_fit(faces_, regions_, recipe);
+  if (result.rows() == faces_.topology.vertex_count) return;
   result.resize(faces_.topology.vertex_count, 3);
+  lay_pages(result.data(), static_cast<std::size_t>(result.size()) * sizeof(double));
 }
 
 template <class Wanted>
@@ -303,7 +306,7 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
     return blend_one(
         *recipes[0], [](const Block&) { return true; }, results[0]);
   }
-  for (std::size_t f = 0; f < recipes.size(); ++f) prepare(*recipes[f], results[f]);
+  parallel_for_each(recipes.size(), [&](std::size_t f) { prepare(*recipes[f], results[f]); });
   const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
   const std::size_t groups = (recipes.size() + kChunkFaces - 1) / kChunkFaces;
   std::vector<Factors> all_factors(groups * regions);  // #groups by #regions

@@ -7,9 +7,11 @@
 #include <new>
 
 #include <malloc.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -50,6 +52,18 @@ void give_back_large_blocks() {
   // memory. No large block must fit into what it keeps.
   constexpr int kHeapEnd = kLarge / 4 * 3;
   ::mallopt(M_TRIM_THRESHOLD, kHeapEnd);  // NOLINT(concurrency-mt-unsafe)
+}
+
+void lay_pages(void* memory, std::size_t bytes) {
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGE_SIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + page - 1) / page * page,
+                       end = (begin + bytes) / page * page;
+  constexpr std::size_t kPiece = 4 << 20;  // for one thread at a time
+  if (first >= end) return;
+  parallel_blocks(end - first, kPiece, [&](std::uintptr_t from, std::uintptr_t to) {
+    ::madvise(reinterpret_cast<void*>(first + from), to - from, MADV_POPULATE_WRITE);
+  });
 }
 
 void watch_for_lack_of_memory() {
