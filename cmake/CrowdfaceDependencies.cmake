@@ -8,6 +8,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(Freetype REQUIRED)
+find_package(PNG REQUIRED)
 find_package(OpenImageIO REQUIRED)
 # Debian's OpenImageIO names the headers of OpenCV too, which it neither needs nor installs.
 set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES

@@ -40,7 +40,7 @@ TEST(Usage, VersionAndHelpAreNoErrors) {
   }
 }
 
-TEST(Usage, LibrariesOfImagesAreLoadedWithTheFirstImage) {
+TEST(Usage, LibrariesOfImagesAreLoadedWithTheFirstThatIsNoPng) {
   const Outcome needed =
       run_program("/usr/bin/env", {"LD_TRACE_LOADED_OBJECTS=1", CROWDFACE_PROGRAM});
   EXPECT_THAT(needed.out, ::testing::HasSubstr("libtbb"));
@@ -51,9 +51,14 @@ TEST(Usage, LibrariesOfImagesAreLoadedWithTheFirstImage) {
   const fs::path alone = folder / "elsewhere/crowdface";
   fs::copy_file(CROWDFACE_PROGRAM, alone);
   EXPECT_EQ(run_program(alone.string(), {"--version"}).code, 0);
-  const Outcome without = run_program(
-      alone.string(),
-      {"synth", "-q", "-o", (folder / "heads").string(), "--count", "2", "--vertices", "5000"});
+  const SmallCrowdFolder crowd(SmallCrowd{.regions = 2});
+  const std::vector<std::string> check = {"check", "-q", crowd.config().string()};
+  EXPECT_EQ(run_program(alone.string(), check).code, 0);  // its masks are PNGs
+
+  using namespace std::string_literals;
+  const fs::path mask = folder.write("mask.exr", "\x76\x2f\x31\x01\x02\0\0\0\0"s);
+  const Outcome without = run_program(alone.string(), {"check", "-q", crowd.config().string(),
+                                                       "--set", "regions.mask=" + mask.string()});
   EXPECT_EQ(without.code, 74) << without.err;
   EXPECT_THAT(without.err,
               ::testing::AllOf(::testing::HasSubstr("images can be neither read nor written"),

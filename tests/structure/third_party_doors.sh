@@ -30,6 +30,7 @@ door 'hwy/' 'crowdface/core/fused_lanes-inl\.h' 'crowdface/core/[a-z_]*\.cpp' \
   'crowdface/validity/leaf_boxes\.cpp' 'crowdface/(cast|texture)/[a-z_]*_kernels\.cpp'
 door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/openimageio_codec\.cpp'
+door 'png\.h' 'crowdface/io/png_codec\.cpp'
 door 'ft2build|freetype' 'crowdface/render/text_label\.cpp'
 door 'embree' 'crowdface/render/[a-z_]*\.cpp'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'

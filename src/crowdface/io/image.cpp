@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image_codec.h"
 #include "crowdface/io/image_container.h"
+#include "crowdface/io/png_codec.h"
 
 namespace crowdface {
 namespace {
@@ -37,10 +38,15 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
   return format;
 }
 
+const ImageCodec& codec_of(std::string_view format) {
+  return format == "png" ? png_codec() : image_codec();
+}
+
 /// A picture that is open, and what its header says.
 struct OpenPicture {
+  const ImageCodec& codec;
   PictureFacts facts;
-  std::unique_ptr<ImageCodec::Picture, void (*)(ImageCodec::Picture*)> picture;
+  std::unique_ptr<void, void (*)(void*)> picture;
 };
 
 void check_size(const path& file, const PictureFacts& spec, const ImageLimits& limits) {
@@ -162,7 +168,7 @@ std::string encode(const std::string& format, const PictureToEncode& picture, st
           "an image of ", width, " x ", height, " pixels and ", channels, " channels from ", values,
           " values");
   std::string bytes, error;
-  if (!image_codec().encode(picture, bytes, error)) {  // of pixels of ours
+  if (!codec_of(format).encode(picture, bytes, error)) {  // of pixels of ours
     throw IoError(concat(format, ": cannot be encoded (is there too little memory?): ", error));
   }
   return bytes;
@@ -171,8 +177,8 @@ std::string encode(const std::string& format, const PictureToEncode& picture, st
 /// Opens a file and refuses what should not be decoded.
 OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
-  const ImageCodec& codec = image_codec();
-  OpenPicture opened{{}, {nullptr, codec.close}};
+  const ImageCodec& codec = codec_of(format);
+  OpenPicture opened{codec, {}, {nullptr, codec.close}};
   std::string error;
   opened.picture.reset(codec.open(format, file.string(), mapped.bytes(), opened.facts, error));
   if (!opened.picture) refuse_file(file, error);
@@ -183,11 +189,11 @@ OpenPicture open_checked(const path& file, const MappedFile& mapped, const Image
 }
 
 Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
-  const auto [facts, picture] = open_checked(file, mapped, limits);
+  const auto [codec, facts, picture] = open_checked(file, mapped, limits);
   Image image{facts.width, facts.height, facts.channels, facts.alpha_channel, {}, {}};
   if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(facts));
   std::string error;
-  if (!image_codec().read(*picture, make_room(file, facts, image), error)) {
+  if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
     throw DamagedImage(file, concat(file.string(), ": is damaged or cut short: ", error));
   }
   check_finite(file, image);

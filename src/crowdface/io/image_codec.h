@@ -28,24 +28,23 @@ struct PictureToEncode {
       nullptr;  ///< row by row; of an OpenEXR floats, of a word PNG 16 bits, else bytes
 };
 
-/// What OpenImageIO does for us. It brings some 250 libraries, which take 0.2 s to load. So it stands in a
-/// shared library of its own (openimageio_codec.cpp), which is opened when the first image is read or
-/// written. That library holds no state of ours and checks no limits: image.cpp does. Functions, and none of
-/// them virtual: two libraries do not agree on what a type is.
+/// Reads and writes files of some formats; checks no limits: image.cpp does. Functions, and none of them
+/// virtual: OpenImageIO's stand in a shared library, and two libraries do not agree on what a type is.
 struct ImageCodec {
-  struct Picture;
   /// \param format  the name of a reader in OpenImageIO. \param bytes  of the file; they outlive the picture.
   /// \return null if the picture cannot be opened; `error` says why.
-  Picture* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
-                   PictureFacts& facts, std::string& error);
+  void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
+                PictureFacts& facts, std::string& error);
   /// \param pixels  room for all of them, of the type that the facts say.
   /// \return whether they could be read.
-  bool (*read)(Picture& picture, void* pixels, std::string& error);
-  void (*close)(Picture* picture);
+  bool (*read)(void* picture, void* pixels, std::string& error);
+  void (*close)(void* picture);
   bool (*encode)(const PictureToEncode& picture, std::string& bytes, std::string& error);
 };
 
-/// Opens the library the first time. Any thread may ask.
+/// What OpenImageIO does for us: all formats but PNG. It brings some 250 libraries, which take 0.2 s to load. So
+/// it stands in a shared library of its own (openimageio_codec.cpp), which holds no state of ours.
+/// Opened the first time. Any thread may ask.
 /// \throws IoError if it is not where it was installed, or cannot be loaded.
 const ImageCodec& image_codec();
 

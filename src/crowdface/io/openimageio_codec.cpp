@@ -9,16 +9,14 @@
 #include "crowdface/io/image_codec.h"
 
 namespace crowdface {
+namespace {
 
-struct ImageCodec::Picture {
+struct Picture {
   explicit Picture(std::string_view bytes) : memory(bytes.data(), bytes.size()) {}
   OIIO::Filesystem::IOMemReader memory;
   std::unique_ptr<OIIO::ImageInput> input;
 };
 
-namespace {
-
-using Picture = ImageCodec::Picture;
 using Values = PictureFacts::Values;
 using Form = PictureToEncode::Form;
 
@@ -56,8 +54,8 @@ PictureFacts facts_of(const OIIO::ImageSpec& spec) {
 
 /// Decoders get the bytes as they are mapped: those that read files themselves take a disk that fails for
 /// a file that is damaged.
-Picture* open(const std::string& format, const std::string& file, std::string_view bytes,
-              PictureFacts& facts, std::string& error) {
+void* open(const std::string& format, const std::string& file, std::string_view bytes,
+           PictureFacts& facts, std::string& error) {
   auto picture = std::make_unique<Picture>(bytes);
   picture->input = OIIO::ImageInput::create(format);
   OIIO::ImageInput* input = picture->input.get();
@@ -87,8 +85,8 @@ bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
          spec.get_string_attribute("planarconfig") != "separate";
 }
 
-bool read(Picture& picture, void* pixels, std::string& error) {
-  OIIO::ImageInput& input = *picture.input;
+bool read(void* picture, void* pixels, std::string& error) {
+  OIIO::ImageInput& input = *static_cast<Picture*>(picture)->input;
   const OIIO::ImageSpec& spec = input.spec();
   const OIIO::TypeDesc type = type_of(kind_of_values(spec.format));
   bool read = true;
@@ -108,8 +106,8 @@ bool read(Picture& picture, void* pixels, std::string& error) {
   return read;
 }
 
-void close(Picture* picture) {
-  delete picture;
+void close(void* picture) {
+  delete static_cast<Picture*>(picture);
 }
 
 /// \return the writer's name in OpenImageIO.
@@ -121,21 +119,9 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
     spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the time of writing
     return "openexr";
   }
-  if (form == Form::kJpeg) {
-    spec.attribute("compression", "jpeg:92");
-    spec.attribute("jpeg:subsampling", "4:4:4");
-    return "jpeg";
-  }
-  if (form == Form::kWordPng) spec.set_format(OIIO::TypeDesc::UINT16);
-  spec.alpha_channel = spec.nchannels % 2 == 0 ? spec.nchannels - 1 : -1;
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (form != Form::kSmallPng) {
-    constexpr int kAverageOfLeftAndUpper =
-        64;  // libpng's number; left alone it tries all five a row
-    spec.attribute("png:compressionLevel", 1);
-    spec.attribute("png:filter", kAverageOfLeftAndUpper);
-  }
-  return "png";
+  spec.attribute("compression", "jpeg:92");
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  return "jpeg";
 }
 
 bool encode(const PictureToEncode& picture, std::string& bytes, std::string& error) {
