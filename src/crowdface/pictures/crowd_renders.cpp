@@ -143,8 +143,13 @@ std::string CrowdRenders::render_png(const Positions& positions, Index head) con
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {
-  const Image image = read_image(path, {.ours = true});
+  Image image = read_image(path, {.ours = true});
   Rgb8Image result(image.width, image.height);
+  if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
+      bytes != nullptr && image.channels == 3) {
+    result.pixels = std::move(*bytes);
+    return result;
+  }
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       for (int c = 0; c < 3; ++c) {

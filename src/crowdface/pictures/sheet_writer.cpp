@@ -35,22 +35,40 @@ std::string to_exr(const Rgb8Image& image) {
 
 SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
                          std::string title)
-    : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {}
-
-void SheetWriter::write(const std::string& name, const std::string& bytes) {
-  written_.push_back(folder_ / name);
-  write_file(written_.back(), bytes);
+    : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
+  pngs_.reserve(kPagesAVolume);  // none moves while it is made
 }
 
-void SheetWriter::add(const std::string& stem, const std::string& caption, const Rgb8Image& page) {
+std::filesystem::path SheetWriter::add_file(const std::string& name) {
+  return written_.emplace_back(folder_ / name);
+}
+
+void SheetWriter::write_beside(const std::string& stem, Rgb8Image page) {
+  if (pages_beside_ == thread_count()) wait();  // that many are in memory at most
+  ++pages_beside_;
+  const auto png_file = add_file(stem + ".png");
+  std::filesystem::path exr_file;
+  if (contains(formats_, SheetFormat::kExr)) exr_file = add_file(stem + ".exr");
+  std::string* kept = contains(formats_, SheetFormat::kPdf) ? &pngs_.emplace_back() : nullptr;
+  beside_.run([png_file, exr_file, kept, page = std::move(page)] {
+    std::string png = to_png(page);
+    write_file(png_file, png);
+    if (!exr_file.empty()) write_file(exr_file, to_exr(page));
+    if (kept != nullptr) *kept = std::move(png);
+  });
+}
+
+void SheetWriter::wait() {
+  beside_.wait();
+  pages_beside_ = 0;
+}
+
+void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8Image page) {
   if (index_.size() == kPagesAVolume) finish_volume(false);
-  std::string png = to_png(page);
-  write(stem + ".png", png);
-  if (contains(formats_, SheetFormat::kExr)) write(stem + ".exr", to_exr(page));
-  if (contains(formats_, SheetFormat::kPdf)) pngs_.push_back(std::move(png));
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
   index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
                     concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
+  write_beside(stem, std::move(page));
 }
 
 void SheetWriter::write_index(const std::string& number) {
@@ -63,7 +81,8 @@ void SheetWriter::write_index(const std::string& number) {
   const Rgb8Image page = sheet_in_columns(
       index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
   const std::string png = to_png(page);
-  write(concat("index", number, ".png"), png);
+  write_file(add_file(concat("index", number, ".png")), png);
+  wait();
   if (contains(formats_, SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
 }
 
@@ -71,7 +90,10 @@ void SheetWriter::finish_volume(bool is_last) {
   const bool is_only = is_last && volumes_ == 0;
   const std::string number = is_only ? std::string() : concat('_', zero_padded(volumes_ + 1, 3));
   if (!is_only || index_.size() > 1) write_index(number);
-  if (!pngs_.empty()) write(concat("sheets", number, ".pdf"), encode_pdf(pngs_));
+  wait();
+  if (!pngs_.empty()) {
+    write_file(add_file(concat("sheets", number, ".pdf")), encode_pdf(pngs_));
+  }
   index_.clear();
   pngs_.clear();
   ++volumes_;

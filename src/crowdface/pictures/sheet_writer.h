@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/config/config.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/render/contact_sheet.h"
 
 namespace crowdface {
@@ -19,12 +20,15 @@ class SheetWriter {
               std::string title);
 
   /// \param stem     the file's name without ending. \param caption  under its picture in the index.
-  void add(const std::string& stem, const std::string& caption, const Rgb8Image& page);
+  void add(const std::string& stem, const std::string& caption, Rgb8Image page);
   /// Writes the index, if there are several pages, and the PDF. \return all files written.
   std::vector<std::filesystem::path> finish();
 
  private:
-  void write(const std::string& name, const std::string& bytes);
+  /// Packs and writes a page beside what the caller does next.
+  void write_beside(const std::string& stem, Rgb8Image page);
+  void wait();
+  std::filesystem::path add_file(const std::string& name);
   void write_index(const std::string& number);
   void finish_volume(bool is_last);
 
@@ -35,6 +39,8 @@ class SheetWriter {
   std::vector<std::string> pngs_;  ///< of this volume's pages, if there is to be a PDF
   std::vector<SheetCell> index_;   ///< of this volume
   std::vector<std::filesystem::path> written_;
+  int pages_beside_ = 0;
+  BackgroundTasks beside_;  // after what it uses, so that it ends first
 };
 
 }  // namespace crowdface

@@ -117,10 +117,9 @@ class CrowdSheets {
     const std::size_t pages = (count + per_page - 1) / per_page;
     for (std::size_t page = 0; page < pages; ++page) {
       throw_if_interrupted();
-      std::vector<SheetCell> cells;
-      for (std::size_t i = page * per_page; i < std::min(count, (page + 1) * per_page); ++i) {
-        cells.push_back(cell(i));
-      }
+      const std::size_t first = page * per_page;
+      std::vector<SheetCell> cells(std::min(per_page, count - first));
+      parallel_for_each(cells.size(), [&](std::size_t c) { cells[c] = cell(first + c); });
       add_page(stem(page + 1), caption, title,
                pages > 1 ? concat(note, ", sheet ", page + 1, " of ", pages) : note, cells,
                std::nullopt);
