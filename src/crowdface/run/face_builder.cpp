@@ -43,13 +43,12 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
       prepared_(prepared),
       keeps_contacts_(config.blending.contacts == Contacts::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
-  parallel_for_each(2, [&](int i) {
-    if (i == 0) {
-      contacts_.emplace(inputs.faces, inputs.adjacency, skin_vertices(inputs));
-    } else if (!inputs.parts.parts.empty()) {
-      follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
-    }
-  });
+  BackgroundTasks beside;  // whoever is done with the contacts helps with the parts
+  beside.run([&] { contacts_.emplace(inputs.faces, inputs.adjacency, skin_vertices(inputs)); });
+  if (!inputs.parts.parts.empty()) {
+    follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
+  }
+  beside.wait();
   use_masks(config, inputs.regions);
 }
 

@@ -2,9 +2,11 @@
 #include "crowdface/validity/skin_check.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -136,9 +138,12 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
       tree_(triangles_, heads.front().positions),
       around_(topology_of(triangles_, topology.vertex_count)),
       viewing_(std::move(viewing)) {
-  for (const Index target : targets) {
-    targets_.emplace(target, prepared(heads[static_cast<std::size_t>(target)].positions));
-  }
+  const std::vector<Index> asked(targets.begin(), targets.end());
+  std::vector<std::optional<Target>> ready(asked.size());
+  parallel_for_each(asked.size(), [&](std::size_t t) {
+    ready[t] = prepared(heads[static_cast<std::size_t>(asked[t])].positions);
+  });
+  for (std::size_t t = 0; t < asked.size(); ++t) targets_.emplace(asked[t], std::move(*ready[t]));
 }
 
 SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
