@@ -68,7 +68,7 @@ SpanBasis FaceSpace::level_modes() const {
   const Index heads = head_point_count(), size = roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
-  for (Index h = 0; h < heads; ++h) {
+  parallel_for_each(heads, [&](Index h) {
     const Trajectory& trajectory = side_of(h).trajectories[in_side(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
@@ -79,7 +79,7 @@ SpanBasis FaceSpace::level_modes() const {
         }
       }
     }
-  }
+  });
   return span_basis(std::move(levels), kFieldTolerance, level_count);
 }
 
@@ -302,14 +302,14 @@ void FaceSpace::build_region_metrics() {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // G_k applied to direction d, coordinate by coordinate.
-      std::vector<float> along(static_cast<std::size_t>(3 * functions), 0.F);
-      for (Index p = 0; p < functions; ++p) {
-        for (Index q = 0; q < functions; ++q) {
-          for (Index c = 0; c < 3; ++c) {
-            along[static_cast<std::size_t>(3 * p + c)] += gram(p, q) * directions_(d, 3 * q + c);
-          }
-        }
+      // G_k, whose rows are its columns, applied to direction d, coordinate by coordinate.
+      std::vector<float> along(static_cast<std::size_t>(3 * functions));
+      for (Index c = 0; c < 3; ++c) {
+        Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);
+        for (Index q = 0; q < functions; ++q) of_direction[q] = directions_(d, 3 * q + c);
+        add_scaled_rows(of_direction.data(), static_cast<std::size_t>(functions), gram.data(),
+                        static_cast<std::size_t>(functions), sums.data());
+        for (Index p = 0; p < functions; ++p) along[static_cast<std::size_t>(3 * p + c)] = sums[p];
       }
       for (Index e = 0; e < rank; ++e) {
         metric(e, d) =

@@ -15,43 +15,51 @@ using Lanes = hn::CappedTag<float, 16>;
 
 constexpr std::size_t kSums = 16, kChunk = 64 * kSums;
 
-double fixed_dot(const float* a, const float* b, std::size_t count) {
-  const Lanes lanes;
-  const std::size_t width = hn::Lanes(lanes);
-  double total = 0;
-  const auto add = [&](const float* sums) {
-    for (std::size_t s = 0; s < kSums; ++s) total += static_cast<double>(sums[s]);
-  };
-  std::size_t begin = 0;
-  // Two chunks at once: an addition needs not wait for the one before it.
-  for (; begin + 2 * kChunk <= count; begin += 2 * kChunk) {
-    float first[kSums], second[kSums];
-    for (std::size_t s = 0; s < kSums; s += width) {
-      auto x = hn::Zero(lanes), y = hn::Zero(lanes);
-      for (std::size_t i = begin + s; i < begin + kChunk; i += kSums) {
-        x = hn::Add(x, hn::Mul(hn::LoadU(lanes, a + i), hn::LoadU(lanes, b + i)));
-        const std::size_t j = i + kChunk;
-        y = hn::Add(y, hn::Mul(hn::LoadU(lanes, a + j), hn::LoadU(lanes, b + j)));
-      }
-      hn::StoreU(x, lanes, first + s);
-      hn::StoreU(y, lanes, second + s);
-    }
-    add(first);
-    add(second);
+/// The products of one chunk, in sums side by side.
+struct ChunkSums {
+  static constexpr std::size_t kVectors = kSums / hn::MaxLanes(Lanes());
+
+  const float *a, *b;
+  std::size_t count, whole;
+  hn::VFromD<Lanes> sums[kVectors];
+
+  ChunkSums(const float* a, const float* b, std::size_t count)
+      : a(a), b(b), count(count), whole(count - count % kSums) {
+    for (auto& sum : sums) sum = hn::Zero(Lanes());
   }
-  for (; begin < count; begin += kChunk) {
-    const std::size_t end = begin + kChunk < count ? begin + kChunk : count;
-    const std::size_t whole = end - (end - begin) % kSums;
-    float sums[kSums];
-    for (std::size_t s = 0; s < kSums; s += width) {
-      auto x = hn::Zero(lanes);
-      for (std::size_t i = begin + s; i < whole; i += kSums) {
-        x = hn::Add(x, hn::Mul(hn::LoadU(lanes, a + i), hn::LoadU(lanes, b + i)));
-      }
-      hn::StoreU(x, lanes, sums + s);
+  void add(std::size_t at) {
+    const Lanes lanes;
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const std::size_t i = at + v * hn::Lanes(lanes);
+      sums[v] = hn::Add(sums[v], hn::Mul(hn::LoadU(lanes, a + i), hn::LoadU(lanes, b + i)));
     }
-    for (std::size_t i = whole; i < end; ++i) sums[i - whole] += a[i] * b[i];
-    add(sums);
+  }
+  void add_to(double& total) const {
+    float parts[kSums];
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      hn::StoreU(sums[v], Lanes(), parts + v * hn::Lanes(Lanes()));
+    }
+    for (std::size_t i = whole; i < count; ++i) parts[i - whole] += a[i] * b[i];
+    for (const float part : parts) total += static_cast<double>(part);
+  }
+};
+
+double fixed_dot(const float* a, const float* b, std::size_t count) {
+  double total = 0;
+  // Two chunks at once: an addition needs not wait for the one before it.
+  for (std::size_t begin = 0; begin < count; begin += 2 * kChunk) {
+    const std::size_t middle = begin + kChunk < count ? begin + kChunk : count;
+    const std::size_t end = middle + kChunk < count ? middle + kChunk : count;
+    ChunkSums first(a + begin, b + begin, middle - begin);
+    ChunkSums second(a + middle, b + middle, end - middle);
+    std::size_t i = 0;
+    for (; i < second.whole; i += kSums) {
+      first.add(i);
+      second.add(i);
+    }
+    for (; i < first.whole; i += kSums) first.add(i);
+    first.add_to(total);
+    if (second.count > 0) second.add_to(total);
   }
   return total;
 }

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kRowsAtATime = 64;
+constexpr Index kNumbersAtATime = 1 << 16;
 
 }  // namespace
 
@@ -21,8 +21,9 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
   const Index count = rows.rows(), size = rows.cols();
   const auto length = static_cast<std::size_t>(size);
   const double enough = tolerance * tolerance;
+  const Index at_a_time = std::max<Index>(kNumbersAtATime / std::max<Index>(size, 1), 1);
   std::vector<double> left(static_cast<std::size_t>(count));
-  parallel_for_each(count, kRowsAtATime, [&](Index n) {
+  parallel_for_each(count, at_a_time, [&](Index n) {
     left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), length);
   });
   std::vector<Eigen::VectorXf> directions, coordinates;
@@ -34,7 +35,7 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
     const auto scale = static_cast<float>(1 / std::sqrt(*longest));
     for (Index i = 0; i < size; ++i) q[i] = rows(pivot, i) * scale;
     Eigen::VectorXf& along = coordinates.emplace_back(Eigen::VectorXf::Zero(count));
-    parallel_for_each(count, kRowsAtATime, [&](Index n) {
+    parallel_for_each(count, at_a_time, [&](Index n) {
       double& rest = left[static_cast<std::size_t>(n)];
       if (rest <= enough) return;  // well enough already
       float* row = rows.row(n).data();
