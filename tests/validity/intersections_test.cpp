@@ -125,9 +125,13 @@ TEST(TriangleScene, PairsAreTheSameWhateverTheTreeWasMadeOf) {
     }
   }
   ASSERT_GT(expected.size(), 2000U);
+  const auto crossing = intersecting(sheet.triangles, positions, expected);
+  ASSERT_GT(crossing.size(), 20U);
   for (const auto& place : {flat, domed, bent}) {
     const TriangleTree tree(sheet.triangles, sheet.lie(place));
-    EXPECT_EQ(TriangleScene(sheet.triangles, tree, positions, 0.37).near_pairs(), expected);
+    const TriangleScene scene(sheet.triangles, tree, positions, 0.37);
+    EXPECT_EQ(scene.near_pairs(), expected);
+    EXPECT_EQ(scene.crossing_pairs(), crossing);
   }
 }
 

@@ -76,6 +76,33 @@ void measure_normals(const LeafCorners& corners, const float* points, LeafNormal
   }
 }
 
+/// What rounding may take off a distance along a ray.
+constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
+
+unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
+  constexpr hn::CappedTag<double, kCount> doubles;
+  constexpr hn::Rebind<float, decltype(doubles)> singles;
+  unsigned all = 0;
+  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(doubles)) {
+    auto near = hn::Zero(doubles);
+    auto far = hn::Set(doubles, std::numeric_limits<double>::infinity());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto along = [&](const std::array<float, kCount>& side) {
+        const auto at = hn::PromoteTo(doubles, hn::LoadU(singles, &side[begin]));
+        return hn::Mul(hn::Sub(at, hn::Set(doubles, ray.origin[c])),
+                       hn::Set(doubles, ray.inverse[c]));
+      };
+      const auto low = along(boxes.low[c]), high = along(boxes.high[c]);
+      near = hn::Max(near, hn::Min(low, high));
+      far = hn::Min(far, hn::Max(low, high));
+    }
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(doubles, hn::Le(near, hn::Mul(far, hn::Set(doubles, kRounding))), bits);
+    all |= unsigned{bits[0]} << begin;
+  }
+  return all;
+}
+
 /// Bit 8 i + j: what `compare` says of i of one leaf and some j of another.
 template <class Compare>
 std::uint64_t compared(const Compare& compare) {
@@ -130,7 +157,33 @@ namespace crowdface {
 HWY_EXPORT(alike_normals);
 HWY_EXPORT(measure_boxes);
 HWY_EXPORT(measure_normals);
+HWY_EXPORT(met_boxes);
 HWY_EXPORT(overlapping_boxes);
+
+BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+  constexpr double kHuge = 1e300;  // so that a ray along a slab is never a number times infinity
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto axis = static_cast<Index>(c);
+    origin[c] = from[axis];
+    inverse[c] = direction[axis] == 0 ? kHuge : 1 / direction[axis];
+  }
+}
+
+bool meets(const BoxRay& ray, const Box& box) {
+  constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
+  double near = 0, far = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double a = (box.low[c] - ray.origin[c]) * ray.inverse[c];
+    const double b = (box.high[c] - ray.origin[c]) * ray.inverse[c];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far * kRounding;
+}
+
+unsigned met(const BoxRay& ray, const LeafBoxes& boxes) {
+  return HWY_DYNAMIC_DISPATCH(met_boxes)(ray, boxes);
+}
 
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b) {
   return HWY_DYNAMIC_DISPATCH(overlapping_boxes)(a, b);

@@ -49,6 +49,19 @@ struct LeafNormals {
   LeafNormals(const LeafCorners& corners, const SingleRows& points);
 };
 
+/// A ray as boxes are asked about it.
+struct BoxRay {
+  std::array<double, 3> origin, inverse;  ///< one through each coordinate of the direction
+
+  BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction);
+};
+
+/// Whether the ray meets it; never without one that it passes through.
+/// Slabs, Kay & Kajiya 1986.
+bool meets(const BoxRay& ray, const Box& box);
+/// The same of the boxes of a leaf: bit i for box i. Those beyond its triangles may be met too.
+unsigned met(const BoxRay& ray, const LeafBoxes& boxes);
+
 /// Which boxes of two leaves overlap: bit 8 i + j for box i of the first and box j of the second.
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b);
 /// Which triangles of two leaves face alike: those whose normals' cosine is above `least`, as bits like these.

@@ -123,7 +123,7 @@ Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree&
                      const Positions& positions, const FacesAround& around,
                      const Viewing& viewing) {
   const TriangleScene scene(triangles, tree, positions, margin_of(positions));
-  std::vector<TrianglePair> pairs = intersecting(triangles, positions, scene.near_pairs());
+  std::vector<TrianglePair> pairs = scene.crossing_pairs();
   const double exposed = exposed_back(scene, triangles, positions, around, pairs, viewing);
   return {std::move(pairs), exposed};
 }

@@ -2,8 +2,8 @@
 #include "crowdface/validity/triangle_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <limits>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
@@ -17,7 +17,7 @@ constexpr std::uint32_t kLeaf = TriangleTree::kLeaf;
 class Ray {
  public:
   Ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
-      : origin_(origin), direction_(direction), inverse_(direction.cwiseInverse()) {}
+      : origin_(origin), direction_(direction) {}
 
   /// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
   bool meets(const Positions& positions, const Triangle& triangle) const {
@@ -35,26 +35,8 @@ class Ray {
     return v >= 0 && u + v <= 1 && dot3(ac, q) / determinant > 0;
   }
 
-  /// Slabs, Kay & Kajiya 1986; never without a box that it meets.
-  bool meets(const Box& box) const {
-    constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
-    double near = 0, far = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto axis = static_cast<Index>(c);
-      const double low = box.low[c] - origin_[axis], high = box.high[c] - origin_[axis];
-      if (direction_[axis] == 0) {
-        if (low > 0 || high < 0) return false;
-        continue;
-      }
-      const double a = low * inverse_[axis], b = high * inverse_[axis];
-      near = std::max(near, std::min(a, b));
-      far = std::min(far, std::max(a, b));
-    }
-    return near <= far * kRounding;
-  }
-
  private:
-  Eigen::Vector3d origin_, direction_, inverse_;
+  Eigen::Vector3d origin_, direction_;
 };
 
 }  // namespace
@@ -104,16 +86,19 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
   }
 }
 
-void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other,
+template <class Keep>
+void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                                    std::vector<TrianglePair>& found) const {
+  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;  // 8 i + j of j > i
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
-  for (std::uint64_t left = overlapping(leaves_[one], leaves_[other]); left != 0;
-       left &= left - 1) {
+  std::uint64_t left = overlapping(leaves_[one], leaves_[other]);
+  if (one == other) left &= kLaterOnes;
+  for (; left != 0; left &= left - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-    const std::size_t i = bit / kLeaf, j = bit % kLeaf;
-    if (one == other && j <= i) continue;
-    if (share_vertex(triangles_[ones[i]], triangles_[others[j]])) continue;
-    found.emplace_back(std::min(ones[i], others[j]), std::max(ones[i], others[j]));
+    const std::uint32_t a = ones[bit / kLeaf], b = others[bit % kLeaf];
+    if (share_vertex(triangles_[a], triangles_[b])) continue;
+    const TrianglePair pair(std::min(a, b), std::max(a, b));
+    if (keep(pair)) found.push_back(pair);
   }
 }
 
@@ -151,18 +136,29 @@ void TriangleScene::visit_leaves(const NodePair& from, const Use& use) const {
   }
 }
 
-std::vector<TrianglePair> TriangleScene::near_pairs() const {
+template <class Keep>
+std::vector<TrianglePair> TriangleScene::pairs_with(const Keep& keep) const {
   const std::vector<NodePair> tasks = first_pairs();
   std::vector<std::vector<TrianglePair>> found(tasks.size());
   parallel_for_each(tasks.size(), [&](std::size_t t) {
     visit_leaves(tasks[t], [&](std::uint32_t one, std::uint32_t other) {
-      compare_leaves(one, other, found[t]);
+      compare_leaves(one, other, keep, found[t]);
     });
   });
   std::vector<TrianglePair> pairs;
   for (const auto& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+std::vector<TrianglePair> TriangleScene::near_pairs() const {
+  return pairs_with([](const TrianglePair& /*pair*/) { return true; });
+}
+
+std::vector<TrianglePair> TriangleScene::crossing_pairs() const {
+  return pairs_with([&](const TrianglePair& pair) {
+    return triangles_intersect(positions_, triangles_[pair.first], triangles_[pair.second]);
+  });
 }
 
 std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const {
@@ -187,20 +183,25 @@ std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::
                                     std::uint32_t start, std::uint32_t guess) const {
   const Ray ray(origin, direction);
   if (guess != kNoIndex && guess != start && ray.meets(positions_, triangles_[guess])) return guess;
-  std::vector<std::uint32_t> waiting;
-  if (!tree_.nodes.empty()) waiting.push_back(0);
-  while (!waiting.empty()) {
-    const std::uint32_t n = waiting.back();
-    waiting.pop_back();
-    if (!ray.meets(boxes_[n])) continue;
+  if (tree_.nodes.empty()) return kNoIndex;
+  const BoxRay box_ray(origin, direction);
+  constexpr std::size_t kDeepest = 40;  // halves of fewer than 2³² triangles
+  std::array<std::uint32_t, kDeepest> waiting;
+  std::size_t count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t n = waiting[--count];
+    if (!meets(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
-      waiting.push_back(node.right);
-      waiting.push_back(n + 1);
+      waiting[count++] = node.right;
+      waiting[count++] = n + 1;
       continue;
     }
-    for (std::uint32_t place = node.begin; place < node.end; ++place) {
-      const std::uint32_t t = tree_.order[place];
+    const auto triangles = tree_.leaf(node.leaf());
+    unsigned left = met(box_ray, leaves_[node.leaf()]) & ((1U << triangles.size()) - 1);
+    for (; left != 0; left &= left - 1) {
+      const std::uint32_t t = triangles[static_cast<std::size_t>(std::countr_zero(left))];
       if (t != start && ray.meets(positions_, triangles_[t])) return t;
     }
   }

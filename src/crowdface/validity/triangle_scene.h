@@ -26,6 +26,9 @@ class TriangleScene {
   /// thousand are left out.
   std::vector<TrianglePair> near_pairs() const;
 
+  /// Those of the near pairs that pass through each other; ascending.
+  std::vector<TrianglePair> crossing_pairs() const;
+
   /// Leaves of the tree, from this one on, with triangles whose boxes may overlap some of its own; ascending.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
@@ -49,8 +52,12 @@ class TriangleScene {
   std::vector<NodePair> first_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
+  template <class Keep>
+  std::vector<TrianglePair> pairs_with(const Keep& keep) const;
   /// \param one, other  the same leaf, or the one that comes first in the tree first
-  void compare_leaves(std::uint32_t one, std::uint32_t other,
+  /// \param keep        which of the pairs are wanted
+  template <class Keep>
+  void compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                       std::vector<TrianglePair>& found) const;
 
   const std::vector<Triangle>& triangles_;

@@ -101,8 +101,4 @@ bool triangles_intersect(const Positions& positions, const Triangle& a, const Tr
   return p_low < q_high && q_low < p_high;
 }
 
-bool share_vertex(const Triangle& a, const Triangle& b) {
-  return std::ranges::any_of(a, [&](std::uint32_t vertex) { return contains(b, vertex); });
-}
-
 }  // namespace crowdface
