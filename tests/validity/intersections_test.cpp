@@ -197,11 +197,11 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
     const bool expected =
         std::any_of(sheet.triangles.begin(), sheet.triangles.end(),
                     [&](const Triangle& triangle) { return crosses(origin, direction, triangle); });
-    const std::array guesses = {kNoIndex, static_cast<std::uint32_t>(i % sheet.triangles.size())};
+    const std::array guesses = {kNoIndex, static_cast<std::uint32_t>(i % tree.order.size())};
     for (const std::uint32_t guess : guesses) {
       const std::uint32_t other = scene.met_by(origin, direction, kNoIndex, guess);
       EXPECT_EQ(other != kNoIndex, expected) << i;
-      EXPECT_TRUE(other == kNoIndex || crosses(origin, direction, sheet.triangles[other]));
+      EXPECT_TRUE(other == kNoIndex || crosses(origin, direction, sheet.triangles[tree.order[other]]));
     }
     met += expected ? 1 : 0;
   }

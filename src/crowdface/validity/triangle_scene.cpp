@@ -182,7 +182,11 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
 std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     std::uint32_t start, std::uint32_t guess) const {
   const Ray ray(origin, direction);
-  if (guess != kNoIndex && guess != start && ray.meets(positions_, triangles_[guess])) return guess;
+  const auto is_met = [&](std::uint32_t place) {
+    const std::uint32_t triangle = tree_.order[place];
+    return triangle != start && ray.meets(positions_, triangles_[triangle]);
+  };
+  if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
   constexpr std::size_t kDeepest = 40;  // halves of fewer than 2³² triangles
@@ -194,15 +198,16 @@ std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::
     if (!meets(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
-      waiting[count++] = node.right;
-      waiting[count++] = n + 1;
+      // First where the guess is: what is in the way there is often in the way here.
+      const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.right].begin;
+      waiting[count++] = right_first ? n + 1 : node.right;
+      waiting[count++] = right_first ? node.right : n + 1;
       continue;
     }
-    const auto triangles = tree_.leaf(node.leaf());
-    unsigned left = met(box_ray, leaves_[node.leaf()]) & ((1U << triangles.size()) - 1);
+    unsigned left = met(box_ray, leaves_[node.leaf()]) & ((1U << (node.end - node.begin)) - 1);
     for (; left != 0; left &= left - 1) {
-      const std::uint32_t t = triangles[static_cast<std::size_t>(std::countr_zero(left))];
-      if (t != start && ray.meets(positions_, triangles_[t])) return t;
+      const std::uint32_t place = node.begin + static_cast<std::uint32_t>(std::countr_zero(left));
+      if (is_met(place)) return place;
     }
   }
   return kNoIndex;

@@ -32,9 +32,11 @@ class TriangleScene {
   /// Leaves of the tree, from this one on, with triangles whose boxes may overlap some of its own; ascending.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
-  /// A triangle other than the one it starts from that a ray meets, not the nearest; kNoIndex if it meets none.
+  /// A triangle other than the one it starts from that a ray meets, not the nearest, by its place in the tree's
+  /// order; kNoIndex if it meets none.
   /// \param direction  of any length but zero
-  /// \param guess      a triangle that is tried first, as what is in the way of one ray is in that of the next; or
+  /// \param start      a triangle's number, or kNoIndex
+  /// \param guess      a place that is tried first, as what is in the way of one ray is in that of the next; or
   ///                   kNoIndex
   std::uint32_t met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                        std::uint32_t start, std::uint32_t guess) const;
