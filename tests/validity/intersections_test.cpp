@@ -201,7 +201,8 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
     for (const std::uint32_t guess : guesses) {
       const std::uint32_t other = scene.met_by(origin, direction, kNoIndex, guess);
       EXPECT_EQ(other != kNoIndex, expected) << i;
-      EXPECT_TRUE(other == kNoIndex || crosses(origin, direction, sheet.triangles[tree.order[other]]));
+      EXPECT_TRUE(other == kNoIndex ||
+                  crosses(origin, direction, sheet.triangles[tree.order[other]]));
     }
     met += expected ? 1 : 0;
   }

@@ -15,23 +15,22 @@ using Lanes = hn::CappedTag<float, 16>;
 
 constexpr std::size_t kSums = 16, kChunk = 64 * kSums;
 
-/// The products of one chunk, in sums side by side.
+/// Numbers of one chunk, in sums side by side.
+template <class Numbers>
 struct ChunkSums {
   static constexpr std::size_t kVectors = kSums / hn::MaxLanes(Lanes());
 
-  const float *a, *b;
-  std::size_t count, whole;
+  const Numbers& numbers;
+  std::size_t begin, end, whole;  ///< up to `whole` there are kSums at a time
   hn::VFromD<Lanes> sums[kVectors];
 
-  ChunkSums(const float* a, const float* b, std::size_t count)
-      : a(a), b(b), count(count), whole(count - count % kSums) {
+  ChunkSums(const Numbers& of, std::size_t from, std::size_t to)
+      : numbers(of), begin(from), end(to), whole(to - (to - from) % kSums) {
     for (auto& sum : sums) sum = hn::Zero(Lanes());
   }
   void add(std::size_t at) {
-    const Lanes lanes;
     for (std::size_t v = 0; v < kVectors; ++v) {
-      const std::size_t i = at + v * hn::Lanes(lanes);
-      sums[v] = hn::Add(sums[v], hn::Mul(hn::LoadU(lanes, a + i), hn::LoadU(lanes, b + i)));
+      sums[v] = hn::Add(sums[v], numbers.some(at + v * hn::Lanes(Lanes())));
     }
   }
   void add_to(double& total) const {
@@ -39,29 +38,65 @@ struct ChunkSums {
     for (std::size_t v = 0; v < kVectors; ++v) {
       hn::StoreU(sums[v], Lanes(), parts + v * hn::Lanes(Lanes()));
     }
-    for (std::size_t i = whole; i < count; ++i) parts[i - whole] += a[i] * b[i];
+    for (std::size_t i = whole; i < end; ++i) parts[i - whole] += numbers.one(i);
     for (const float part : parts) total += static_cast<double>(part);
   }
 };
 
-double fixed_dot(const float* a, const float* b, std::size_t count) {
+template <class Numbers>
+double sum_of(const Numbers& numbers, std::size_t count) {
   double total = 0;
   // Two chunks at once: an addition needs not wait for the one before it.
   for (std::size_t begin = 0; begin < count; begin += 2 * kChunk) {
     const std::size_t middle = begin + kChunk < count ? begin + kChunk : count;
     const std::size_t end = middle + kChunk < count ? middle + kChunk : count;
-    ChunkSums first(a + begin, b + begin, middle - begin);
-    ChunkSums second(a + middle, b + middle, end - middle);
-    std::size_t i = 0;
-    for (; i < second.whole; i += kSums) {
-      first.add(i);
-      second.add(i);
+    ChunkSums first(numbers, begin, middle), second(numbers, middle, end);
+    std::size_t done = 0;
+    for (; middle + done < second.whole; done += kSums) {
+      first.add(begin + done);
+      second.add(middle + done);
     }
-    for (; i < first.whole; i += kSums) first.add(i);
+    for (; begin + done < first.whole; done += kSums) first.add(begin + done);
     first.add_to(total);
-    if (second.count > 0) second.add_to(total);
+    if (middle < end) second.add_to(total);
   }
   return total;
+}
+
+struct Products {
+  const float *a, *b;
+
+  auto some(std::size_t i) const {
+    return hn::Mul(hn::LoadU(Lanes(), a + i), hn::LoadU(Lanes(), b + i));
+  }
+  float one(std::size_t i) const { return a[i] * b[i]; }
+};
+
+double fixed_dot(const float* a, const float* b, std::size_t count) {
+  return sum_of(Products{a, b}, count);
+}
+
+/// Squares of what numbers become when others are added to them.
+struct SquaresAfter {
+  float factor;
+  const float* from;
+  float* to;
+
+  auto some(std::size_t i) const {
+    const Lanes lanes;
+    const auto product = hn::Mul(hn::Set(lanes, factor), hn::LoadU(lanes, from + i));
+    const auto sum = hn::Add(hn::LoadU(lanes, to + i), product);
+    hn::StoreU(sum, lanes, to + i);
+    return hn::Mul(sum, sum);
+  }
+  float one(std::size_t i) const {
+    to[i] += factor * from[i];
+    return to[i] * to[i];
+  }
+};
+
+double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to) {
+  return sum_of(SquaresAfter{factor, from, to}, count);
 }
 
 void add_scaled(float factor, const float* from, std::size_t count, float* to) {
@@ -137,6 +172,7 @@ namespace crowdface {
 
 HWY_EXPORT(fixed_dot);
 HWY_EXPORT(add_scaled);
+HWY_EXPORT(add_scaled_and_square);
 HWY_EXPORT(add_scaled_rows);
 HWY_EXPORT(add_squares);
 
@@ -146,6 +182,10 @@ double fixed_dot(const float* a, const float* b, std::size_t count) {
 
 void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   HWY_DYNAMIC_DISPATCH(add_scaled)(factor, from, count, to);
+}
+
+double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to) {
+  return HWY_DYNAMIC_DISPATCH(add_scaled_and_square)(factor, from, count, to);
 }
 
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,

@@ -13,6 +13,9 @@ double fixed_dot(const float* a, const float* b, std::size_t count);
 /// to[i] += factor·from[i]
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 
+/// The same. \return what fixed_dot then says of `to` and itself.
+double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
+
 /// to[d] += factors[i]·rows[i][d], one i after the other.
 /// \param rows  #count by #width
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,

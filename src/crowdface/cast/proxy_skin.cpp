@@ -28,22 +28,22 @@ Rings rings_of(const std::vector<Triangle>& triangles, Index vertices) {
   return rings;
 }
 
-/// Vertices that at most `edges` edges join to a triangle.
-std::vector<std::uint32_t> neighbourhood(const Rings& rings, const Triangle& t, int edges) {
+/// Marks the vertices that at most kNeighbourEdges edges join to a triangle.
+void mark_neighbourhood(const Rings& rings, const Triangle& t, std::uint32_t mark,
+                        std::vector<std::uint32_t>& marks) {
   std::vector<std::uint32_t> reached(t.begin(), t.end());
+  for (const std::uint32_t vertex : t) marks[vertex] = mark;
   std::size_t begin = 0;
-  for (int e = 0; e < edges; ++e) {
+  for (int e = 0; e < kNeighbourEdges; ++e) {
     const std::size_t end = reached.size();
     for (; begin < end; ++begin) {
       for (const std::uint32_t next : rings[reached[begin]]) {
-        if (std::find(reached.begin(), reached.end(), next) == reached.end()) {
-          reached.push_back(next);
-        }
+        if (marks[next] == mark) continue;
+        marks[next] = mark;
+        reached.push_back(next);
       }
     }
   }
-  std::sort(reached.begin(), reached.end());
-  return reached;
 }
 
 /// Pairs of triangles that lie near each other without being neighbours.
@@ -51,19 +51,16 @@ std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
                                        const Positions& mean) {
   const Rings rings = rings_of(triangles, mean.rows());
   std::vector<TrianglePair> pairs;
-  std::vector<std::uint32_t> around;
-  std::uint32_t first = 0;
-  bool known = false;
+  std::vector<std::uint32_t> neighbour_of(rings.size(),
+                                          kNoIndex);  // each vertex, the last triangle
+  std::uint32_t first = kNoIndex;
   for (const TrianglePair& pair : near_pairs(triangles, mean, kReach)) {
-    if (!known || pair.first != first) {
-      around = neighbourhood(rings, triangles[pair.first], kNeighbourEdges);
+    if (pair.first != first) {
       first = pair.first;
-      known = true;
+      mark_neighbourhood(rings, triangles[first], first, neighbour_of);
     }
     const Triangle& other = triangles[pair.second];
-    if (std::none_of(other.begin(), other.end(), [&](std::uint32_t v) {
-          return std::binary_search(around.begin(), around.end(), v);
-        })) {
+    if (std::ranges::none_of(other, [&](std::uint32_t v) { return neighbour_of[v] == first; })) {
       pairs.push_back(pair);
     }
   }

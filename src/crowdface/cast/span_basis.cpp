@@ -41,8 +41,8 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
       float* row = rows.row(n).data();
       const auto part = static_cast<float>(fixed_dot(q.data(), row, length));
       along[n] = part;
-      add_scaled(-part, q.data(), length, row);
-      rest = n == pivot ? 0 : fixed_dot(row, row, length);
+      rest = add_scaled_and_square(-part, q.data(), length, row);
+      if (n == pivot) rest = 0;
     });
   }
   SpanBasis basis;
