@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -83,17 +85,18 @@ SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Eigen::Vector3d& point) {
   constexpr int kMostSteps = 64;
   SurfacePoint best = bare_vertex(positions, start, point);
-  std::uint32_t vertex = start;
+  std::uint32_t vertex = start, before = kNoIndex;
   for (int step = 0; step < kMostSteps; ++step) {
     for (const std::uint32_t f : faces.of(vertex)) {
-      try_face(topology.face(f), positions, point, best);
+      const auto face = topology.face(f);
+      if (!contains(face, before)) try_face(face, positions, point, best);
     }
     std::size_t most = 0;
     for (std::size_t k = 1; k < 3; ++k) {
       if (best.shares[k] > best.shares[most]) most = k;
     }
     if (best.corners[most] == vertex) break;
-    vertex = best.corners[most];
+    before = std::exchange(vertex, best.corners[most]);
   }
   return best;
 }
