@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "crowdface/core/contains.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -43,6 +42,7 @@ std::pair<double, double> interval_on_line(const Corners& t, const std::array<do
 
 TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target) {
   constexpr double kSliver = 1e-4;
+  frames_.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     const Vector u = row3(target, t[1]) - row3(target, t[0]);
     const Vector v = row3(target, t[2]) - row3(target, t[0]);
