@@ -47,7 +47,12 @@ WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
-    const auto found = of_material.find(materials.names[materials.of_face[f]]);
+    const std::uint32_t material = materials.of_face[f];
+    if (f > 0 && material == materials.of_face[f - 1] && tiles[f] == tiles[f - 1]) {
+      worn.of_face[f] = worn.of_face[f - 1];
+      continue;
+    }
+    const auto found = of_material.find(materials.names[material]);
     if (found == of_material.end()) continue;
     const fs::path path = with_tile(found->second, tile_number(tiles[f][0], tiles[f][1]));
     const auto [row, is_new] = rows.emplace(path, kNoIndex);
