@@ -135,6 +135,22 @@ std::uint64_t overlapping_boxes(const LeafBoxes& a, const LeafBoxes& b) {
   });
 }
 
+std::uint64_t common_vertices(const LeafCorners& a, const LeafCorners& b) {
+  const hn::RebindToSigned<decltype(kLanes)> integers;
+  return compared([&](std::size_t begin) {
+    hn::VFromD<decltype(integers)> of_b[3];
+    for (std::size_t k = 0; k < 3; ++k) of_b[k] = hn::LoadU(integers, &b.vertex[k][begin]);
+    return [&, of_b](std::size_t i) {
+      const auto is_of_b = [&](std::size_t k) {
+        const auto vertex = hn::Set(integers, a.vertex[k][i]);
+        return hn::Or(hn::Or(hn::Eq(vertex, of_b[0]), hn::Eq(vertex, of_b[1])),
+                      hn::Eq(vertex, of_b[2]));
+      };
+      return hn::RebindMask(kLanes, hn::Or(hn::Or(is_of_b(0), is_of_b(1)), is_of_b(2)));
+    };
+  });
+}
+
 std::uint64_t alike_normals(const LeafNormals& a, const LeafNormals& b, float least) {
   return compared([&](std::size_t begin) {
     Lanes3 n;
@@ -155,6 +171,7 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 
 HWY_EXPORT(alike_normals);
+HWY_EXPORT(common_vertices);
 HWY_EXPORT(measure_boxes);
 HWY_EXPORT(measure_normals);
 HWY_EXPORT(met_boxes);
@@ -187,6 +204,10 @@ unsigned met(const BoxRay& ray, const LeafBoxes& boxes) {
 
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b) {
   return HWY_DYNAMIC_DISPATCH(overlapping_boxes)(a, b);
+}
+
+std::uint64_t sharing_vertices(const LeafCorners& a, const LeafCorners& b) {
+  return HWY_DYNAMIC_DISPATCH(common_vertices)(a, b);
 }
 
 std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least) {

@@ -64,6 +64,8 @@ unsigned met(const BoxRay& ray, const LeafBoxes& boxes);
 
 /// Which boxes of two leaves overlap: bit 8 i + j for box i of the first and box j of the second.
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b);
+/// Which triangles of two leaves have a vertex in common, as bits like these.
+std::uint64_t sharing_vertices(const LeafCorners& a, const LeafCorners& b);
 /// Which triangles of two leaves face alike: those whose normals' cosine is above `least`, as bits like these.
 std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least);
 

@@ -93,10 +93,10 @@ void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
   std::uint64_t left = overlapping(leaves_[one], leaves_[other]);
   if (one == other) left &= kLaterOnes;
+  if (left != 0) left &= ~sharing_vertices(tree_.corners[one], tree_.corners[other]);
   for (; left != 0; left &= left - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(left));
     const std::uint32_t a = ones[bit / kLeaf], b = others[bit % kLeaf];
-    if (share_vertex(triangles_[a], triangles_[b])) continue;
     const TrianglePair pair(std::min(a, b), std::max(a, b));
     if (keep(pair)) found.push_back(pair);
   }
