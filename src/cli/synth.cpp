@@ -102,8 +102,7 @@ void synth(const SynthOptions& options) {
     files.push_back(text_file(directory / library, material_file(materials, name)));
     const auto add_picture = [&](std::string_view what, int channels, auto paint) {
       files.push_back({directory / concat(name, '_', what, ".png"), [&skins, channels, paint] {
-                         return encode_png(skins->size(), skins->size(), channels, paint(),
-                                           PngEffort::kFast);
+                         return encode_png(skins->size(), skins->size(), channels, paint());
                        }});
     };
     add_picture("albedo", 3, [&skins, seed, i] { return skins->albedo(seed, i); });

@@ -127,9 +127,8 @@ TEST_F(AttachmentsOfACrowd, AreNodesBelowTheFaceInGlbFiles) {
 }
 
 TEST_F(AttachmentsOfACrowd, AreMeshesBesideTheFacesInUsdLayers) {
-  folder_.folder().write(
-      "wear/maps/hair.png",
-      encode_png(2, 2, 4, std::vector<std::uint8_t>(std::size_t{4} * 4, 128), PngEffort::kFast));
+  folder_.folder().write("wear/maps/hair.png",
+                         encode_png(2, 2, 4, std::vector<std::uint8_t>(std::size_t{4} * 4, 128)));
   run({"output.meshes=[usd]"});
   EXPECT_FALSE(fs::exists(mesh("herself+cap.obj")));
   EXPECT_TRUE(fs::exists(mesh("attachments/cap/maps/hair.png")));

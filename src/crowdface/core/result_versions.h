@@ -24,7 +24,7 @@ inline constexpr int kPointsVersion = 1;       ///< points that follow a face of
 inline constexpr int kRigVersion = 1;          ///< joints that follow, and what is bound to them
 inline constexpr int kAttachmentsVersion = 4;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
-inline constexpr int kTextureVersion = 2;      ///< textures of faces' own
-inline constexpr int kSheetVersion = 14;  ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kTextureVersion = 3;      ///< textures of faces' own
+inline constexpr int kSheetVersion = 15;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

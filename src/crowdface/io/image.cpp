@@ -247,12 +247,10 @@ ImageSize read_image_size(const path& file, const ImageLimits& limits) {
           facts.values == PictureFacts::Values::kFloats};
 }
 
-std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
-                       PngEffort effort) {
+std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  const auto form = effort == PngEffort::kFast ? PictureToEncode::Form::kFastPng
-                                               : PictureToEncode::Form::kSmallPng;
-  return encode("png", {form, width, height, channels, pixels.data()}, pixels.size());
+  return encode("png", {PictureToEncode::Form::kPng, width, height, channels, pixels.data()},
+                pixels.size());
 }
 
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {

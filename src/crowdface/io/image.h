@@ -86,19 +86,13 @@ struct ImageSize {
 };
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-enum class PngEffort {
-  kSmall,
-  kFast,  ///< a third of the time, for a tenth more bytes
-};
-
 /// An 8-bit PNG file in memory: the same bytes for the same pixels, no time stamp.
 /// \param channels  1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not premultiplied.
 /// \param pixels    height · width · channels.
 /// \throws BrokenPrecondition if sizes do not fit.
-std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
-                       PngEffort effort = PngEffort::kSmall);
+std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-/// Of 16 bits, packed as kFast does.
+/// Of 16 bits.
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels);
 

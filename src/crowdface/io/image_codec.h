@@ -21,8 +21,8 @@ struct PictureFacts {
 
 /// Pixels of ours that become a file.
 struct PictureToEncode {
-  enum class Form { kSmallPng, kFastPng, kWordPng, kJpeg, kExr };
-  Form form = Form::kSmallPng;
+  enum class Form { kPng, kWordPng, kJpeg, kExr };
+  Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
   const void* pixels =
       nullptr;  ///< row by row; of an OpenEXR floats, of a word PNG 16 bits, else bytes

@@ -128,7 +128,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
     views.push_back(renderer_.render(positions, camera, colours, coat, meshes));
   }
   const Rgb8Image image = side_by_side(views);
-  return encode_png(image.width, image.height, 3, image.pixels, PngEffort::kFast);
+  return encode_png(image.width, image.height, 3, image.pixels);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,

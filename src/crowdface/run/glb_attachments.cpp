@@ -53,7 +53,7 @@ GlbImage with_alpha(const Image* colour, const Image* holes) {
           byte_at(*holes, x * holes->width / size.width, y * holes->height / size.height, channel));
     }
   }
-  return {encode_png(size.width, size.height, 4, pixels, PngEffort::kFast), "image/png"};
+  return {encode_png(size.width, size.height, 4, pixels), "image/png"};
 }
 
 GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage>& images) {

@@ -56,7 +56,7 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
   for (const int word : picture.words) {
     bytes.push_back(static_cast<std::uint8_t>((word + kWordsAByte / 2) / kWordsAByte));
   }
-  return encode_png(picture.width, picture.height, picture.channels, bytes, PngEffort::kFast);
+  return encode_png(picture.width, picture.height, picture.channels, bytes);
 }
 
 std::string encode_picture(const BlendedPicture& picture, const PictureName& name,
@@ -65,7 +65,7 @@ std::string encode_picture(const BlendedPicture& picture, const PictureName& nam
   if (!picture.words.empty()) return encode_words(picture, name.of_bytes);
   return format == TextureFormat::kJpeg
              ? encode_jpeg(picture.width, picture.height, picture.srgb)
-             : encode_png(picture.width, picture.height, 3, picture.srgb, PngEffort::kFast);
+             : encode_png(picture.width, picture.height, 3, picture.srgb);
 }
 
 constexpr std::uint64_t kChannels = 3;  // at most
