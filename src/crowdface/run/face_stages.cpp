@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 /// Faces blended together at most: they share the reading of the fields, and by then blending is a small
 /// part of what a face takes. A multiple of the faces that the product makes at a time.
 constexpr std::size_t kMostAtOnce = 36;
-/// What rendering takes per vertex of a face while it runs: its triangles, normals and ray tree, and the
-/// gallery's smaller mesh. 272 were measured on 1.2 million vertices.
+/// What rendering takes per vertex of a face while it runs: its normals, its quads on the image, and the gallery's
+/// smaller mesh. 272 were measured on 1.2 million vertices with a ray tracer's tree of all of them; 74 of its own are left.
 constexpr std::uint64_t kRenderBytesAVertex = 300;
 /// What the heads' mesh takes per vertex, whatever their number: faces, texture coordinates, neighbours,
 /// how parts hang on it. 262 were measured on 1.2 million vertices.
