@@ -55,14 +55,13 @@ void give_back_large_blocks() {
 }
 
 void lay_pages(void* memory, std::size_t bytes) {
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGE_SIZE));
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = (begin + page - 1) / page * page,
-                       end = (begin + bytes) / page * page;
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
+  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
+  if (bytes < before + page) return;
+  char* const first = static_cast<char*>(memory) + before;
   constexpr std::size_t kPiece = 4 << 20;  // for one thread at a time
-  if (first >= end) return;
-  parallel_blocks(end - first, kPiece, [&](std::uintptr_t from, std::uintptr_t to) {
-    ::madvise(reinterpret_cast<void*>(first + from), to - from, MADV_POPULATE_WRITE);
+  parallel_blocks((bytes - before) / page * page, kPiece, [&](std::size_t from, std::size_t to) {
+    ::madvise(first + from, to - from, MADV_POPULATE_WRITE);
   });
 }
 

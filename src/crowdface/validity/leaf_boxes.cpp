@@ -80,8 +80,8 @@ void measure_normals(const LeafCorners& corners, const float* points, LeafNormal
 constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
 
 unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
-  constexpr hn::CappedTag<double, kCount> doubles;
-  constexpr hn::Rebind<float, decltype(doubles)> singles;
+  const hn::CappedTag<double, kCount> doubles;
+  const hn::Rebind<float, decltype(doubles)> singles;
   unsigned all = 0;
   for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(doubles)) {
     auto near = hn::Zero(doubles);
