@@ -21,7 +21,8 @@ using Vector = Eigen::Vector3f;
 constexpr float kSkyReach = 0.55F;       // how far ambient occlusion looks
 constexpr float kWornClearance = 2e-4F;  // rays start this far above what is worn
 constexpr float kThickness = 0.012F;     // how deep light soaks in: softens where shadows begin
-constexpr float kThrough = 0.8F;  // of the light on its other side a thin surface lets through
+constexpr float kScattered = 0.2F;  // of the sky's light what hair hands on to where none arrives
+constexpr float kThrough = 0.8F;    // of the light on its other side a thin surface lets through
 
 constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
 constexpr float kReliefNormal = 0.9F;  // 26 degrees
@@ -535,6 +536,7 @@ class Tile {
     ShadePoint surface = meeting.surface;
     surface.key = key.asked > 0 ? key.open / key.asked : 0;
     surface.sky = sky.asked > 0 ? sky.open / sky.asked : 1;
+    if (surface.kind == SurfaceKind::kWorn) surface.sky = std::max(surface.sky, kScattered);
     return surface;
   }
 
