@@ -143,6 +143,23 @@ TEST(WornMesh, LetsLightThroughWhereItIsDark) {
   EXPECT_GT(through, scene.wearing(worn).at(32, 32)[0] + 5);
 }
 
+// Hair scatters: what is white is not black at the bottom of a shaft of it either.
+TEST(WornMesh, IsNotBlackWhereNoLightArrives) {
+  const Scene scene;
+  const Topology shaft = testing::make_topology(
+      8, {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+  Positions points(8, 3);
+  points << -0.6, -0.6, 0.05, 0.6, -0.6, 0.05, 0.6, 0.6, 0.05, -0.6, 0.6, 0.05,  //
+      -0.6, -0.6, 2.4, 0.6, -0.6, 2.4, 0.6, 0.6, 2.4, -0.6, 0.6, 2.4;
+  const auto red = [&](float colour) {
+    const WornSurface surface(shaft, {}, {{Light::Constant(colour)}}, {0, 0, 0, 0, 0});
+    return middle_red(scene.wearing({{&surface, &points}}));
+  };
+  EXPECT_GT(red(0.8F), 50);
+  EXPECT_LT(red(0.8F), 110);
+  EXPECT_LT(red(0), 5);
+}
+
 TEST(WornMesh, IsTheSamePictureEachTime) {
   const Scene scene;
   EXPECT_EQ(scene.render(black(0.4F)).pixels, scene.render(black(0.4F)).pixels);
