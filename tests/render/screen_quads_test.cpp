@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <random>
+#include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/instruction_set.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/render/sampling_pattern.h"
 
@@ -163,6 +166,25 @@ TEST(ScreenQuads, TheSameAloneAndOnManyThreadsAndBesidesAFaceBefore) {
       std::equal(hits.begin(), hits.end(), many.begin(),
                  many.begin() + static_cast<std::ptrdiff_t>(hits.size()),
                  [](const auto& hit, float distance) { return hit->distance == distance; }));
+}
+
+TEST(ScreenQuads, TheSameWithAnyInstructionSet) {
+  const Soup soup(3000, 4);
+  const PixelPlaces places(places_in_pixel(3));
+  const auto seen = [&] {
+    std::vector<std::tuple<std::uint32_t, float, float, float>> found;
+    for (const auto& hit : look(soup.points, soup.quads, 71, places).hits) {
+      if (hit) found.emplace_back(hit->primitive, hit->u, hit->v, hit->distance);
+    }
+    return found;
+  };
+  const auto best = seen();
+  EXPECT_GT(best.size(), 10'000U);
+  for (const std::string& name : instruction_sets()) {
+    use_instruction_set(name);
+    EXPECT_EQ(seen(), best) << name;
+  }
+  use_instruction_set(instruction_sets().front());
 }
 
 TEST(ScreenQuads, OnlyPixelsThatAreLookedAtHaveHits) {
