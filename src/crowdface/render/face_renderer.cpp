@@ -28,8 +28,7 @@ namespace crowdface {
 
 namespace {
 
-// Rays to the lights start this far above the surface, in half the side of the image: above a reduced one, too.
-constexpr float kRayClearance = 2e-4F;
+/// In place of kRayClearance, so that rays start above a reduced surface, too.
 constexpr float kReducedClearance = 2e-3F;
 
 /// What rendering a face takes: large, and used again for the next face.
@@ -257,11 +256,11 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->options.occlusion,
                     Eigen::Vector3f(0, 0, distance)};
   const int size = prepared_->options.size_px;
-  const int tiles = (size + kTile - 1) / kTile;
+  const int tiles = (size + kSquare - 1) / kSquare;
   Rgb8Image image(size, size);
   parallel_for_each(std::ptrdiff_t{tiles} * tiles, [&](std::ptrdiff_t tile) {
-    render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kTile,
-                static_cast<int>(tile / tiles) * kTile, image);
+    render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kSquare,
+                static_cast<int>(tile / tiles) * kSquare, image);
   });
   prepared_->workspaces.give_back(std::move(workspace));
   return image;

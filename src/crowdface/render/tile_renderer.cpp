@@ -18,11 +18,10 @@ namespace {
 using Vector = Eigen::Vector3f;
 
 // Lengths are in half the side of the image, so that these hold for any unit.
-constexpr float kSkyReach = 0.55F;       // how far ambient occlusion looks
-constexpr float kWornClearance = 2e-4F;  // rays start this far above what is worn
-constexpr float kThickness = 0.012F;     // how deep light soaks in: softens where shadows begin
-constexpr float kScattered = 0.2F;  // of the sky's light what hair hands on to where none arrives
-constexpr float kThrough = 0.8F;    // of the light on its other side a thin surface lets through
+constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
+constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
+constexpr float kScattered = 0.2F;    // of the sky's light what hair hands on to where none arrives
+constexpr float kThrough = 0.8F;      // of the light on its other side a thin surface lets through
 
 constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
 constexpr float kReliefNormal = 0.9F;  // 26 degrees
@@ -203,7 +202,7 @@ Meeting meet_worn(const WornStage& worn, const Vector& viewer, const RayHit& hit
   meeting.surface.normal =
       towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
   meeting.asks_key = faces_key(meeting.surface);
-  meeting.start = meeting.point + kWornClearance * geometric;
+  meeting.start = meeting.point + kRayClearance * geometric;
   return meeting;
 }
 
@@ -245,14 +244,14 @@ class Tile {
         size_(size),
         left_(left),
         top_(top),
-        right_(std::min(left + kTile, size)),
-        bottom_(std::min(top + kTile, size)),
+        right_(std::min(left + kSquare, size)),
+        bottom_(std::min(top + kSquare, size)),
         rim_left_(std::max(left - 1, 0)),
         rim_top_(std::max(top - 1, 0)),
         rim_right_(std::min(right_ + 1, size)),
         rim_bottom_(std::min(bottom_ + 1, size)),
-        outer_{std::max(left - 2, 0), std::max(top - 2, 0), std::min(right_ + 2, size),
-               std::min(bottom_ + 2, size)},
+        outer_{std::max(left - kRim, 0), std::max(top - kRim, 0), std::min(right_ + kRim, size),
+               std::min(bottom_ + kRim, size)},
         pixels_(outer_.count()) {}
 
   void render(Rgb8Image& image) {
@@ -319,7 +318,7 @@ class Tile {
       }
     });
     std::vector<std::optional<RayHit>>& hits = emptied<std::optional<RayHit>>();
-    stage_.screen.nearest_hits({left_ / kTile, top_ / kTile}, outer_, places, hits);
+    stage_.screen.nearest_hits({left_ / kSquare, top_ / kSquare}, outer_, places, hits);
     std::vector<std::optional<RayHit>> worn(rays.size());
     if (stage_.worn != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {

@@ -34,7 +34,7 @@ struct Stage {
   const std::vector<float>& points;             ///< x, y, z of each vertex
   const ScreenQuads& screen;                    ///< all quads
   const RayScene& occluders;                    ///< what keeps light out: all of it, or reduced
-  float clearance;                              ///< rays start this far above the surface
+  float clearance;                              ///< rays to the lights start this far above it
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outwards
   float winding;                                ///< −1 where the faces' own normals look inwards
   const VertexColours* colours;                 ///< #V in place of all others, or nullptr
@@ -73,8 +73,8 @@ struct Sampling {
         lights(rays) {}
 };
 
-/// Side of the squares that an image is rendered in, in pixels.
-inline constexpr int kTile = kSquare;
+/// Rays to the lights start this far above a surface that is its own occluder, in half the side of the image.
+inline constexpr float kRayClearance = 2e-4F;
 
 /// Renders one square of an image, whatever else there is of it. What a pixel knows of its lights
 /// it shares with those around it that show the same surface: each has tried other directions, and

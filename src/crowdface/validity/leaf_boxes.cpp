@@ -76,9 +76,6 @@ void measure_normals(const LeafCorners& corners, const float* points, LeafNormal
   }
 }
 
-/// What rounding may take off a distance along a ray.
-constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
-
 unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
   const hn::CappedTag<double, kCount> doubles;
   const hn::Rebind<float, decltype(doubles)> singles;
@@ -97,7 +94,8 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
       far = hn::Min(far, hn::Max(low, high));
     }
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(doubles, hn::Le(near, hn::Mul(far, hn::Set(doubles, kRounding))), bits);
+    hn::StoreMaskBits(doubles, hn::Le(near, hn::Mul(far, hn::Set(doubles, BoxRay::kRounding))),
+                      bits);
     all |= unsigned{bits[0]} << begin;
   }
   return all;
@@ -187,7 +185,6 @@ BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
 }
 
 bool meets(const BoxRay& ray, const Box& box) {
-  constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
     const double a = (box.low[c] - ray.origin[c]) * ray.inverse[c];
@@ -195,7 +192,7 @@ bool meets(const BoxRay& ray, const Box& box) {
     near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }
-  return near <= far * kRounding;
+  return near <= far * BoxRay::kRounding;
 }
 
 unsigned met(const BoxRay& ray, const LeafBoxes& boxes) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "crowdface/mesh/triangles.h"
@@ -51,6 +52,9 @@ struct LeafNormals {
 
 /// A ray as boxes are asked about it.
 struct BoxRay {
+  /// What rounding may take off a distance along it.
+  static constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
+
   std::array<double, 3> origin, inverse;  ///< one through each coordinate of the direction
 
   BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction);
