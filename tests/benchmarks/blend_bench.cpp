@@ -3,6 +3,7 @@
 // `ratio_to_bare` relates the two.
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include <benchmark/benchmark.h>
 
@@ -19,7 +20,7 @@ double uniform(std::uint64_t index, const char* purpose) {
   return random_between({1, index, purpose, 0}, 0, 1);
 }
 
-/// Heads whose fields are noise, three regions in bands with soft edges (a tenth of the vertices in
+/// Heads whose fields are noise, so that no vertex is told from others, three regions in bands with soft edges (a tenth of the vertices in
 /// two of them), and recipes of four sources each.
 struct Crowd {
   Crowd(Index heads, Index rank, Index vertices, std::size_t count) {
@@ -63,12 +64,16 @@ struct Crowd {
       recipes.push_back(recipe);
     }
     for (const Recipe& recipe : recipes) pointers.push_back(&recipe);
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(vertices));
+    std::iota(order.begin(), order.end(), 0U);
+    patches = interpolate_fields(levels, std::vector<std::uint64_t>{1, 100}, order, 1e-6);
   }
   FaceSet faces;
   std::vector<std::uint32_t> first;
   std::vector<float> steps;
   std::vector<std::int16_t> numbers;
   std::vector<HeadLevels> levels;
+  FieldPatches patches;
   RegionWeights regions;
   std::vector<Recipe> recipes;
   std::vector<const Recipe*> pointers;
@@ -81,7 +86,7 @@ void BM_BlendCrowd(benchmark::State& state) {
   double least = HUGE_VAL;
   {
     const Crowd crowd(heads, rank, vertices, faces);
-    const CrowdBlender blender(crowd.faces, crowd.levels, crowd.regions);
+    const CrowdBlender blender(crowd.faces, crowd.levels, crowd.patches, crowd.regions);
     std::vector<Positions> results(
         faces);  // a job uses them again and again, as from the second run
     for (auto _ : state) {
@@ -149,7 +154,7 @@ void BM_BlendBands(benchmark::State& state) {
     }
     pointers.push_back(&banded[f]);
   }
-  const CrowdBlender blender(crowd.faces, crowd.levels, crowd.regions);
+  const CrowdBlender blender(crowd.faces, crowd.levels, crowd.patches, crowd.regions);
   std::vector<Positions> results(faces);
   double one_band = HUGE_VAL, three_bands = HUGE_VAL;
   const auto timed = [&](const std::vector<const Recipe*>& recipes, double& least) {

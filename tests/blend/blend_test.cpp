@@ -2,6 +2,7 @@
 #include "crowdface/blend/blend.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -12,9 +13,11 @@
 #include "crowdface/core/require.h"
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/iterate.h"
+#include "crowdface/smooth/tiles.h"
 
 #include "support/levels.h"
 #include "support/meshes.h"
+#include "support/smooth_fields.h"
 
 namespace crowdface {
 namespace {
@@ -48,7 +51,7 @@ class Blend : public ::testing::Test {
     return fits;
   }
   CrowdBlender blender(const std::vector<CubicFit>& fits, const RegionWeights& regions) const {
-    return {faces_, levels_of(fits), regions};
+    return {faces_, levels_of(fits), patches_of(levels_of(fits)), regions};
   }
   static std::vector<HeadLevels> levels_of(const std::vector<CubicFit>& fits) {
     std::vector<HeadLevels> levels;
@@ -59,6 +62,11 @@ class Blend : public ::testing::Test {
                         }});
     }
     return levels;
+  }
+  /// Each patch by all of its vertices, as fields are noise; the skeletons of faces that are alike have tests of their own.
+  FieldPatches patches_of(const std::vector<HeadLevels>& levels) const {
+    const std::vector<std::uint64_t> tested = {1, 3, 10, 30, 60};
+    return interpolate_fields(levels, tested, hilbert_order(head(0)), 1e-4);
   }
   const Positions& head(std::size_t h) const { return faces_.heads[h].positions; }
   static Positions level(const SmoothingOperator& smoothing, const Positions& x, std::uint64_t l) {
@@ -155,7 +163,8 @@ TEST_F(Blend, BandsOfFittedLevelsAreTheSumOfTheirDifferences) {
     return testing::evaluate(fits[h], head(h), l);
   };
   EXPECT_LT(difference(blender(fits, two_).blend(banded()), term_by_term(banded(), two_, fitted)),
-            1e-4);
+            1e-3)
+      << "patches round to steps of their own";
 }
 
 TEST_F(Blend, BandsThatAreAlikeAreOneBand) {
@@ -316,7 +325,8 @@ TEST_F(Blend, CubicFollowsItsFormula) {
     }
     expected += two_.alpha.col(k).asDiagonal() * face;
   }
-  EXPECT_LT(difference(blender(fits, two_).blend(recipe(0, regions)), expected), 2e-5);
+  EXPECT_LT(difference(blender(fits, two_).blend(recipe(0, regions)), expected), 5e-3)
+      << "patches round to steps of their own";
 }
 
 TEST_F(Blend, CubicTargetAloneGivesTheTarget) {
@@ -368,8 +378,6 @@ TEST_F(Blend, AFaceHasTheSameBitsAloneAndInAnyCompany) {
   use_instruction_set(instruction_sets().front());
 }
 
-/// Runs of seven vertices begin and end within the rows that the product works on: what is unpacked of one must not
-/// reach into what is there of another.
 TEST_F(Blend, AFaceHasTheSameBitsInCompanyWhereRegionsComeInStripes) {
   RegionWeights stripes = two_;
   for (Index v = 0; v < stripes.alpha.rows(); ++v) {
@@ -389,7 +397,7 @@ TEST_F(Blend, AFaceHasTheSameBitsInCompanyWhereRegionsComeInStripes) {
   for (std::size_t f = 0; f < crowd.size(); ++f) EXPECT_EQ(together[f], blend.blend(crowd[f])) << f;
 }
 
-/// A face alone adds up two regions at a time, of the heads that lend to any of those.
+/// A face alone adds up its regions at once, of the heads that lend to any of those.
 TEST_F(Blend, AFaceHasTheSameBitsAloneWhereManyRegionsOverlap) {
   RegionWeights five = two_;
   five.alpha.setZero(two_.alpha.rows(), 5);
@@ -414,6 +422,118 @@ TEST_F(Blend, AFaceHasTheSameBitsAloneWhereManyRegionsOverlap) {
     EXPECT_EQ(together[1], blend.blend(other)) << name;
   }
   use_instruction_set(instruction_sets().front());
+}
+
+/// Heads on a finer grid, whose patches are told from few of their vertices.
+class BlendPatches : public ::testing::Test {
+ protected:
+  BlendPatches() {
+    faces_.topology = testing::grid_topology(kColumns - 1, kRows - 1);
+    for (std::size_t h = 0; h < 3; ++h) {
+      levels_.push_back(testing::smooth_levels(kColumns, kRows, h));
+      faces_.heads.push_back({std::string(1, static_cast<char>('a' + h)),
+                              testing::random_positions(kColumns * kRows, h + 1)});
+    }
+    std::vector<std::uint32_t> order(kColumns * kRows);
+    std::iota(order.begin(), order.end(), 0U);
+    patches_ = interpolate_fields(levels_, std::vector<std::uint64_t>{1, 3, 10, 30, 60}, order,
+                                  kTolerance);
+    regions_.alpha.setZero(kColumns * kRows, 3);
+    for (Index v = 0; v < kColumns * kRows; ++v) {
+      const double share = static_cast<double>(v % 10) / 10;
+      regions_.alpha.row(v) << share, v / kColumns < kRows / 2 ? 1 - share : 0,
+          v / kColumns < kRows / 2 ? 0 : 1 - share;
+    }
+    for (std::uint64_t f = 0; f < 15; ++f) {
+      Recipe recipe;
+      recipe.target = static_cast<Index>(f % 2);
+      const double w = 0.05 * static_cast<double>(f);
+      for (std::uint64_t k = 0; k < 3; ++k) {
+        RegionRecipe region;
+        region.weights = {{static_cast<Index>((f + k) % 3), 1 - w}};
+        if (f > 4) region.weights.push_back({static_cast<Index>((f + k + 1) % 3), w});
+        region.iterations = 60 - 2 * f - 10 * k;
+        recipe.regions.push_back(region);
+      }
+      recipes_.push_back(recipe);
+    }
+    set_target(recipes_.back(), {{0, 0.25}, {2, 0.75}});
+    for (const Recipe& recipe : recipes_) pointers_.push_back(&recipe);
+  }
+  /// Every field of every head, vertex by vertex.
+  Positions added_up(const Recipe& recipe) const {
+    Positions sum = target_positions(faces_, recipe);
+    for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+      for (const LevelShares& at : level_shares(recipe, k)) {
+        for (const SourceWeight& part : at.shares) {
+          const HeadLevels& head = levels_[static_cast<std::size_t>(part.head)];
+          const std::vector<double> functions = head.functions(at.level);
+          for (Index v = 0; v < sum.rows(); ++v) {
+            for (std::size_t p = 0; p < functions.size(); ++p) {
+              for (Index c = 0; c < 3; ++c) {
+                sum(v, c) += regions_.alpha(v, static_cast<Index>(k)) * part.weight * functions[p] *
+                             head.fields.value(static_cast<Index>(p), v, c);
+              }
+            }
+          }
+        }
+      }
+    }
+    return sum;
+  }
+
+  static constexpr Index kColumns = 40, kRows = 31;
+  static constexpr double kTolerance = 0.01;
+  FaceSet faces_;
+  std::vector<HeadLevels> levels_;
+  FieldPatches patches_;
+  RegionWeights regions_;
+  std::vector<Recipe> recipes_;
+  std::vector<const Recipe*> pointers_;
+};
+
+TEST_F(BlendPatches, AreAsNearToAllFieldsAsTheToleranceSays) {
+  const CrowdBlender blend(faces_, levels_, patches_, regions_);
+  for (std::size_t i = 0; i < patches_.size(); ++i) EXPECT_FALSE(patches_[i].is_whole()) << i;
+  double most = 0;
+  for (const Recipe& recipe : recipes_) {
+    const Positions missed = blend.blend(recipe) - added_up(recipe);
+    most = std::max(most, missed.rowwise().norm().maxCoeff());
+  }
+  EXPECT_LT(most, 2 * kTolerance) << "the target's levels and the sources'";
+  EXPECT_GT(most, 1e-5) << "nothing was interpolated";
+}
+
+TEST_F(BlendPatches, AFaceHasTheSameBitsAloneAndInAnyCompany) {
+  const CrowdBlender blend(faces_, levels_, patches_, regions_);
+  std::vector<Positions> together(recipes_.size());
+  blend.blend(pointers_, together);
+  for (const std::string& name : instruction_sets()) {
+    use_instruction_set(name);
+    for (std::size_t f = 0; f < recipes_.size(); ++f) {
+      EXPECT_EQ(together[f], blend.blend(recipes_[f])) << name << ' ' << f;
+    }
+    std::vector<Positions> some(7);
+    blend.blend(std::span(pointers_).subspan(8), some);
+    for (std::size_t f = 0; f < some.size(); ++f) EXPECT_EQ(together[8 + f], some[f]) << name;
+  }
+  use_instruction_set(instruction_sets().front());
+}
+
+TEST_F(BlendPatches, AFaceThatIsItsTargetKeepsItsBits) {
+  const CrowdBlender blend(faces_, levels_, patches_, regions_);
+  Recipe alone = recipes_[0];
+  for (RegionRecipe& region : alone.regions) region.weights = {{alone.target, 1}};
+  EXPECT_EQ(blend.blend(alone), faces_.heads[0].positions);
+}
+
+TEST_F(BlendPatches, ChangingOneRegionGivesTheBitsOfBlending) {
+  const CrowdBlender blend(faces_, levels_, patches_, regions_);
+  Recipe after = recipes_[0];
+  after.regions[2].iterations = 7;
+  Positions face = blend.blend(recipes_[0]);
+  blend.change(recipes_[0], after, face);
+  EXPECT_EQ(face, blend.blend(after));
 }
 
 TEST_F(Blend, RimsKeepTheTargetsBitsWithFittedLevels) {

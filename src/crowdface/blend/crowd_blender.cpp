@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <numeric>
+#include <set>
 
 #include "crowdface/blend/crowd_product_kernels.h"
 #include "crowdface/blend/recipe_check.h"
-#include "crowdface/blend/single_face_sums.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
@@ -15,7 +15,9 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kBlocksATask = 8;
+constexpr std::size_t kPatchesATask = 16;
+constexpr std::size_t kCoordinates = 3;
+constexpr std::size_t kPatchValues = kCoordinates * kPatchVertices;
 
 bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
   return a.weights == b.weights && a.iterations == b.iterations &&
@@ -31,52 +33,54 @@ bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   return true;
 }
 
+/// Floats where whole vectors begin at the lines of the cache.
+class AlignedFloats {
+ public:
+  /// Keeps nothing of what was there.
+  float* sized(std::size_t count) {
+    lines_.resize((count + kPatchStep - 1) / kPatchStep);
+    return lines_.data()->values;
+  }
+  float* zeros(std::size_t count) {
+    return std::fill_n(sized(count), count, 0.0F) - static_cast<std::ptrdiff_t>(count);
+  }
+
+ private:
+  struct alignas(64) Line {
+    float values[kPatchStep];
+  };
+  std::vector<Line> lines_;
+};
+
 }  // namespace
 
 CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
-                           const RegionWeights& regions)
-    : faces_(faces), levels_(std::move(levels)), regions_(regions) {
+                           FieldPatches patches, const RegionWeights& regions)
+    : faces_(faces), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
   const Index vertices = faces.topology.vertex_count;
-  require(levels_.size() == faces.heads.size(), "blend: fitted levels of ", levels_.size(),
-          " heads for ", faces.heads.size());
+  require(levels_.size() == faces.heads.size() && patches_.head_count() == levels_.size(),
+          "blend: fitted levels of ", levels_.size(), " heads, patches of ", patches_.head_count(),
+          ", for ", faces.heads.size());
+  require(patches_.vertex_count() == vertices && regions.alpha.rows() == vertices,
+          "blend: patches of ", patches_.vertex_count(), " vertices and masks of ",
+          regions.alpha.rows(), " for ", vertices);
   first_field_.push_back(0);
   for (const HeadLevels& head : levels_) {
-    const LevelFields& fields = head.fields;
-    const std::size_t tiles = LevelFields::tile_count(static_cast<std::size_t>(vertices));
-    require(fields.vertex_count == vertices && fields.first.size() == tiles + 1 &&
-                fields.steps.size() == fields.first.back() &&
-                fields.numbers.size() == fields.steps.size() * kTileValues,
-            "blend: ", fields.numbers.size(), " numbers of ", fields.steps.size(), " fields of ",
-            tiles, " tiles of ", vertices, " vertices");
-    first_field_.push_back(first_field_.back() + static_cast<std::size_t>(fields.rank));
+    first_field_.push_back(first_field_.back() + static_cast<std::size_t>(head.fields.rank));
   }
-  require(regions.alpha.rows() == vertices, "blend: masks of ", regions.alpha.rows(),
-          " vertices for ", vertices);
-  cut_into_blocks();
+  find_regions();
 }
 
-void CrowdBlender::cut_into_blocks() {
-  std::map<std::vector<std::uint32_t>, std::vector<std::uint32_t>> by_regions;
-  std::vector<std::uint32_t> active;
-  for (Index v = 0; v < regions_.alpha.rows(); ++v) {
-    active.clear();
+void CrowdBlender::find_regions() {
+  first_region_.push_back(0);
+  for (std::size_t patch = 0; patch < patches_.size(); ++patch) {
     for (Index k = 0; k < regions_.alpha.cols(); ++k) {
-      if (regions_.alpha(v, k) != 0) active.push_back(static_cast<std::uint32_t>(k));
-    }
-    by_regions[active].push_back(static_cast<std::uint32_t>(v));
-  }
-  for (const auto& [regions, vertices] : by_regions) {
-    for (std::size_t begin = 0; begin < vertices.size(); begin += kBlockVertices) {
-      Block block{{}, std::min(kBlockVertices, vertices.size() - begin), regions};
-      for (std::size_t i = begin; i < begin + block.count; ++i) {
-        if (block.runs.empty() || vertices[i] % kFieldTile == 0 ||
-            vertices[i] != block.runs.back().first + block.runs.back().count) {
-          block.runs.push_back({vertices[i], 0});
-        }
-        ++block.runs.back().count;
+      const auto acts = [&](std::uint32_t v) { return regions_.alpha(v, k) != 0; };
+      if (std::ranges::any_of(patches_[patch].vertices, acts)) {
+        patch_regions_.push_back(static_cast<std::uint32_t>(k));
       }
-      blocks_.push_back(std::move(block));
     }
+    first_region_.push_back(patch_regions_.size());
   }
 }
 
@@ -100,272 +104,284 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   return {sums.begin(), sums.end()};
 }
 
-CrowdBlender::Factors CrowdBlender::factors(std::span<const Recipe* const> recipes,
-                                            std::size_t region) const {
-  std::vector<std::vector<float>> of_face;
-  of_face.reserve(recipes.size());
-  for (const Recipe* recipe : recipes) of_face.push_back(coefficients(*recipe, region));
-  Factors factors;
-  for (std::size_t f = 0; f < field_count(); ++f) {
-    const bool used =
-        std::any_of(of_face.begin(), of_face.end(), [&](const auto& face) { return face[f] != 0; });
-    if (used) factors.fields.push_back(static_cast<std::uint32_t>(f));
-    for (std::size_t face = 0; face < kChunkFaces; ++face) {
-      factors.coefficients.push_back(face < of_face.size() ? of_face[face][f] : 0.0F);
-    }
-  }
-  return factors;
-}
-
-/// Brings the next block's numbers into a core's cache, a few lines at a time, while the product keeps the core
-/// busy and memory waits.
-class CrowdBlender::FieldsAhead {
+/// Faces that are blended together, and the coefficients of all heads' fields in each.
+class CrowdBlender::Crowd {
  public:
-  /// \param times  how often `fetch_some` will be called
-  void aim(const CrowdBlender& blender, const Block& block, std::size_t times) {
-    pieces_.clear();
-    std::size_t lines = 0;
-    for (const HeadLevels& head : blender.levels_) {
-      for (const VertexRun& run : block.runs) {
-        const TileFields tile = head.fields.at(run.first);
-        if (tile.count == 0 || run.count < kFieldTile)
-          continue;  // of a part of a tile most is not needed
-        pieces_.push_back({tile.numbers, tile.count * kTileLines});
-        lines += tile.count * kTileLines;
+  Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,
+        std::span<Positions> results)
+      : recipes_(recipes), results_(results) {
+    const auto regions = static_cast<std::size_t>(blender.regions_.alpha.cols());
+    coefficients_.resize(regions * recipes.size());
+    parallel_for_each(coefficients_.size(), [&](std::size_t i) {
+      coefficients_[i] = blender.coefficients(*recipes[i % recipes.size()], i / recipes.size());
+    });
+    used_.resize(regions);
+    used_by_some_.assign(regions, Used(blender.field_count()));
+    for (std::size_t i = 0; i < coefficients_.size(); ++i) {
+      const std::size_t region = i / recipes.size(), face = i % recipes.size();
+      if (face % kColumns == 0) used_[region].emplace_back(blender.field_count());
+      for (std::size_t f = 0; f < blender.field_count(); ++f) {
+        if (coefficients_[i][f] != 0) used_[region].back()[f] = used_by_some_[region][f] = 1;
       }
     }
-    a_time_ = times == 0 ? 0 : (lines + times - 1) / times;
-    piece_ = line_ = 0;
-  }
-  void fetch_some() {
-    for (std::size_t left = a_time_; left > 0 && piece_ < pieces_.size(); --left) {
-      const Piece& piece = pieces_[piece_];
-      __builtin_prefetch(piece.first + line_ * kLineNumbers, 0, 2);
-      if (++line_ < piece.lines) continue;
-      line_ = 0;
-      ++piece_;
+    for (const Recipe* recipe : recipes) {
+      for (const SourceWeight& part : target_shares(*recipe)) targets_.insert(part.head);
     }
+  }
+  std::size_t size() const { return recipes_.size(); }
+  const Recipe& recipe(std::size_t face) const { return *recipes_[face]; }
+  Positions& result(std::size_t face) const { return results_[face]; }
+  const float* coefficients(std::size_t region, std::size_t face) const {
+    return coefficients_[region * size() + face].data();
+  }
+  /// Whether any of the kColumns faces from the first on has anything of the field.
+  bool uses(std::size_t region, std::size_t first, std::size_t field) const {
+    return used_[region][first / kColumns][field] != 0;
+  }
+  bool uses(std::size_t region, std::size_t field) const {
+    return used_by_some_[region][field] != 0;
+  }
+  /// Heads that any of the faces begins from.
+  const std::set<Index>& targets() const { return targets_; }
+
+ private:
+  std::span<const Recipe* const> recipes_;
+  std::span<Positions> results_;
+  using Used = std::vector<std::uint8_t>;         ///< of each field, whether
+  std::vector<std::vector<float>> coefficients_;  ///< #regions by #faces
+  std::vector<std::vector<Used>> used_;           ///< #regions by #faces/kColumns
+  std::vector<Used> used_by_some_;                ///< #regions
+  std::set<Index> targets_;
+};
+
+/// Blends all faces at one patch after the other. For one thread.
+class CrowdBlender::PatchBlender {
+ public:
+  /// \param blender, crowd  must outlive it.
+  PatchBlender(const CrowdBlender& blender, const Crowd& crowd) : blender_(blender), crowd_(crowd) {
+    std::iota(all_of_skeleton_.begin(), all_of_skeleton_.end(), 0U);
+  }
+
+  void blend(std::size_t patch) {
+    patch_ = blender_.patches_[patch];
+    regions_ = blender_.regions_at(patch);
+    find_runs();
+    fetch_targets();
+    added_ = added_values_.zeros(crowd_.size() * kPatchValues);
+    at_skeleton_ = skeleton_values_.sized(kColumns * patch_.values());
+    if (patch_.skeleton > 0) {
+      find_fields();
+      if (crowd_.size() == 1) {
+        add_to_one();
+      } else {
+        add_to_all();
+      }
+    }
+    write();
   }
 
  private:
-  static constexpr std::size_t kLineNumbers = 64 / sizeof(std::int16_t);
-  static constexpr std::size_t kTileLines = kTileValues / kLineNumbers;
-  struct Piece {
-    const std::int16_t* first;
-    std::size_t lines;
-  };
-  std::vector<Piece> pieces_;
-  std::size_t a_time_ = 0, piece_ = 0, line_ = 0;
+  /// Of all heads' fields, which stand in the patch's rows.
+  void find_fields() {
+    fields_.clear();
+    for (std::size_t h = 0; h < patch_.counts.size(); ++h) {
+      const auto first = static_cast<std::uint32_t>(blender_.first_field_[h]);
+      for (std::uint32_t p = 0; p < patch_.counts[h]; ++p) fields_.push_back(first + p);
+    }
+  }
+
+  /// Nobody else would use what is unpacked: numbers are added up where they lie, for all regions at once.
+  void add_to_one() {
+    for (std::size_t first = 0; first < regions_.size(); first += kColumns) {
+      const auto regions = regions_.subspan(first, std::min(kColumns, regions_.size() - first));
+      used_.clear();
+      for (std::uint32_t row = 0; row < fields_.size(); ++row) {
+        const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, 0, fields_[row]); };
+        if (std::ranges::any_of(regions, uses)) used_.push_back(row);
+      }
+      if (used_.empty()) continue;
+      in_steps_.resize(regions.size() * fields_.size());
+      for (std::size_t k = 0; k < regions.size(); ++k) {
+        const float* coefficients = crowd_.coefficients(regions[k], 0);
+        float* in_steps = in_steps_.data() + k * fields_.size();
+        columns_[k] = in_steps;
+        products_[k] = at_skeleton_ + k * patch_.values();
+        for (const std::uint32_t row : used_) {
+          in_steps[row] = coefficients[fields_[row]] * patch_.steps[row];
+        }
+      }
+      multiply(ProductRows<std::int16_t>{patch_.numbers, patch_.values(), patch_.values(), used_},
+               std::span(columns_).first(regions.size()),
+               std::span(products_).first(regions.size()));
+      for (std::size_t k = 0; k < regions.size(); ++k) {
+        spread_alpha(regions[k]);
+        add_at_vertices(at_skeleton_ + k * patch_.values(), 0, 1);
+      }
+    }
+  }
+
+  void add_to_all() {
+    float* unpacked = unpacked_values_.sized(blender_.field_count() * patch_.values());
+    for (std::size_t row = 0; row < fields_.size(); ++row) {
+      const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, fields_[row]); };
+      if (std::ranges::none_of(regions_, uses)) continue;
+      unpack(patch_.numbers + row * patch_.values(), patch_.values(), patch_.steps[row],
+             unpacked + fields_[row] * patch_.values());
+    }
+    for (const std::uint32_t region : regions_) {
+      spread_alpha(region);
+      for (std::size_t first = 0; first < crowd_.size(); first += kColumns) {
+        used_.clear();
+        for (const std::uint32_t field : fields_) {
+          if (crowd_.uses(region, first, field)) used_.push_back(field);
+        }
+        if (used_.empty()) continue;
+        const std::size_t count = std::min(kColumns, crowd_.size() - first);
+        for (std::size_t face = 0; face < count; ++face) {
+          columns_[face] = crowd_.coefficients(region, first + face);
+          products_[face] = at_skeleton_ + face * patch_.values();
+        }
+        multiply(ProductRows<float>{unpacked, patch_.values(), patch_.values(), used_},
+                 std::span(columns_).first(count), std::span(products_).first(count));
+        add_at_vertices(at_skeleton_, first, count);
+      }
+    }
+  }
+
+  /// α of a region at the patch's vertices.
+  void spread_alpha(std::uint32_t region) {
+    for (std::size_t i = 0; i < patch_.vertices.size(); ++i) {
+      alpha_[i] = static_cast<float>(blender_.regions_.alpha(patch_.vertices[i], region));
+    }
+  }
+
+  /// Adds to faces, at all vertices, α times what their fields add up to at the skeleton (Eq. 7).
+  /// \param at_skeleton  `count` by values(): x of all vertices of the skeleton, y, z
+  void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
+    float* added = added_ + first_face * kPatchValues;
+    const auto coordinate = [&](std::size_t i) {  // of all faces, one after the other
+      return at_skeleton + i / kCoordinates * patch_.values() + i % kCoordinates * patch_.skeleton;
+    };
+    for (std::size_t first = 0; first < kCoordinates * count; first += kColumns) {
+      const std::size_t here = std::min(kColumns, kCoordinates * count - first);
+      for (std::size_t i = 0; i < here; ++i) {
+        columns_[i] = coordinate(first + i);
+        products_[i] = added + (first + i) * kPatchVertices;
+      }
+      if (patch_.is_whole()) {
+        for (std::size_t i = 0; i < here; ++i) {
+          for (std::size_t v = 0; v < patch_.skeleton; ++v) {
+            products_[i][v] += alpha_[v] * columns_[i][v];
+          }
+        }
+      } else {
+        add_product({patch_.weights, kPatchVertices, kPatchVertices,
+                     std::span(all_of_skeleton_).first(patch_.skeleton)},
+                    std::span(columns_).first(here), alpha_.data(),
+                    std::span(products_).first(here));
+      }
+    }
+  }
+
+  void find_runs() {
+    runs_.clear();
+    for (const std::uint32_t v : patch_.vertices) {
+      if (runs_.empty() || v != runs_.back().first + runs_.back().count) runs_.push_back({v, 0});
+      ++runs_.back().count;
+    }
+  }
+
+  /// Brings what `write` will read into the core's cache while products keep the core busy and memory waits.
+  void fetch_targets() const {
+    constexpr std::size_t kLine = 64 / sizeof(double);
+    for (const Index h : crowd_.targets()) {
+      const double* positions = blender_.faces_.heads[static_cast<std::size_t>(h)].positions.data();
+      for (const VertexRun& run : runs_) {
+        const double* first = positions + std::size_t{3} * run.first;
+        const double* last = first + std::size_t{3} * run.count - 1;
+        for (const double* line = first; line < last; line += kLine) __builtin_prefetch(line);
+        __builtin_prefetch(last);
+      }
+    }
+  }
+
+  /// The faces at the patch's vertices: the target's positions and what is added to them.
+  void write() {
+    for (std::size_t face = 0; face < crowd_.size(); ++face) {
+      const Recipe& recipe = crowd_.recipe(face);
+      Positions& result = crowd_.result(face);
+      const auto head = [&](Index h) -> const Positions& {
+        return blender_.faces_.heads[static_cast<std::size_t>(h)].positions;
+      };
+      const Positions* base = &head(recipe.target);
+      if (!recipe.mixture.empty()) {
+        base = &result;
+        for (const std::uint32_t v : patch_.vertices) {
+          result.row(v).setZero();
+          for (const SourceWeight& part : recipe.mixture) {
+            result.row(v) += part.weight * head(part.head).row(v);
+          }
+        }
+      }
+      write_sums(runs_, base->data(), added_ + face * kPatchValues, result.data());
+    }
+  }
+
+  const CrowdBlender& blender_;
+  const Crowd& crowd_;
+  FieldPatch patch_;
+  std::span<const std::uint32_t> regions_;
+  std::vector<std::uint32_t> fields_, used_;
+  std::vector<float> in_steps_;  ///< coefficients times steps
+  std::vector<VertexRun> runs_;
+  AlignedFloats unpacked_values_, skeleton_values_, added_values_;
+  float* at_skeleton_ = nullptr;  ///< kColumns by values()
+  float* added_ = nullptr;        ///< #faces by 3 by kPatchVertices
+  std::array<const float*, kColumns> columns_{};
+  std::array<float*, kColumns> products_{};
+  std::array<std::uint32_t, kPatchVertices> all_of_skeleton_{};
+  alignas(64) std::array<float, kPatchVertices> alpha_{};
 };
 
-/// Of all heads' fields, those that any vertex of the block has.
-std::vector<std::uint8_t> CrowdBlender::fields_at(const Block& block) const {
-  std::vector<std::uint8_t> present(field_count(), 0);
-  for (std::size_t h = 0; h < levels_.size(); ++h) {
-    for (const VertexRun& run : block.runs) {
-      const auto first = present.begin() + static_cast<std::ptrdiff_t>(first_field_[h]);
-      std::fill_n(first, levels_[h].fields.at(run.first).count, std::uint8_t{1});
-    }
-  }
-  return present;
-}
-
-/// The block's values of the fields that are wanted: #chunks by #fields and one row for what `unpack` writes too
-/// much; what is past its last vertex, or of another field, is any number.
-void CrowdBlender::pack(const Block& block, const std::vector<std::uint8_t>& wanted,
-                        std::vector<Chunk>& packed) const {
-  static constexpr std::array<std::int16_t, kTileValues> kZeros{};
-  packed.resize(kBlockChunks * packed_rows());
-  for (std::size_t h = 0; h < levels_.size(); ++h) {
-    for (std::size_t field = first_field_[h]; field < first_field_[h + 1]; ++field) {
-      if (!wanted[field]) continue;
-      std::size_t to = 0;
-      for (const VertexRun& run : block.runs) {
-        const std::size_t count = std::size_t{3} * run.count;
-        const TileFields tile = levels_[h].fields.at(run.first);
-        const std::size_t p = field - first_field_[h];
-        const bool there = p < tile.count;
-        unpack(
-            there ? tile.numbers + p * kTileValues + 3 * (run.first % kFieldTile) : kZeros.data(),
-            count, there ? tile.steps[p] : 0, to % kChunkValues,
-            packed[to / kChunkValues * packed_rows() + field].values, packed_rows() * kChunkValues);
-        to += count;
-      }
-    }
-  }
-}
-
-/// α of the block's regions for each value: #regions by #values, zero past the last.
-void CrowdBlender::spread_alpha(const Block& block, std::vector<BlockValues>& alpha) const {
-  alpha.assign(block.regions.size(), BlockValues{});
-  for (std::size_t k = 0; k < block.regions.size(); ++k) {
-    auto to = alpha[k].begin();
-    for (const VertexRun& run : block.runs) {
-      for (std::uint32_t v = run.first; v < run.first + run.count; ++v, to += 3) {
-        std::fill_n(to, 3, static_cast<float>(regions_.alpha(v, block.regions[k])));
-      }
-    }
-  }
-}
-
-/// What a group of faces adds to the target at the block's vertices: Σ_k α_k times the product.
-void CrowdBlender::displacements(const Block& block, const std::vector<Chunk>& packed,
-                                 const std::vector<BlockValues>& alpha,
-                                 const std::vector<std::uint8_t>& wanted,
-                                 std::span<const Factors> of_region, FieldsAhead& ahead,
-                                 std::array<BlockValues, kChunkFaces>& result) const {
-  for (auto& face : result) face.fill(0);
-  std::vector<std::uint32_t> fields;
-  for (std::size_t k = 0; k < block.regions.size(); ++k) {
-    const Factors& factors = of_region[block.regions[k]];
-    fields.resize(factors.fields.size());
-    std::size_t count = 0;
-    for (const std::uint32_t field : factors.fields) {
-      fields[count] = field;
-      count += wanted[field];
-    }
-    if (count == 0) continue;
-    for (std::size_t i = 0; i < 3 * block.count; i += kChunkValues) {
-      ahead.fetch_some();
-      add_product(packed[i / kChunkValues * packed_rows()].values, fields.data(), count,
-                  factors.coefficients.data(), alpha[k].data() + i, result[0].data() + i,
-                  kBlockValues);
-    }
-  }
-}
-
-/// The face at the block's vertices: the target's positions and what is added to them.
-void CrowdBlender::write(const Block& block, const Recipe& recipe, const BlockValues& added,
-                         Positions& result) const {
-  const auto head = [&](Index h) {
-    return faces_.heads[static_cast<std::size_t>(h)].positions.data();
-  };
-  const float* more = added.data();
-  std::array<double, kBlockValues> mixed;
-  for (const VertexRun& run : block.runs) {
-    const std::size_t at = std::size_t{3} * run.first, count = std::size_t{3} * run.count;
-    const double* base = head(recipe.target) + at;
-    if (!recipe.mixture.empty()) {
-      std::fill_n(mixed.begin(), count, 0.0);
-      for (const SourceWeight& part : recipe.mixture) {
-        const double* from = head(part.head) + at;
-        for (std::size_t i = 0; i < count; ++i) mixed[i] += part.weight * from[i];
-      }
-      base = mixed.data();
-    }
-    write_sums(base, more, count, result.data() + at);
-    more += count;
-  }
-}
-
-void CrowdBlender::prepare(const Recipe& recipe, Positions& result) const {
-  require_fit(faces_, regions_, recipe);
-  if (result.rows() == faces_.topology.vertex_count) return;
-  result.resize(faces_.topology.vertex_count, 3);
-  lay_pages(result.data(), static_cast<std::size_t>(result.size()) * sizeof(double));
-}
-
 template <class Wanted>
-void CrowdBlender::blend_one(const Recipe& recipe, const Wanted& wanted, Positions& result) const {
-  prepare(recipe, result);
-  WeightedFields fields{{}, first_field_, {}};
-  for (const HeadLevels& head : levels_) fields.heads.push_back(&head.fields);
-  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    fields.coefficients.push_back(coefficients(recipe, k));
-  }
-  parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
-    SingleFaceSums sums(fields);
-    std::vector<BlockValues> alpha;
-    std::vector<const float*> alpha_at;
-    BlockValues added;
-    for (Index b = begin; b < end; ++b) {
-      const Block& block = blocks_[static_cast<std::size_t>(b)];
-      if (!wanted(block)) continue;
-      spread_alpha(block, alpha);
-      sums.start(block.regions);
-      std::size_t to = 0;
-      for (std::size_t r = 0; r < block.runs.size(); ++r) {
-        alpha_at.clear();
-        for (const BlockValues& of_region : alpha) alpha_at.push_back(of_region.data() + to);
-        const bool last = r + 1 == block.runs.size();
-        const VertexRun& next = !last         ? block.runs[r + 1]
-                                : b + 1 < end ? blocks_[static_cast<std::size_t>(b) + 1].runs[0]
-                                              : block.runs[r];
-        sums.add_up(block.runs[r], next, alpha_at, added.data() + to);
-        to += std::size_t{3} * block.runs[r].count;
-      }
-      write(block, recipe, added, result);
+void CrowdBlender::blend_at(const Wanted& wanted, std::span<const Recipe* const> recipes,
+                            std::span<Positions> results) const {
+  parallel_for_each(recipes.size(), [&](std::size_t f) {
+    require_fit(faces_, regions_, *recipes[f]);
+    Positions& result = results[f];
+    if (result.rows() == faces_.topology.vertex_count) return;
+    result.resize(faces_.topology.vertex_count, 3);
+    lay_pages(result.data(), static_cast<std::size_t>(result.size()) * sizeof(double));
+  });
+  const Crowd crowd(*this, recipes, results);
+  parallel_blocks(patches_.size(), kPatchesATask, [&](std::size_t begin, std::size_t end) {
+    PatchBlender blender(*this, crowd);
+    for (std::size_t patch = begin; patch < end; ++patch) {
+      if (wanted(patch)) blender.blend(patch);
     }
-    finish_writing();
   });
 }
 
 void CrowdBlender::blend(std::span<const Recipe* const> recipes,
                          std::span<Positions> results) const {
-  if (recipes.size() == 1) {
-    return blend_one(
-        *recipes[0], [](const Block&) { return true; }, results[0]);
-  }
-  parallel_for_each(recipes.size(), [&](std::size_t f) { prepare(*recipes[f], results[f]); });
-  const auto regions = static_cast<std::size_t>(regions_.alpha.cols());
-  const std::size_t groups = (recipes.size() + kChunkFaces - 1) / kChunkFaces;
-  std::vector<Factors> all_factors(groups * regions);  // #groups by #regions
-  parallel_for_each(all_factors.size(), [&](std::size_t i) {
-    const std::size_t first = i / regions * kChunkFaces;
-    all_factors[i] =
-        factors(recipes.subspan(first, std::min(kChunkFaces, recipes.size() - first)), i % regions);
-  });
-  std::vector<std::vector<bool>> used(regions, std::vector<bool>(field_count(), false));
-  for (std::size_t i = 0; i < all_factors.size(); ++i) {
-    for (const std::uint32_t field : all_factors[i].fields) used[i % regions][field] = true;
-  }
-  parallel_blocks(static_cast<Index>(blocks_.size()), kBlocksATask, [&](Index begin, Index end) {
-    std::vector<Chunk> packed;
-    std::vector<BlockValues> alpha;
-    std::array<BlockValues, kChunkFaces> added;
-    FieldsAhead ahead;
-    for (Index b = begin; b < end; ++b) {
-      const Block& block = blocks_[static_cast<std::size_t>(b)];
-      std::vector<std::uint8_t> wanted = fields_at(block);
-      for (std::size_t f = 0; f < wanted.size(); ++f) {
-        const auto uses = [&](std::uint32_t k) { return used[k][f]; };
-        if (!std::any_of(block.regions.begin(), block.regions.end(), uses)) wanted[f] = 0;
-      }
-      pack(block, wanted, packed);
-      spread_alpha(block, alpha);
-      if (b + 1 < end) {
-        const std::size_t chunks = (3 * block.count + kChunkValues - 1) / kChunkValues;
-        ahead.aim(*this, blocks_[static_cast<std::size_t>(b) + 1],
-                  all_factors.size() / regions * block.regions.size() * chunks);
-      }
-      for (std::size_t first = 0; first < recipes.size(); first += kChunkFaces) {
-        displacements(block, packed, alpha, wanted,
-                      std::span(all_factors).subspan(first / kChunkFaces * regions, regions), ahead,
-                      added);
-        for (std::size_t f = first; f < std::min(first + kChunkFaces, recipes.size()); ++f) {
-          write(block, *recipes[f], added[f - first], results[f]);
-        }
-      }
-    }
-    finish_writing();
-  });
+  blend_at([](std::size_t) { return true; }, recipes, results);
 }
 
 void CrowdBlender::change(const Recipe& before, const Recipe& after, Positions& face) const {
   const bool same_target = before.target == after.target && before.mixture == after.mixture;
-  const auto differs = [&](const Block& block) {
-    return !same_target ||
-           std::any_of(block.regions.begin(), block.regions.end(), [&](std::uint32_t k) {
-             return !blends_alike(before.regions[k], after.regions[k]);
-           });
+  const auto differs = [&](std::size_t patch) {
+    return !same_target || std::ranges::any_of(regions_at(patch), [&](std::uint32_t k) {
+      return !blends_alike(before.regions[k], after.regions[k]);
+    });
   };
-  blend_one(after, differs, face);
+  const Recipe* recipe = &after;
+  blend_at(differs, {&recipe, 1}, {&face, 1});
 }
 
 Positions CrowdBlender::blend(const Recipe& recipe) const {
   Positions result;
-  blend_one(
-      recipe, [](const Block&) { return true; }, result);
+  const Recipe* one = &recipe;
+  blend({&one, 1}, {&result, 1});
   return result;
 }
 

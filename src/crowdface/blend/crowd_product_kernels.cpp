@@ -5,12 +5,9 @@
 #define HWY_TARGET_INCLUDE "crowdface/blend/crowd_product_kernels.cpp"
 #include "hwy/foreach_target.h"
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
-#include <algorithm>
-#include <cmath>
-
 #include "crowdface/core/fused_lanes-inl.h"
+#include "crowdface/smooth/field_patches.h"
 
-#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,137 +21,124 @@ HWY_INLINE hn::VFromD<Lanes> widened(Lanes lanes, const std::int16_t* numbers) {
   return hn::ConvertTo(lanes, hn::PromoteTo(whole, hn::LoadU(narrow, numbers)));
 }
 
-void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
-            float* row, std::size_t stride) {
-  const hn::CappedTag<float, kChunkValues / 2> lanes;
-  const std::size_t width = hn::Lanes(lanes);
+void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
+  const hn::CappedTag<float, kPatchStep> lanes;
   const auto factor = hn::Set(lanes, step);
-  while (count > 0) {
-    const std::size_t here = std::min(kChunkValues - in_row, count);
-    std::size_t i = 0;
-    for (; i < here && i + width <= count; i += width) {
-      hn::StoreU(hn::Mul(widened(lanes, numbers + i), factor), lanes, row + in_row + i);
-    }
-    for (; i < here; ++i) row[in_row + i] = static_cast<float>(numbers[i]) * step;
-    numbers += here;
-    count -= here;
-    row += stride;
-    in_row = 0;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(lanes)) {
+    hn::StoreU(hn::Mul(widened(lanes, numbers + i), factor), lanes, values + i);
   }
 }
 
-/// The sums of six vectors in kRegions regions stay in registers.
-constexpr std::size_t kVectors = 6;
-template <std::size_t kRegions>
-void add_vectors(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
-                 std::size_t begin, const std::int16_t* ahead) {
-  const hn::CappedTag<float, kChunkValues / 2> lanes;
-  const std::size_t width = hn::Lanes(lanes);
+template <class Lanes>
+HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const std::int16_t* numbers) {
+  return widened(lanes, numbers);
+}
+template <class Lanes>
+HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
+  return hn::LoadU(lanes, values);
+}
+
+/// The products of kVectors vectors of values from `begin` on stay in registers.
+template <std::size_t kOfColumns, std::size_t kVectors, class Number>
+HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* const* columns,
+                              const float* alpha, std::size_t begin, float* const* products) {
+  const hn::CappedTag<float, kPatchStep> lanes;
   using V = hn::VFromD<decltype(lanes)>;
-  // Lines of the cache that begin among these numbers.
-  constexpr std::size_t kLineNumbers = 64 / sizeof(std::int16_t);
-  const std::size_t first_line = (begin + kLineNumbers - 1) / kLineNumbers * kLineNumbers;
-  numbers += begin;
-  V sums[kRegions][kVectors];
-  for (std::size_t k = 0; k < kRegions; ++k) {
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      sums[k][v] = hn::Load(lanes, regions[k].sums + begin + v * width);
-    }
+  const std::size_t width = hn::Lanes(lanes);
+  V sums[kOfColumns][kVectors];
+  for (auto& of_column : sums) {
+    for (V& sum : of_column) sum = hn::Zero(lanes);
   }
-  for (std::size_t f = 0; f < fields; ++f, numbers += kTileValues, ahead += kTileValues) {
-    for (std::size_t i = first_line; i < begin + kVectors * width; i += kLineNumbers) {
-      hwy::Prefetch(ahead + i);
-    }
-    V factors[kRegions];
-    for (std::size_t k = 0; k < kRegions; ++k) {
-      factors[k] = hn::Set(lanes, regions[k].coefficients[f]);
-    }
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      const V values = widened(lanes, numbers + v * width);
-      for (std::size_t k = 0; k < kRegions; ++k) {
-        sums[k][v] = fused(factors[k], values, sums[k][v]);
+  for (const std::uint32_t row : rows.used) {
+    const Number* numbers = rows.values + row * rows.stride + begin;
+    V values[kVectors];
+    for (std::size_t v = 0; v < kVectors; ++v) values[v] = numbers_at(lanes, numbers + v * width);
+    for (std::size_t c = 0; c < kOfColumns; ++c) {
+      const V factor = hn::Set(lanes, columns[c][row]);
+      for (std::size_t v = 0; v < kVectors; ++v) {
+        sums[c][v] = fused(factor, values[v], sums[c][v]);
       }
     }
   }
-  for (std::size_t k = 0; k < kRegions; ++k) {
+  for (std::size_t c = 0; c < kOfColumns; ++c) {
     for (std::size_t v = 0; v < kVectors; ++v) {
-      hn::Store(sums[k][v], lanes, regions[k].sums + begin + v * width);
-    }
-  }
-}
-
-template <std::size_t kRegions>
-void add_in_regions(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
-                    std::size_t begin, std::size_t end, const std::int16_t* ahead) {
-  const hn::CappedTag<float, kChunkValues / 2> lanes;
-  static_assert(kTileValues % (kVectors * hn::MaxLanes(lanes)) == 0);
-  // A vector alone would wait for each addition before it: whole sixes at both ends, too.
-  const std::size_t step = kVectors * hn::Lanes(lanes);
-  for (std::size_t i = begin / step * step; i < end; i += step) {
-    add_vectors<kRegions>(numbers, fields, regions, i, ahead);
-  }
-}
-
-void add_fields(const std::int16_t* numbers, std::size_t fields, const RegionSums* regions,
-                std::size_t region_count, std::size_t begin, std::size_t end,
-                const std::int16_t* ahead) {
-  const auto add = region_count == 1 ? add_in_regions<1> : add_in_regions<2>;
-  add(numbers, fields, regions, begin, end, ahead);
-}
-
-/// Two vectors of values times six faces: twelve sums stay in registers.
-void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,
-                 const float* coefficients, const float* alpha, float* sums, std::size_t stride) {
-  const hn::CappedTag<float, kChunkValues / 2> lanes;
-  using V = hn::VFromD<decltype(lanes)>;
-  const std::size_t width = hn::Lanes(lanes);
-  for (std::size_t begin = 0; begin < kChunkValues; begin += 2 * width) {
-    V left[kChunkFaces], right[kChunkFaces];
-    for (std::size_t face = 0; face < kChunkFaces; ++face) {
-      left[face] = right[face] = hn::Zero(lanes);
-    }
-    for (std::size_t f = 0; f < count; ++f) {
-      const float* factor = coefficients + fields[f] * kChunkFaces;
-      const float* values = chunk + fields[f] * kChunkValues + begin;
-      const V a = hn::Load(lanes, values), b = hn::Load(lanes, values + width);
-      for (std::size_t face = 0; face < kChunkFaces; ++face) {
-        const V c = hn::Set(lanes, factor[face]);
-        left[face] = fused(c, a, left[face]);
-        right[face] = fused(c, b, right[face]);
+      float* to = products[c] + begin + v * width;
+      if (alpha == nullptr) {
+        hn::StoreU(sums[c][v], lanes, to);
+      } else {
+        const V share = hn::LoadU(lanes, alpha + begin + v * width);
+        hn::StoreU(hn::Add(hn::LoadU(lanes, to), hn::Mul(share, sums[c][v])), lanes, to);
       }
     }
-    const V alpha_left = hn::LoadU(lanes, alpha + begin);
-    const V alpha_right = hn::LoadU(lanes, alpha + begin + width);
-    for (std::size_t face = 0; face < kChunkFaces; ++face) {
-      float* sum = sums + face * stride + begin;
-      hn::StoreU(hn::Add(hn::LoadU(lanes, sum), hn::Mul(alpha_left, left[face])), lanes, sum);
-      sum += width;
-      hn::StoreU(hn::Add(hn::LoadU(lanes, sum), hn::Mul(alpha_right, right[face])), lanes, sum);
-    }
   }
 }
 
-/// Whole cache lines go out by streaming stores, what is left at both ends by common ones.
-void write_sums(const double* base, const float* added, std::size_t count, double* results) {
+template <std::size_t kOfColumns, class Number>
+void multiply_columns(const ProductRows<Number>& rows, const float* const* columns,
+                      const float* alpha, float* const* products) {
+  const hn::CappedTag<float, kPatchStep> lanes;
+  const std::size_t width = hn::Lanes(lanes);
+  constexpr std::size_t kMany = kOfColumns <= 2 ? 6 : kOfColumns <= 3 ? 4 : 2;
+  std::size_t i = 0;
+  for (; i + kMany * width <= rows.width; i += kMany * width) {
+    multiply_some<kOfColumns, kMany>(rows, columns, alpha, i, products);
+  }
+  for (; i + 2 * width <= rows.width; i += 2 * width) {
+    multiply_some<kOfColumns, 2>(rows, columns, alpha, i, products);
+  }
+  for (; i < rows.width; i += width) {
+    multiply_some<kOfColumns, 1>(rows, columns, alpha, i, products);
+  }
+}
+
+template <class Number>
+void multiply_any(const ProductRows<Number>& rows, const float* const* columns, std::size_t count,
+                  const float* alpha, float* const* products) {
+  using Multiply =
+      void (*)(const ProductRows<Number>&, const float* const*, const float*, float* const*);
+  constexpr Multiply kMultiply[kColumns] = {
+      multiply_columns<1, Number>, multiply_columns<2, Number>, multiply_columns<3, Number>,
+      multiply_columns<4, Number>, multiply_columns<5, Number>, multiply_columns<6, Number>};
+  kMultiply[count - 1](rows, columns, alpha, products);
+}
+
+// Highway's table of targets takes plain functions.
+void multiply_floats(const ProductRows<float>& rows, const float* const* columns, std::size_t count,
+                     const float* alpha, float* const* products) {
+  multiply_any(rows, columns, count, alpha, products);
+}
+void multiply_numbers(const ProductRows<std::int16_t>& rows, const float* const* columns,
+                      std::size_t count, const float* alpha, float* const* products) {
+  multiply_any(rows, columns, count, alpha, products);
+}
+
+void write_run(const double* base, const float* added, std::size_t count, double* results) {
   const hn::CappedTag<double, 8> lanes;
   const hn::Rebind<float, decltype(lanes)> narrow;
-  constexpr std::size_t kLineBytes = 64, kLine = kLineBytes / sizeof(double);
   const std::size_t width = hn::Lanes(lanes);
-  const std::size_t past_line = reinterpret_cast<std::uintptr_t>(results) % kLineBytes;
   std::size_t i = 0;
-  const auto write_to = [&](std::size_t end) {
-    for (; i < end; ++i) results[i] = base[i] + static_cast<double>(added[i]);
-  };
-  write_to(std::min(count, (kLineBytes - past_line) % kLineBytes / sizeof(double)));
-  for (const std::size_t end = i + (count - i) / kLine * kLine; i < end; i += width) {
+  for (; i + width <= count; i += width) {
     const auto more = hn::PromoteTo(lanes, hn::LoadU(narrow, added + i));
-    hn::Stream(hn::Add(hn::LoadU(lanes, base + i), more), lanes, results + i);
+    hn::StoreU(hn::Add(hn::LoadU(lanes, base + i), more), lanes, results + i);
   }
-  write_to(count);
+  for (; i < count; ++i) results[i] = base[i] + static_cast<double>(added[i]);
 }
 
-void finish_writing() {
-  hwy::FlushStream();
+void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
+                double* results) {
+  const hn::CappedTag<float, kPatchStep> lanes;
+  HWY_ALIGN float by_vertex[3 * kPatchVertices];
+  for (std::size_t i = 0; i < kPatchVertices; i += hn::Lanes(lanes)) {
+    const float* x = added + i;
+    hn::StoreInterleaved3(hn::LoadU(lanes, x), hn::LoadU(lanes, x + kPatchVertices),
+                          hn::LoadU(lanes, x + 2 * kPatchVertices), lanes, by_vertex + 3 * i);
+  }
+  const float* more = by_vertex;
+  for (const VertexRun& run : runs) {
+    const std::size_t at = std::size_t{3} * run.first, count = std::size_t{3} * run.count;
+    write_run(base + at, more, count, results + at);
+    more += count;
+  }
 }
 
 }  // namespace crowdface::HWY_NAMESPACE
@@ -164,34 +148,34 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 
 HWY_EXPORT(unpack);
-HWY_EXPORT(add_fields);
-HWY_EXPORT(add_product);
+HWY_EXPORT(multiply_floats);
+HWY_EXPORT(multiply_numbers);
 HWY_EXPORT(write_sums);
-HWY_EXPORT(finish_writing);
 
-void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
-            float* row, std::size_t stride) {
-  HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, in_row, row, stride);
+void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
+  HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, values);
 }
 
-void add_fields(const std::int16_t* numbers, std::size_t fields,
-                std::span<const RegionSums> regions, std::size_t begin, std::size_t end,
-                const std::int16_t* ahead) {
-  HWY_DYNAMIC_DISPATCH(add_fields)
-  (numbers, fields, regions.data(), regions.size(), begin, end, ahead);
+void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
+              std::span<float* const> products) {
+  HWY_DYNAMIC_DISPATCH(multiply_floats)
+  (rows, columns.data(), columns.size(), nullptr, products.data());
 }
 
-void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,
-                 const float* coefficients, const float* alpha, float* sums, std::size_t stride) {
-  HWY_DYNAMIC_DISPATCH(add_product)(chunk, fields, count, coefficients, alpha, sums, stride);
+void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,
+              std::span<float* const> products) {
+  HWY_DYNAMIC_DISPATCH(multiply_numbers)
+  (rows, columns.data(), columns.size(), nullptr, products.data());
 }
 
-void write_sums(const double* base, const float* added, std::size_t count, double* results) {
-  HWY_DYNAMIC_DISPATCH(write_sums)(base, added, count, results);
+void add_product(const ProductRows<float>& rows, std::span<const float* const> columns,
+                 const float* alpha, std::span<float* const> sums) {
+  HWY_DYNAMIC_DISPATCH(multiply_floats)(rows, columns.data(), columns.size(), alpha, sums.data());
 }
 
-void finish_writing() {
-  HWY_DYNAMIC_DISPATCH(finish_writing)();
+void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
+                double* results) {
+  HWY_DYNAMIC_DISPATCH(write_sums)(runs, base, added, results);
 }
 
 }  // namespace crowdface

@@ -5,49 +5,44 @@
 #include <cstdint>
 #include <span>
 
-#include "crowdface/smooth/field_tile.h"
-
 namespace crowdface {
 
-/// Values of a field that the product works on at a time, and faces it makes of them at a time: what
-/// a processor's vector registers hold.
-inline constexpr std::size_t kChunkValues = 32;
-inline constexpr std::size_t kChunkFaces = 6;
+/// Columns that a product is made with at a time: with two vectors of values, what a processor's vector registers hold.
+inline constexpr std::size_t kColumns = 6;
 
-/// Numbers of a field, times their step, into rows of kChunkValues floats, `stride` apart, from place `in_row` of the first
-/// on. May write up to 15 floats past the end of a row.
-void unpack(const std::int16_t* numbers, std::size_t count, float step, std::size_t in_row,
-            float* row, std::size_t stride);
+/// Whole numbers times a step.
+void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values);
 
-/// What a face has of a tile's fields in one region.
-struct RegionSums {
-  const float* coefficients;  ///< of each field
-  float* sums;                ///< kTileValues, where vector loads can take them aligned
+/// Rows of numbers, as they are kept or as `unpack` makes them.
+template <class Number>
+struct ProductRows {
+  const Number* values;
+  std::size_t stride;                   ///< from row to row
+  std::size_t width;                    ///< of a row; a multiple of kPatchStep
+  std::span<const std::uint32_t> used;  ///< rows that are added up, in this order
 };
 
-/// sums[i] += Σ_f coefficients[f]·numbers[f][i] in each region, for one face, in the order and rounding of
-/// `add_product`, for i from begin to end; some before and after are added up, too.
-/// \param numbers  a tile's: `fields` rows of kTileValues
-/// \param regions  one or two: numbers are read once for both
-/// \param ahead    of a tile whose turn comes soon: memory is asked for as many of its numbers.
-void add_fields(const std::int16_t* numbers, std::size_t fields,
-                std::span<const RegionSums> regions, std::size_t begin, std::size_t end,
-                const std::int16_t* ahead);
+/// products[c][i] = Σ_r columns[c][r]·values[r·stride + i] over the used rows, each term with one rounding.
+/// \param columns, products  up to kColumns
+void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
+              std::span<float* const> products);
+void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,
+              std::span<float* const> products);
 
-/// sums[face][i] += alpha[i]·Σ_f coefficients[fields[f]][face]·chunk[fields[f]][i] (Eq. 7), the products added
-/// in the order of f with one rounding a term.
-/// \param chunk         #fields by kChunkValues
-/// \param fields        `count` rows of it and of the coefficients
-/// \param coefficients  #fields by kChunkFaces
-/// \param alpha         kChunkValues
-/// \param sums          kChunkFaces rows of kChunkValues, `stride` apart
-void add_product(const float* chunk, const std::uint32_t* fields, std::size_t count,
-                 const float* coefficients, const float* alpha, float* sums, std::size_t stride);
+/// sums[c][i] += alpha[i]·(the same product).
+void add_product(const ProductRows<float>& rows, std::span<const float* const> columns,
+                 const float* alpha, std::span<float* const> sums);
 
-/// results[i] = base[i] + added[i] for `count` numbers, written past the caches: a crowd's faces are
-/// far larger, and a cached store would read from memory what it is about to overwrite.
-/// finish_writing() must follow on the same thread before another may read them.
-void write_sums(const double* base, const float* added, std::size_t count, double* results);
-void finish_writing();
+/// Vertices that follow each other in the mesh.
+struct VertexRun {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// results = base + added at the vertices of the runs.
+/// \param base, results  #V by 3; may be the same
+/// \param added          3 by kPatchVertices: x of all runs' vertices, y, z
+void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
+                double* results);
 
 }  // namespace crowdface

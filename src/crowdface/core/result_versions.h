@@ -7,13 +7,15 @@ namespace crowdface {
 // anew. What an older version made then counts as not done.
 
 inline constexpr int kBlendVersion =
-    6;  ///< positions of a face's skin; in `settings` of every recipe
+    7;  ///< positions of a face's skin; in `settings` of every recipe
 inline constexpr int kPartsVersion =
     4;  ///< where parts come to lie; in `settings` of heads with parts
 inline constexpr int kMirrorVersion =
     1;  ///< the other side of each vertex; in `settings` where faces may be mirrored
 /// Entries of the cache, and so the faces made of them.
 inline constexpr int kPrepareVersion = 6;
+inline constexpr int kPatchVersion =
+    1;  ///< all heads' fields on patches, and the faces made of them
 /// What the cache keeps besides: neighbours, masks at vertices, samples and their cells, the other side.
 inline constexpr int kSharedVersion = 1;
 /// A picture, what is found about a skin, or a mesh file of the same positions.

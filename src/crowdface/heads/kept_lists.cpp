@@ -8,20 +8,20 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 
-namespace crowdface::detail {
+namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// The first 48 bytes of an entry, little-endian; after them the lists' sizes, then the lists.
-struct Header {
+struct ListsHeader {
   char magic[8] = {'C', 'F', 'L', 'I', 'S', 'T', '\r', '\n'};
   std::uint64_t version = 1;
   Digest key;
   std::uint64_t count = 0;
   std::uint64_t reserved = 0;
 };
-static_assert(sizeof(Header) == 48);
+static_assert(sizeof(ListsHeader) == 48);
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::optional<FoundLists> find_lists(const fs::path& cache, const Digest& key, s
   try {
     auto entry = map_entry(path);
     if (!entry) return std::nullopt;
-    const Header expected{.key = key, .count = count};
+    const ListsHeader expected{.key = key, .count = count};
     std::string_view bytes = entry->content;
     std::vector<std::uint64_t> sizes(count);
     const std::string_view start = bytes_of(&expected, sizeof expected);
@@ -56,9 +56,9 @@ std::optional<FoundLists> find_lists(const fs::path& cache, const Digest& key, s
   }
 }
 
-void keep_lists(const fs::path& cache, const Digest& key,
+bool keep_lists(const fs::path& cache, const Digest& key,
                 const std::vector<std::string_view>& lists) {
-  const Header header{.key = key, .count = lists.size()};
+  const ListsHeader header{.key = key, .count = lists.size()};
   std::vector<std::uint64_t> sizes;
   for (const std::string_view list : lists) sizes.push_back(list.size());
   std::vector<std::string_view> pieces = {bytes_of(&header, sizeof header),
@@ -66,8 +66,10 @@ void keep_lists(const fs::path& cache, const Digest& key,
   pieces.insert(pieces.end(), lists.begin(), lists.end());
   try {
     write_entry(cache_entry(cache, key, kListsEnding), std::move(pieces));
+    return true;
   } catch (const Error& error) {
     log_warning(concat("what was found of the heads cannot be kept: ", error.what()));
+    return false;
   }
 }
 
@@ -77,4 +79,4 @@ void warn_of_damage(const fs::path& cache, const Digest& key) {
   log_warning(concat(error.what(), "; it is made anew"));
 }
 
-}  // namespace crowdface::detail
+}  // namespace crowdface

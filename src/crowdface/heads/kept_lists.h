@@ -16,9 +16,7 @@
 
 namespace crowdface {
 
-namespace detail {
-
-/// An entry's lists as bytes, which stand nowhere in particular.
+/// An entry's lists as bytes, which stand one after the other.
 struct FoundLists {
   std::shared_ptr<const MappedFile> file;
   std::vector<std::string_view> lists;
@@ -27,10 +25,13 @@ struct FoundLists {
 /// \return nothing if there is no entry of so many lists, or, with a warning, if it is damaged.
 std::optional<FoundLists> find_lists(const std::filesystem::path& cache, const Digest& key,
                                      std::size_t count);
-/// A cache that cannot be written costs a warning.
-void keep_lists(const std::filesystem::path& cache, const Digest& key,
+/// \return whether they could be kept: a cache that cannot be written costs a warning.
+bool keep_lists(const std::filesystem::path& cache, const Digest& key,
                 const std::vector<std::string_view>& lists);
+/// That an entry's lists are not such as could have been kept.
 void warn_of_damage(const std::filesystem::path& cache, const Digest& key);
+
+namespace detail {
 
 /// \return whether the bytes are a whole number of these.
 template <class T>
@@ -52,19 +53,18 @@ std::tuple<std::vector<T>...> kept_lists(const std::filesystem::path& cache, con
                                          const Make& make, const IsSound& is_sound) {
   using Lists = std::tuple<std::vector<T>...>;
   if (cache.empty()) return make();
-  if (const auto found = detail::find_lists(cache, key, sizeof...(T))) {
+  if (const auto found = find_lists(cache, key, sizeof...(T))) {
     Lists lists;
     std::size_t at = 0;
     const bool whole = std::apply(
         [&](auto&... list) { return (detail::take_list(found->lists[at++], list) && ...); }, lists);
     if (whole && std::apply(is_sound, std::as_const(lists)) && !found->file->was_cut())
       return lists;
-    detail::warn_of_damage(cache, key);
+    warn_of_damage(cache, key);
   }
   Lists lists = make();
-  std::apply(
-      [&](const auto&... list) { detail::keep_lists(cache, key, {bytes_of(std::span(list))...}); },
-      lists);
+  std::apply([&](const auto&... list) { keep_lists(cache, key, {bytes_of(std::span(list))...}); },
+             lists);
   return lists;
 }
 

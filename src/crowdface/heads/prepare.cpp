@@ -14,6 +14,8 @@
 #include "crowdface/core/units.h"
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/smooth/cubic_fit.h"
+#include "crowdface/smooth/principal_directions.h"
+#include "crowdface/smooth/tiles.h"
 
 namespace crowdface {
 namespace {
@@ -139,6 +141,27 @@ HeadCacheShape cache_shape(const Config& config, const Inputs& inputs, const Pre
           config.smoothing.levels};
 }
 
+/// All heads' fields on patches, from the cache or made for it.
+KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                       const std::vector<Digest>& keys, const std::filesystem::path& cache) {
+  const double tolerance = config.smoothing.tolerance_mm / mm_per(config.faces.units);
+  double missed = 0;  // by the heads' own fields
+  std::vector<Index> ranks;
+  Hasher hasher;
+  hasher.add(kPatchVersion).add(tolerance);
+  for (std::size_t h = 0; h < keys.size(); ++h) {
+    hasher.add(keys[h]);
+    ranks.push_back(prepared.levels[h].fields.rank);
+    missed = std::max(missed, prepared.levels[h].error.max);
+  }
+  // Rounding to the steps of patches may miss as much once more.
+  const double left = std::max(0.0, tolerance - 2 * missed);
+  return kept_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
+    return interpolate_fields(head_levels(config, prepared), test_levels(*prepared.nodes).levels,
+                              hilbert_order(inputs.faces.heads.front().positions), left);
+  });
+}
+
 }  // namespace
 
 void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
@@ -193,6 +216,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
     preparation.filter();
   } else {
     prepared.filter.reset();
+    prepared.patches = patches_of(config, inputs, prepared, keys, cache);
   }
   if (prepared.from_cache > 0) {
     log_info(concat(prepared.from_cache, " of ", inputs.faces.heads.size(),
@@ -202,10 +226,13 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
 }
 
 void require_whole(const Prepared& prepared) {
-  for (const StoredLevels& levels : prepared.levels) {
-    if (levels.mapped && levels.mapped->was_cut()) {
-      throw CutWhileInUse("an entry of the cache was cut while it was in use");
-    }
+  const auto was_cut = [](const std::shared_ptr<const MappedFile>& mapped) {
+    return mapped && mapped->was_cut();
+  };
+  if (was_cut(prepared.patches.mapped) ||
+      std::ranges::any_of(prepared.levels,
+                          [&](const auto& head) { return was_cut(head.mapped); })) {
+    throw CutWhileInUse("an entry of the cache was cut while it was in use");
   }
 }
 

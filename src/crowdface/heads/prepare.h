@@ -15,6 +15,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_cache.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/heads/kept_patches.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 
 namespace crowdface {
@@ -26,6 +27,7 @@ struct Prepared {
   std::vector<Trajectory> trajectories;     ///< #heads, of what is traced
   std::vector<StoredLevels> levels;         ///< #heads; without fields with `levels: exact`
   std::shared_ptr<const LevelNodes> nodes;  ///< that `mixing` refers to
+  KeptPatches patches;                      ///< of all heads' fields, unless `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< `levels: exact`
   std::size_t from_cache = 0;               ///< how many heads the cache had
 };

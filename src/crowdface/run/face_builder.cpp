@@ -61,7 +61,8 @@ void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) 
     }
   }
   if (config.smoothing.levels != Levels::kExact) {
-    blender_.emplace(inputs_.faces, head_levels(config, prepared_), regions_);
+    blender_.emplace(inputs_.faces, head_levels(config, prepared_), prepared_.patches.patches,
+                     regions_);
   }
 }
 

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "crowdface/core/fused_lanes-inl.h"
+#include "crowdface/smooth/field_patches.h"
 #include "crowdface/smooth/field_tile.h"
 
 #include "hwy/highway.h"
@@ -70,6 +72,29 @@ MissedLevel keep_fewest(const float* fields, std::size_t count, const float* fun
   return worst[kept];
 }
 
+void row_products(const float* columns, std::size_t count, std::size_t row, double* products) {
+  const hn::CappedTag<double, 8> lanes;
+  const hn::Rebind<float, decltype(lanes)> narrow_lanes;
+  using V = hn::VFromD<decltype(lanes)>;
+  const std::size_t width = hn::Lanes(lanes);
+  constexpr std::size_t kSums = 8;  // chains of additions that overlap
+  for (std::size_t begin = 0; begin < kPatchVertices; begin += kSums * width) {
+    V sums[kSums];
+    for (V& sum : sums) sum = hn::Zero(lanes);
+    for (std::size_t c = 0; c < count; ++c) {
+      const float* column = columns + c * kPatchVertices;
+      const V factor = hn::Set(lanes, static_cast<double>(column[row]));
+      for (std::size_t s = 0; s < kSums; ++s) {
+        const V value = hn::PromoteTo(lanes, hn::LoadU(narrow_lanes, column + begin + s * width));
+        sums[s] = fused(factor, value, sums[s]);
+      }
+    }
+    for (std::size_t s = 0; s < kSums; ++s) {
+      hn::StoreU(sums[s], lanes, products + begin + s * width);
+    }
+  }
+}
+
 }  // namespace crowdface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -78,6 +103,7 @@ namespace crowdface {
 
 HWY_EXPORT(narrow);
 HWY_EXPORT(keep_fewest);
+HWY_EXPORT(row_products);
 
 void narrow(const float* from, std::size_t count, float scale, std::int16_t* to) {
   HWY_DYNAMIC_DISPATCH(narrow)(from, count, scale, to);
@@ -86,6 +112,10 @@ void narrow(const float* from, std::size_t count, float scale, std::int16_t* to)
 MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
                         std::size_t stride, std::size_t levels, float most) {
   return HWY_DYNAMIC_DISPATCH(keep_fewest)(fields, count, functions, stride, levels, most);
+}
+
+void row_products(const float* columns, std::size_t count, std::size_t row, double* products) {
+  HWY_DYNAMIC_DISPATCH(row_products)(columns, count, row, products);
 }
 
 }  // namespace crowdface

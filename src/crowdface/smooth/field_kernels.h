@@ -24,4 +24,9 @@ struct MissedLevel {
 MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
                         std::size_t stride, std::size_t levels, float most);
 
+/// products[i] = Σ_c columns[c][i]·columns[c][row] in double precision, in the order of c with one rounding a term.
+/// \param columns   `count` by kPatchVertices
+/// \param products  kPatchVertices
+void row_products(const float* columns, std::size_t count, std::size_t row, double* products);
+
 }  // namespace crowdface

@@ -40,29 +40,6 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
   return index;
 }
 
-/// All vertices along a space-filling curve through the head; equal places by index.
-std::vector<std::uint32_t> order_along_curve(const Positions& positions) {
-  const Eigen::RowVector3d low = positions.colwise().minCoeff();
-  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
-  const double scale = extent > 0 ? 2097151.0 / extent : 0;  // 2²¹ − 1
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(
-      static_cast<std::size_t>(positions.rows()));
-  constexpr Index kBlock = 1 << 16;
-  parallel_for_each(positions.rows(), kBlock, [&](Index i) {
-    std::array<std::uint32_t, 3> cell{};
-    for (Index c = 0; c < 3; ++c) {
-      cell[static_cast<std::size_t>(c)] =
-          static_cast<std::uint32_t>((positions(i, c) - low(c)) * scale);
-    }
-    places[static_cast<std::size_t>(i)] = {hilbert_index(cell), static_cast<std::uint32_t>(i)};
-  });
-  std::ranges::sort(places);
-  std::vector<std::uint32_t> order(places.size());
-  std::transform(places.begin(), places.end(), order.begin(),
-                 [](const auto& p) { return p.second; });
-  return order;
-}
-
 /// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), so that the neighbours of
 /// consecutive rows stand in a few short stretches, and then by valence.
 void order_within(const Tile& tile, const SmoothingOperator& smoothing,
@@ -165,6 +142,28 @@ class TileBuilder {
 
 }  // namespace
 
+std::vector<std::uint32_t> hilbert_order(const Positions& positions) {
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
+  const double scale = extent > 0 ? 2097151.0 / extent : 0;  // 2²¹ − 1
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(
+      static_cast<std::size_t>(positions.rows()));
+  constexpr Index kBlock = 1 << 16;
+  parallel_for_each(positions.rows(), kBlock, [&](Index i) {
+    std::array<std::uint32_t, 3> cell{};
+    for (Index c = 0; c < 3; ++c) {
+      cell[static_cast<std::size_t>(c)] =
+          static_cast<std::uint32_t>((positions(i, c) - low(c)) * scale);
+    }
+    places[static_cast<std::size_t>(i)] = {hilbert_index(cell), static_cast<std::uint32_t>(i)};
+  });
+  std::ranges::sort(places);
+  std::vector<std::uint32_t> order(places.size());
+  std::transform(places.begin(), places.end(), order.begin(),
+                 [](const auto& p) { return p.second; });
+  return order;
+}
+
 Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& positions,
                       Index tile_rows, int ring_count) {
   const Index vertices = smoothing.vertex_count();
@@ -173,7 +172,7 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
   Tiling tiling;
   tiling.ring_count = ring_count;
   if (vertices == 0) return tiling;
-  tiling.order = order_along_curve(positions);
+  tiling.order = hilbert_order(positions);
   const Index tile_count = (vertices + tile_rows - 1) / tile_rows;
   for (Index t = 0; t < tile_count; ++t) {
     Tile tile;

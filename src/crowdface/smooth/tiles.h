@@ -41,6 +41,10 @@ struct Tiling {
   int ring_count = 0;
 };
 
+/// All vertices along a space-filling curve through the head (Hilbert 1891), so that neighbours in the order are mostly
+/// neighbours in space; equal places by index.
+std::vector<std::uint32_t> hilbert_order(const Positions& positions);
+
 /// Cuts by halving the longest side of the vertices' box again and again, which makes compact
 /// patches of a surface.
 /// \param positions   #V by 3, any head of the topology.

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/smooth/field_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
+#include "crowdface/smooth/field_kernels.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kPatchesATask = 16;
+
+std::size_t patch_count(std::size_t vertices) {
+  return (vertices + kPatchVertices - 1) / kPatchVertices;
+}
+
+/// w_p with |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any vectors e_p: peaks of φ_p, times what
+/// Cauchy and Schwarz ask for.
+std::vector<double> error_weights(const HeadLevels& head, std::span<const std::uint64_t> levels) {
+  std::vector<std::vector<double>> functions;
+  functions.reserve(levels.size());
+  for (const std::uint64_t level : levels) functions.push_back(head.functions(level));
+  std::vector<double> weights(static_cast<std::size_t>(head.fields.rank), 0.0);
+  for (const auto& at : functions) {
+    for (std::size_t p = 0; p < weights.size(); ++p) {
+      weights[p] = std::max(weights[p], std::abs(at[p]));
+    }
+  }
+  double most = 0;
+  for (const auto& at : functions) {
+    double squares = 0;
+    for (std::size_t p = 0; p < weights.size(); ++p) {
+      if (weights[p] > 0) squares += at[p] / weights[p] * (at[p] / weights[p]);
+    }
+    most = std::max(most, squares);
+  }
+  for (double& weight : weights) weight *= std::sqrt(most);
+  return weights;
+}
+
+/// Patches that follow each other, as they are made.
+struct MadePatches {
+  std::vector<std::uint32_t> skeletons, counts;
+  std::vector<float> steps, weights;
+  std::vector<std::int16_t> numbers;
+};
+
+/// Chooses skeletons. For one thread.
+class PatchMaker {
+ public:
+  /// \param heads, weights  must outlive it.
+  PatchMaker(std::span<const HeadLevels> heads, const std::vector<std::vector<double>>& weights,
+             double tolerance)
+      : heads_(heads), error_weights_(weights), tolerance_(tolerance) {}
+
+  void add(std::span<const std::uint32_t> vertices, MadePatches& made) {
+    const std::size_t fields = count_fields(vertices);
+    choose_skeleton(vertices, fields);
+    made.skeletons.push_back(static_cast<std::uint32_t>(skeleton_.size()));
+    made.counts.insert(made.counts.end(), counts_.begin(), counts_.end());
+    if (skeleton_.size() < vertices.size()) add_weights(made.weights);
+    add_numbers(vertices, made);
+  }
+
+ private:
+  using OfVertices = std::array<double, kPatchVertices>;
+
+  std::size_t count_fields(std::span<const std::uint32_t> vertices) {
+    counts_.assign(heads_.size(), 0);
+    std::size_t fields = 0;
+    for (std::size_t h = 0; h < heads_.size(); ++h) {
+      for (const std::uint32_t v : vertices) {
+        counts_[h] = std::max(counts_[h], static_cast<std::uint32_t>(heads_[h].fields.at(v).count));
+      }
+      fields += counts_[h];
+    }
+    return fields;
+  }
+
+  /// All fields' coordinates in columns, each as heavy as an error of it: 3·#fields by kPatchVertices.
+  void fill_columns(std::span<const std::uint32_t> vertices, std::size_t fields) {
+    columns_.assign(3 * fields * kPatchVertices, 0.0F);
+    float* first = columns_.data();
+    for (std::size_t h = 0; h < heads_.size(); ++h) {
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const TileFields tile = heads_[h].fields.at(vertices[i]);
+        const std::int16_t* numbers = tile.numbers + 3 * (vertices[i] % kFieldTile);
+        float* to = first + i;
+        for (std::size_t p = 0; p < tile.count; ++p, numbers += kTileValues) {
+          const float heavy = tile.steps[p] * static_cast<float>(error_weights_[h][p]);
+          for (std::size_t c = 0; c < 3; ++c, to += kPatchVertices) {
+            *to = heavy * static_cast<float>(numbers[c]);
+          }
+        }
+      }
+      first += 3 * counts_[h] * kPatchVertices;
+    }
+  }
+
+  /// Cholesky's decomposition of the columns' Gram matrix, the vertex that misses most first (pivoted, and computed
+  /// only as far as needed): what is left of the diagonal is what each vertex misses.
+  void choose_skeleton(std::span<const std::uint32_t> vertices, std::size_t fields) {
+    skeleton_.clear();
+    factor_.clear();
+    // More than so many would cost more than all vertices.
+    const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
+    fill_columns(vertices, fields);
+    OfVertices left{};
+    for (std::size_t column = 0; column < 3 * fields; ++column) {
+      for (std::size_t i = 0; i < kPatchVertices; ++i) {
+        const double value = static_cast<double>(columns_[column * kPatchVertices + i]);
+        left[i] += value * value;
+      }
+    }
+    for (;;) {
+      const auto pivot = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
+      if (left[pivot] <= tolerance_ * tolerance_) return;
+      if (skeleton_.size() >= std::min(most, vertices.size() - 1)) break;
+      OfVertices& next = factor_.emplace_back();
+      row_products(columns_.data(), 3 * fields, pivot, next.data());
+      for (std::size_t j = 0; j + 1 < factor_.size(); ++j) {
+        const double factor = factor_[j][pivot];
+        for (std::size_t i = 0; i < kPatchVertices; ++i) next[i] -= factor * factor_[j][i];
+      }
+      const double scale = 1 / std::sqrt(left[pivot]);
+      for (double& value : next) value *= scale;
+      for (const std::size_t before : skeleton_) next[before] = 0;
+      for (std::size_t i = 0; i < kPatchVertices; ++i) {
+        left[i] = std::max(0.0, left[i] - next[i] * next[i]);
+      }
+      skeleton_.push_back(pivot);
+      for (const std::size_t chosen : skeleton_) left[chosen] = 0;
+    }
+    skeleton_.resize(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) skeleton_[i] = i;
+  }
+
+  /// Of each vertex, the weights of the skeleton that give its row of the factor.
+  void add_weights(std::vector<float>& to) const {
+    const std::size_t size = skeleton_.size();
+    std::vector<OfVertices> weights(size);
+    for (std::size_t j = size; j-- > 0;) {
+      weights[j] = factor_[j];
+      for (std::size_t i = j + 1; i < size; ++i) {
+        const double factor = factor_[j][skeleton_[i]];
+        for (std::size_t v = 0; v < kPatchVertices; ++v) weights[j][v] -= factor * weights[i][v];
+      }
+      const double scale = 1 / factor_[j][skeleton_[j]];
+      for (double& weight : weights[j]) weight *= scale;
+      for (const std::size_t chosen : skeleton_) weights[j][chosen] = 0;
+      weights[j][skeleton_[j]] = 1;
+    }
+    for (const OfVertices& of_one : weights) {
+      for (const double weight : of_one) to.push_back(static_cast<float>(weight));
+    }
+  }
+
+  void add_numbers(std::span<const std::uint32_t> vertices, MadePatches& made) {
+    const std::size_t size = skeleton_.size(), values = FieldPatch::values_of(size);
+    for (std::size_t h = 0; h < heads_.size(); ++h) {
+      values_.assign(counts_[h] * values, 0.0F);
+      for (std::size_t j = 0; j < size; ++j) {
+        const std::uint32_t vertex = vertices[skeleton_[j]];
+        const TileFields tile = heads_[h].fields.at(vertex);
+        const std::int16_t* numbers = tile.numbers + 3 * (vertex % kFieldTile);
+        for (std::size_t p = 0; p < tile.count; ++p, numbers += kTileValues) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            values_[p * values + c * size + j] = tile.steps[p] * static_cast<float>(numbers[c]);
+          }
+        }
+      }
+      const std::size_t at = made.numbers.size();
+      made.numbers.resize(at + values_.size());
+      for (std::size_t p = 0; p < counts_[h]; ++p) {
+        made.steps.push_back(
+            in_16_bits(std::span(std::as_const(values_)).subspan(p * values, values),
+                       made.numbers.data() + at + p * values));
+      }
+    }
+  }
+
+  std::span<const HeadLevels> heads_;
+  const std::vector<std::vector<double>>& error_weights_;
+  double tolerance_;
+  std::vector<std::uint32_t> counts_;
+  std::vector<float> columns_, values_;
+  std::vector<OfVertices> factor_;  ///< #skeleton by kPatchVertices
+  std::vector<std::size_t> skeleton_;
+};
+
+/// Lists that own what they are.
+struct OwnedPatches {
+  std::vector<std::uint32_t> vertices;
+  MadePatches made;
+};
+
+/// One list of all parts, which are emptied.
+template <class T>
+std::vector<T> join(std::vector<MadePatches>& parts, std::vector<T> MadePatches::*list) {
+  std::size_t count = 0;
+  for (const MadePatches& part : parts) count += (part.*list).size();
+  std::vector<T> all;
+  all.reserve(count);
+  for (MadePatches& part : parts) {
+    all.insert(all.end(), (part.*list).begin(), (part.*list).end());
+    part.*list = {};
+  }
+  return all;
+}
+
+bool is_step(float step) {
+  int exponent = 0;
+  return step == 0 || (std::isfinite(step) && std::frexp(step, &exponent) == 0.5F);
+}
+
+/// Whether each of the numbers below `count` is there once, ascending within patches.
+bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
+  if (vertices.size() != count) return false;
+  std::vector<bool> seen(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (vertices[i] >= count || seen[vertices[i]]) return false;
+    if (i % kPatchVertices != 0 && vertices[i] < vertices[i - 1]) return false;
+    seen[vertices[i]] = true;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<FieldPatches> FieldPatches::of(PatchLists lists, Index vertex_count,
+                                             std::span<const Index> ranks) {
+  const auto vertices = static_cast<std::size_t>(vertex_count);
+  const std::size_t patches = patch_count(vertices);
+  if (!are_patches(lists.vertices, vertices) || lists.skeletons.size() != patches ||
+      lists.counts.size() != patches * ranks.size()) {
+    return std::nullopt;
+  }
+  FieldPatches result;
+  result.heads_ = ranks.size();
+  result.places_.reserve(patches);
+  Place end{};
+  for (std::size_t i = 0; i < patches; ++i) {
+    const std::size_t here = std::min(kPatchVertices, vertices - i * kPatchVertices);
+    const std::size_t skeleton = lists.skeletons[i];
+    if (skeleton > here) return std::nullopt;
+    end.fields = 0;
+    for (std::size_t h = 0; h < ranks.size(); ++h) {
+      const std::uint32_t count = lists.counts[i * ranks.size() + h];
+      if (count > static_cast<std::uint64_t>(ranks[h])) return std::nullopt;
+      end.fields += count;
+    }
+    result.places_.push_back(end);
+    end.field += end.fields;
+    end.number += end.fields * FieldPatch::values_of(skeleton);
+    if (skeleton < here) end.weight += skeleton * kPatchVertices;
+  }
+  if (end.field != lists.steps.size() || end.number != lists.numbers.size() ||
+      end.weight != lists.weights.size() || !std::ranges::all_of(lists.steps, is_step) ||
+      !std::ranges::all_of(lists.weights, [](float weight) { return std::isfinite(weight); })) {
+    return std::nullopt;
+  }
+  result.lists_ = std::move(lists);
+  return result;
+}
+
+FieldPatch FieldPatches::operator[](std::size_t patch) const {
+  const Place& place = places_[patch];
+  const std::size_t first = patch * kPatchVertices;
+  FieldPatch result;
+  result.vertices =
+      lists_.vertices.subspan(first, std::min(kPatchVertices, lists_.vertices.size() - first));
+  result.counts = lists_.counts.subspan(patch * heads_, heads_);
+  result.fields = place.fields;
+  result.skeleton = lists_.skeletons[patch];
+  result.steps = lists_.steps.data() + place.field;
+  result.numbers = lists_.numbers.data() + place.number;
+  if (!result.is_whole()) result.weights = lists_.weights.data() + place.weight;
+  return result;
+}
+
+FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
+                                std::span<const std::uint64_t> levels,
+                                std::span<const std::uint32_t> order, double tolerance) {
+  require(!heads.empty(), "patches of no head");
+  std::vector<Index> ranks;
+  for (const HeadLevels& head : heads) {
+    const LevelFields& fields = head.fields;
+    const std::size_t tiles = LevelFields::tile_count(order.size());
+    require(static_cast<std::size_t>(fields.vertex_count) == order.size() &&
+                fields.first.size() == tiles + 1 && fields.steps.size() == fields.first.back() &&
+                fields.numbers.size() == fields.steps.size() * kTileValues,
+            "patches: ", fields.numbers.size(), " numbers of ", fields.steps.size(), " fields of ",
+            tiles, " tiles of ", order.size(), " vertices");
+    ranks.push_back(fields.rank);
+  }
+  std::vector<std::vector<double>> weights(heads.size());
+  parallel_for_each(heads.size(),
+                    [&](std::size_t h) { weights[h] = error_weights(heads[h], levels); });
+  auto all = std::make_shared<OwnedPatches>();
+  all->vertices.assign(order.begin(), order.end());
+  const std::size_t patches = patch_count(order.size());
+  std::vector<MadePatches> parts((patches + kPatchesATask - 1) / kPatchesATask);
+  parallel_blocks(patches, kPatchesATask, [&](std::size_t begin, std::size_t end) {
+    PatchMaker maker(heads, weights, tolerance);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t first = i * kPatchVertices;
+      const auto vertices =
+          std::span(all->vertices).subspan(first, std::min(kPatchVertices, order.size() - first));
+      std::ranges::sort(vertices);
+      maker.add(vertices, parts[begin / kPatchesATask]);
+    }
+  });
+  const MadePatches& made =
+      all->made = {join(parts, &MadePatches::skeletons), join(parts, &MadePatches::counts),
+                   join(parts, &MadePatches::steps), join(parts, &MadePatches::weights),
+                   join(parts, &MadePatches::numbers)};
+  auto result = FieldPatches::of(
+      {all->vertices, made.skeletons, made.counts, made.steps, made.weights, made.numbers, all},
+      static_cast<Index>(order.size()), ranks);
+  require(result.has_value(), "patches: not each vertex once, or numbers that are none");
+  return *std::move(result);
+}
+
+}  // namespace crowdface
