@@ -6,7 +6,7 @@
 #include "hwy/foreach_target.h"
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
 #include "crowdface/core/fused_lanes-inl.h"
-#include "crowdface/smooth/field_patches.h"
+#include "crowdface/smooth/field_tile.h"
 
 #include "hwy/highway.h"
 

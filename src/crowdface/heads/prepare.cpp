@@ -154,8 +154,7 @@ KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepare
     ranks.push_back(prepared.levels[h].fields.rank);
     missed = std::max(missed, prepared.levels[h].error.max);
   }
-  // Rounding to the steps of patches may miss as much once more.
-  const double left = std::max(0.0, tolerance - 2 * missed);
+  const double left = std::max(0.0, tolerance - missed);
   return kept_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
     return interpolate_fields(head_levels(config, prepared), test_levels(*prepared.nodes).levels,
                               hilbert_order(inputs.faces.heads.front().positions), left);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "crowdface/core/fused_lanes-inl.h"
-#include "crowdface/smooth/field_patches.h"
 #include "crowdface/smooth/field_tile.h"
 
 #include "hwy/highway.h"

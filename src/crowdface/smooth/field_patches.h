@@ -21,11 +21,6 @@ struct HeadLevels {
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
 };
 
-/// Vertices of a patch, but of the last.
-inline constexpr std::size_t kPatchVertices = 128;
-/// Values of a field stand in rows of a multiple of this: whole vectors of any instruction set.
-inline constexpr std::size_t kPatchStep = 16;
-
 /// All heads' fields at some neighbouring vertices.
 struct FieldPatch {
   std::span<const std::uint32_t> vertices;  ///< ascending
