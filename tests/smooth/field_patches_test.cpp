@@ -10,6 +10,7 @@
 #include "crowdface/core/instruction_set.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/random.h"
+#include "crowdface/smooth/tiles.h"
 
 #include "support/smooth_fields.h"
 
@@ -117,6 +118,29 @@ TEST(FieldPatches, HaveEachVertexOnceInTheOrderGiven) {
     EXPECT_EQ(vertices.back(), order[i * kPatchVertices]);
     EXPECT_EQ(vertices.front(), order[i * kPatchVertices + vertices.size() - 1]);
   }
+}
+
+TEST(FieldPatches, AreOfStretchesThatLieSideBySide) {
+  Positions grid(kVertices, 3);  // its rows one after the other
+  for (Index v = 0; v < kVertices; ++v) {
+    grid.row(v) << static_cast<double>(v % kColumns), static_cast<double>(v / kColumns), 0;
+  }
+  const std::vector<std::uint32_t> order = patch_order(grid, 1.5);
+  std::vector<std::uint32_t> sorted = order;
+  std::ranges::sort(sorted);
+  EXPECT_EQ(sorted, rows_of_grid());
+  std::size_t breaks = 0;
+  double farthest = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i] != order[i - 1] + 1) ++breaks;
+    if (order[i] == order[i - 1] + 1) {
+      farthest = std::max(farthest, (grid.row(order[i]) - grid.row(order[i - 1])).norm());
+    }
+  }
+  EXPECT_LT(breaks, 2 * kRows) << "each row in two stretches of 32 and 18";
+  EXPECT_LT(farthest, 32);
+  // Where no vertex is near the next in the mesh, the curve alone decides.
+  EXPECT_EQ(patch_order(grid, 0.5), hilbert_order(grid));
 }
 
 TEST(FieldPatches, KeepAllVerticesWhereNoneIsLikeAnother) {

@@ -359,6 +359,7 @@ void CrowdBlender::blend_at(const Wanted& wanted, std::span<const Recipe* const>
     for (std::size_t patch = begin; patch < end; ++patch) {
       if (wanted(patch)) blender.blend(patch);
     }
+    finish_writing();
   });
 }
 

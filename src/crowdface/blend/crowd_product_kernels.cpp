@@ -5,9 +5,12 @@
 #define HWY_TARGET_INCLUDE "crowdface/blend/crowd_product_kernels.cpp"
 #include "hwy/foreach_target.h"
 // Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+#include <algorithm>
+
 #include "crowdface/core/fused_lanes-inl.h"
 #include "crowdface/smooth/field_tile.h"
 
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -112,16 +115,23 @@ void multiply_numbers(const ProductRows<std::int16_t>& rows, const float* const*
   multiply_any(rows, columns, count, alpha, products);
 }
 
+/// Whole cache lines go out by streaming stores, what is left at both ends by common ones.
 void write_run(const double* base, const float* added, std::size_t count, double* results) {
   const hn::CappedTag<double, 8> lanes;
   const hn::Rebind<float, decltype(lanes)> narrow;
+  constexpr std::size_t kLineBytes = 64, kLine = kLineBytes / sizeof(double);
   const std::size_t width = hn::Lanes(lanes);
+  const std::size_t past_line = reinterpret_cast<std::uintptr_t>(results) % kLineBytes;
   std::size_t i = 0;
-  for (; i + width <= count; i += width) {
+  const auto write_to = [&](std::size_t end) {
+    for (; i < end; ++i) results[i] = base[i] + static_cast<double>(added[i]);
+  };
+  write_to(std::min(count, (kLineBytes - past_line) % kLineBytes / sizeof(double)));
+  for (const std::size_t end = i + (count - i) / kLine * kLine; i < end; i += width) {
     const auto more = hn::PromoteTo(lanes, hn::LoadU(narrow, added + i));
-    hn::StoreU(hn::Add(hn::LoadU(lanes, base + i), more), lanes, results + i);
+    hn::Stream(hn::Add(hn::LoadU(lanes, base + i), more), lanes, results + i);
   }
-  for (; i < count; ++i) results[i] = base[i] + static_cast<double>(added[i]);
+  write_to(count);
 }
 
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
@@ -141,6 +151,10 @@ void write_sums(std::span<const VertexRun> runs, const double* base, const float
   }
 }
 
+void finish_writing() {
+  hwy::FlushStream();
+}
+
 }  // namespace crowdface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -151,6 +165,7 @@ HWY_EXPORT(unpack);
 HWY_EXPORT(multiply_floats);
 HWY_EXPORT(multiply_numbers);
 HWY_EXPORT(write_sums);
+HWY_EXPORT(finish_writing);
 
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
   HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, values);
@@ -176,6 +191,10 @@ void add_product(const ProductRows<float>& rows, std::span<const float* const> c
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
                 double* results) {
   HWY_DYNAMIC_DISPATCH(write_sums)(runs, base, added, results);
+}
+
+void finish_writing() {
+  HWY_DYNAMIC_DISPATCH(finish_writing)();
 }
 
 }  // namespace crowdface

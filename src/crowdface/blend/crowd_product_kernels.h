@@ -39,10 +39,13 @@ struct VertexRun {
   std::uint32_t count = 0;
 };
 
-/// results = base + added at the vertices of the runs.
+/// results = base + added at the vertices of the runs, written past the caches: a crowd's faces are
+/// far larger, and a cached store would read from memory what it is about to overwrite.
+/// finish_writing() must follow on the same thread before another may read them.
 /// \param base, results  #V by 3; may be the same
 /// \param added          3 by kPatchVertices: x of all runs' vertices, y, z
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
                 double* results);
+void finish_writing();
 
 }  // namespace crowdface

@@ -15,7 +15,6 @@
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/principal_directions.h"
-#include "crowdface/smooth/tiles.h"
 
 namespace crowdface {
 namespace {
@@ -156,8 +155,9 @@ KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepare
   }
   const double left = std::max(0.0, tolerance - missed);
   return kept_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
+    const double two_edges = 2 * inputs.edge_length_mm / mm_per(config.faces.units);
     return interpolate_fields(head_levels(config, prepared), test_levels(*prepared.nodes).levels,
-                              hilbert_order(inputs.faces.heads.front().positions), left);
+                              patch_order(inputs.faces.heads.front().positions, two_edges), left);
   });
 }
 

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 /// Faces blended together at most: they share the reading of the fields, and memory for more that is new to the
 /// process would take longer than that saves. A multiple of the faces that the product makes at a time.
-constexpr std::size_t kMostAtOnce = 18;
+constexpr std::size_t kMostAtOnce = 24;
 /// What rendering takes per vertex of a face while it runs: its normals, its quads on the image, and the gallery's
 /// smaller mesh. 272 were measured on 1.2 million vertices with a ray tracer's tree of all of them; 74 of its own are left.
 constexpr std::uint64_t kRenderBytesAVertex = 300;

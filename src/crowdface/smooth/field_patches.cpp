@@ -9,6 +9,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/smooth/field_kernels.h"
+#include "crowdface/smooth/tiles.h"
 
 namespace crowdface {
 namespace {
@@ -281,6 +282,28 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
   result.numbers = lists_.numbers.data() + place.number;
   if (!result.is_whole()) result.weights = lists_.weights.data() + place.weight;
   return result;
+}
+
+std::vector<std::uint32_t> patch_order(const Positions& positions, double near) {
+  constexpr std::uint32_t kLongest = 32;
+  const auto vertices = static_cast<std::uint32_t>(positions.rows());
+  std::vector<std::uint32_t> firsts;  // of the stretches, and the number of vertices
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const bool goes_on = !firsts.empty() && v - firsts.back() < kLongest &&
+                         (positions.row(v) - positions.row(v - 1)).norm() <= near;
+    if (!goes_on) firsts.push_back(v);
+  }
+  Positions at(static_cast<Index>(firsts.size()), 3);
+  for (std::size_t i = 0; i < firsts.size(); ++i) {
+    at.row(static_cast<Index>(i)) = positions.row(firsts[i]);
+  }
+  firsts.push_back(vertices);
+  std::vector<std::uint32_t> order;
+  order.reserve(vertices);
+  for (const std::uint32_t i : hilbert_order(at)) {
+    for (std::uint32_t v = firsts[i]; v < firsts[i + 1]; ++v) order.push_back(v);
+  }
+  return order;
 }
 
 FieldPatches interpolate_fields(std::span<const HeadLevels> heads,

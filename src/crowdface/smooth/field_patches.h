@@ -78,9 +78,15 @@ class FieldPatches {
   std::vector<Place> places_;
 };
 
+/// All vertices in an order for patches, along a curve through space (hilbert_order): but stretches of some that follow
+/// each other in the mesh, and are near each other, stay together, so that faces are written in longer pieces.
+/// \param positions  #V by 3, any head of the topology
+/// \param near       in the positions' unit
+std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
+
 /// \param heads      at least one, of the same mesh
 /// \param levels     that errors are bounded at
-/// \param order      #V: all vertices, those that follow each other near each other (hilbert_order)
+/// \param order      #V: all vertices, those that follow each other near each other (patch_order)
 /// \param tolerance  no vertex misses any of the levels of any head by more (without rounding: numbers are rounded once
 ///                   more to the steps of the patch, none of which exceeds the largest of its vertices' tiles), in the
 ///                   positions' unit.
