@@ -38,11 +38,13 @@ class AlignedFloats {
  public:
   /// Keeps nothing of what was there.
   float* sized(std::size_t count) {
-    lines_.resize((count + kPatchStep - 1) / kPatchStep);
-    return lines_.data()->values;
+    lines_.resize(count / kPatchStep + 1);
+    return lines_.front().values;
   }
   float* zeros(std::size_t count) {
-    return std::fill_n(sized(count), count, 0.0F) - static_cast<std::ptrdiff_t>(count);
+    float* values = sized(count);
+    std::fill_n(values, count, 0.0F);
+    return values;
   }
 
  private:

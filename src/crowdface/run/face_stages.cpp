@@ -78,6 +78,10 @@ std::uint64_t level_bytes(const Prepared& prepared) {
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped) bytes += levels.fields.numbers.size_bytes();
   }
+  const PatchLists& patches = prepared.patches.patches.lists();
+  if (!prepared.patches.mapped) {
+    bytes += patches.weights.size_bytes() + patches.numbers.size_bytes();
+  }
   return bytes;
 }
 
