@@ -20,16 +20,31 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-/// How many rays Embree traces together.
-constexpr std::size_t kTogether = 16;
+/// Rays that Embree traces together. Packets wider than the processor's vectors it traces ray by ray.
+struct EightRays {
+  static constexpr std::size_t kCount = 8;
+  using Rays = RTCRay8;
+  using RaysAndHits = RTCRayHit8;
+  static constexpr auto kIntersect = rtcIntersect8;
+  static constexpr auto kOccluded = rtcOccluded8;
+};
+
+struct SixteenRays {
+  static constexpr std::size_t kCount = 16;
+  using Rays = RTCRay16;
+  using RaysAndHits = RTCRayHit16;
+  static constexpr auto kIntersect = rtcIntersect16;
+  static constexpr auto kOccluded = rtcOccluded16;
+};
 
 /// \param valid  -1 for each of the packet's rays that is one, 0 for the rest.
-void fill(std::span<const Ray> rays, RTCRay16& packet, std::array<int, kTogether>& valid) {
+template <class Packet, std::size_t kCount>
+void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
   valid.fill(0);
   // Where Embree has no packets as wide as these it looks at all lanes: those without a ray must be numbers, and inactive.
   packet = {};
-  std::fill_n(packet.tnear, kTogether, std::numeric_limits<float>::infinity());
-  std::fill_n(packet.tfar, kTogether, -std::numeric_limits<float>::infinity());
+  std::fill_n(packet.tnear, kCount, std::numeric_limits<float>::infinity());
+  std::fill_n(packet.tfar, kCount, -std::numeric_limits<float>::infinity());
   for (std::size_t r = 0; r < rays.size(); ++r) {
     const Ray& ray = rays[r];
     valid[r] = -1;
@@ -62,22 +77,66 @@ void pass_holes(const RTCFilterFunctionNArguments* met) {
   }
 }
 
-/// Calls `body(first, packet of rays)` for sixteen rays after the other.
+/// Calls `body(first, packet of rays)` for as many rays after the other as go into one.
 template <class Body>
-void for_each_packet(std::span<const Ray> rays, const Body& body) {
-  for (std::size_t first = 0; first < rays.size(); first += kTogether) {
-    body(first, rays.subspan(first, std::min(kTogether, rays.size() - first)));
+void for_each_packet(std::span<const Ray> rays, std::size_t count, const Body& body) {
+  for (std::size_t first = 0; first < rays.size(); first += count) {
+    body(first, rays.subspan(first, std::min(count, rays.size() - first)));
   }
+}
+
+template <class Packet>
+std::vector<std::optional<RayHit>> nearest_hits_of(std::span<const Ray> rays, RTCScene scene) {
+  std::vector<std::optional<RayHit>> hits(rays.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for_each_packet(rays, Packet::kCount, [&](std::size_t first, std::span<const Ray> some) {
+    alignas(64) std::array<int, Packet::kCount> valid;
+    typename Packet::RaysAndHits query;
+    fill(some, query.ray, valid);
+    std::fill_n(query.hit.geomID, Packet::kCount, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.instID[0], Packet::kCount, RTC_INVALID_GEOMETRY_ID);
+    Packet::kIntersect(valid.data(), scene, &context, &query);
+    for (std::size_t r = 0; r < some.size(); ++r) {
+      const auto& hit = query.hit;
+      if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
+      hits[first + r] = RayHit{hit.primID[r],
+                               hit.u[r],
+                               hit.v[r],
+                               query.ray.tfar[r],
+                               {hit.Ng_x[r], hit.Ng_y[r], hit.Ng_z[r]}};
+    }
+  });
+  return hits;
+}
+
+template <class Packet>
+std::vector<bool> occluded_of(std::span<const Ray> rays, RTCScene scene) {
+  std::vector<bool> blocked(rays.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for_each_packet(rays, Packet::kCount, [&](std::size_t first, std::span<const Ray> some) {
+    alignas(64) std::array<int, Packet::kCount> valid;
+    typename Packet::Rays query;
+    fill(some, query, valid);
+    Packet::kOccluded(valid.data(), scene, &context, &query);
+    for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
+  });
+  return blocked;
 }
 
 }  // namespace
 
 struct RayDevice::State {
   RTCDevice device;
+  bool takes_sixteen;  ///< rays together
 };
 
-RayDevice::RayDevice() : state_(std::make_unique<State>(State{rtcNewDevice(nullptr)})) {
+RayDevice::RayDevice() : state_(std::make_unique<State>(State{rtcNewDevice(nullptr), false})) {
   if (state_->device == nullptr) fail("does not start", rtcGetDeviceError(nullptr));
+  state_->takes_sixteen =
+      rtcGetDeviceProperty(state_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
 }
 RayDevice::~RayDevice() {
   rtcReleaseDevice(state_->device);
@@ -85,12 +144,14 @@ RayDevice::~RayDevice() {
 
 struct RayScene::State {
   RTCDevice device;
+  bool takes_sixteen;
   std::vector<float> points;
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;  ///< none if there are no quads
   Opacity opacity;                 ///< none: all is there
 
-  State(RTCDevice embree, std::vector<float> first) : device(embree), points(std::move(first)) {}
+  State(const RayDevice::State& embree, std::vector<float> first)
+      : device(embree.device), takes_sixteen(embree.takes_sixteen), points(std::move(first)) {}
   ~State() {
     if (geometry != nullptr) rtcReleaseGeometry(geometry);
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -113,7 +174,7 @@ struct RayScene::State {
 
 RayScene::RayScene(const RayDevice& device, std::vector<float> points,
                    const std::vector<Quad>& quads, Tree tree)
-    : state_(std::make_unique<State>(device.state().device, std::move(points))) {
+    : state_(std::make_unique<State>(device.state(), std::move(points))) {
   State& state = *state_;
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
@@ -155,42 +216,13 @@ void RayScene::move_points(std::vector<float>& points) {
 }
 
 std::vector<std::optional<RayHit>> RayScene::nearest_hits(std::span<const Ray> rays) const {
-  std::vector<std::optional<RayHit>> hits(rays.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for_each_packet(rays, [&](std::size_t first, std::span<const Ray> some) {
-    alignas(64) std::array<int, kTogether> valid;
-    RTCRayHit16 query;
-    fill(some, query.ray, valid);
-    std::fill_n(query.hit.geomID, kTogether, RTC_INVALID_GEOMETRY_ID);
-    std::fill_n(query.hit.instID[0], kTogether, RTC_INVALID_GEOMETRY_ID);
-    rtcIntersect16(valid.data(), state_->scene, &context, &query);
-    for (std::size_t r = 0; r < some.size(); ++r) {
-      const RTCHit16& hit = query.hit;
-      if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
-      hits[first + r] = RayHit{hit.primID[r],
-                               hit.u[r],
-                               hit.v[r],
-                               query.ray.tfar[r],
-                               {hit.Ng_x[r], hit.Ng_y[r], hit.Ng_z[r]}};
-    }
-  });
-  return hits;
+  return state_->takes_sixteen ? nearest_hits_of<SixteenRays>(rays, state_->scene)
+                               : nearest_hits_of<EightRays>(rays, state_->scene);
 }
 
 std::vector<bool> RayScene::occluded(std::span<const Ray> rays) const {
-  std::vector<bool> blocked(rays.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  for_each_packet(rays, [&](std::size_t first, std::span<const Ray> some) {
-    alignas(64) std::array<int, kTogether> valid;
-    RTCRay16 query;
-    fill(some, query, valid);
-    rtcOccluded16(valid.data(), state_->scene, &context, &query);
-    for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
-  });
-  return blocked;
+  return state_->takes_sixteen ? occluded_of<SixteenRays>(rays, state_->scene)
+                               : occluded_of<EightRays>(rays, state_->scene);
 }
 
 Eigen::Vector3f RayScene::point(std::uint32_t vertex) const {
