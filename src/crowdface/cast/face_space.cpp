@@ -47,9 +47,35 @@ struct FaceSpace::FunctionRows {
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands)
     : heads_(std::move(heads)) {
   choose_counting(weights);
-  build_basis();
-  build_directions(bands);
-  if (heads_.alpha.cols() > 1) build_region_metrics();
+  const FloatRows basis = find_functions();
+  place_heads_and_fields();
+  find_directions(bands);
+  directions_transposed_ = tables_.directions.transpose();
+  if (heads_.alpha.cols() == 1) return;
+  find_region_shares();
+  find_region_metrics(basis);
+}
+
+FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables)
+    : heads_(std::move(heads)), tables_(std::move(tables)) {
+  require(fit(tables_, heads_), "face space: tables of other heads");
+  choose_counting(weights);
+  place_heads_and_fields();
+  directions_transposed_ = tables_.directions.transpose();
+  if (heads_.alpha.cols() > 1) find_region_shares();
+}
+
+bool FaceSpace::fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
+  const std::size_t sides = heads.image == nullptr ? 1 : 2;
+  const FunctionRows rows{static_cast<Index>(sides * heads.heads.size()), tables.levels.cols()};
+  const Index regions = heads.alpha.cols(), rank = tables.directions.rows();
+  return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
+         tables.functions.rows() == rows.count(regions) &&
+         tables.directions.cols() == 3 * tables.functions.cols() &&
+         static_cast<Index>(tables.metrics.size()) == (regions > 1 ? regions : 0) &&
+         std::ranges::all_of(tables.metrics, [&](const FloatRows& metric) {
+           return metric.rows() == rank && metric.cols() == rank;
+         });
 }
 
 void FaceSpace::choose_counting(const std::vector<double>& weights) {
@@ -133,18 +159,26 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
 /// Every face is a sum of the heads and of their smoothed-away fields under the masks. Orthonormal
 /// scalar functions that span all of those turn the samples of a face into #P by 3 numbers, in
 /// which rotations and distances are what they are at the samples, and the centre is the origin.
-void FaceSpace::build_basis() {
+/// \return those functions, #P by #S
+FloatRows FaceSpace::find_functions() {
   const SpanBasis modes = level_modes();
+  tables_.levels = modes.coordinates;
   std::vector<float> peaks;
   for (Index r = 0; r < modes.directions.rows(); ++r) {
     peaks.push_back(modes.coordinates.col(r).cwiseAbs().maxCoeff());
+    for (Index l = 0; l < tables_.levels.rows(); ++l) tables_.levels(l, r) /= peaks.back();
   }
   const FunctionRows rows{head_point_count(), modes.directions.rows()};
-  const SpanBasis basis =
+  SpanBasis basis =
       span_basis(functions(modes, peaks, rows), kFieldTolerance, sides() * kMostFunctions);
-  basis_ = basis.directions;
+  tables_.functions = std::move(basis.coordinates);
+  return std::move(basis.directions);
+}
+
+void FaceSpace::place_heads_and_fields() {
+  const FunctionRows rows{head_point_count(), tables_.levels.cols()};
   const auto shape_at = [&](Index row) -> Shape {
-    return basis.coordinates.middleRows<3>(row).transpose();
+    return tables_.functions.middleRows<3>(row).transpose();
   };
   mean_shape_ = shape_at(0);
   for (Index h = 0; h < rows.heads; ++h) {
@@ -157,7 +191,7 @@ void FaceSpace::build_basis() {
     for (Index r = 0; r < rows.modes; ++r) {
       const Shape mode = shape_at(rows.of_field(kh, r));
       for (Index l = 0; l < levels; ++l) {
-        const float factor = modes.coordinates(l, r) / peaks[static_cast<std::size_t>(r)];
+        const float factor = tables_.levels(l, r);
         float* out = fields_.data() + (kh * levels + l) * size;
         for (Index i = 0; i < size; ++i) out[i] += factor * mode.data()[i];
       }
@@ -227,7 +261,7 @@ std::vector<float> FaceSpace::aligned(const Shape& shape) const {
   return turned;
 }
 
-void FaceSpace::build_directions(std::size_t bands) {
+void FaceSpace::find_directions(std::size_t bands) {
   const Index heads = head_point_count();
   FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
   parallel_for_each(rows.rows(), [&](Index n) {
@@ -238,13 +272,13 @@ void FaceSpace::build_directions(std::size_t bands) {
                         Extrapolation::kAsGiven));
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
-  directions_ = span_basis(std::move(rows), kFaceTolerance, sides() * kMostDirections).directions;
-  directions_transposed_ = directions_.transpose();
+  tables_.directions =
+      span_basis(std::move(rows), kFaceTolerance, sides() * kMostDirections).directions;
 }
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const std::vector<float> at = aligned(shape);
-  const Index rank = directions_.rows();
+  const Index rank = tables_.directions.rows();
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
@@ -278,20 +312,29 @@ double FaceSpace::distance(const Point& a, const Point& b) {
       std::min(squared_distance(a.as_built, b.as_built), squared_distance(a.unit, b.unit)));
 }
 
-/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), carried over to the main directions
-/// once: with the basis' values at the samples G_k = U diag(α_k) Uᵀ on the functions, then V G_k Vᵀ.
-void FaceSpace::build_region_metrics() {
-  const Index functions = basis_.rows(), rank = directions_.rows();
+void FaceSpace::find_region_shares() {
   for (Index k = 0; k < heads_.alpha.cols(); ++k) {
     double share = 0;
-    FloatRows masked = basis_;  // its values hold √w_s
-    for (Index i = 0; i < basis_.cols(); ++i) {
+    for (Index i = 0; i < roots_.size(); ++i) {
+      share += static_cast<double>(roots_[i]) * static_cast<double>(roots_[i]) *
+               heads_.alpha(sample_at(i), k);
+    }
+    region_shares_.push_back(share);
+  }
+}
+
+/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), carried over to the main directions
+/// once: with the basis' values at the samples G_k = U diag(α_k) Uᵀ on the functions, then V G_k Vᵀ.
+void FaceSpace::find_region_metrics(const FloatRows& basis) {
+  const FloatRows& directions = tables_.directions;
+  const Index functions = basis.rows(), rank = directions.rows();
+  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
+    FloatRows masked = basis;  // its values hold √w_s
+    for (Index i = 0; i < basis.cols(); ++i) {
       const double alpha = heads_.alpha(sample_at(i), k);
-      share += static_cast<double>(roots_[i]) * static_cast<double>(roots_[i]) * alpha;
       const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
       for (Index p = 0; p < functions; ++p) masked(p, i) *= root;
     }
-    region_shares_.push_back(share);
     const auto samples = static_cast<std::size_t>(masked.cols());
     FloatRows gram(functions, functions);
     parallel_for_each(functions, [&](Index p) {
@@ -306,24 +349,24 @@ void FaceSpace::build_region_metrics() {
       std::vector<float> along(static_cast<std::size_t>(3 * functions));
       for (Index c = 0; c < 3; ++c) {
         Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);
-        for (Index q = 0; q < functions; ++q) of_direction[q] = directions_(d, 3 * q + c);
+        for (Index q = 0; q < functions; ++q) of_direction[q] = directions(d, 3 * q + c);
         add_scaled_rows(of_direction.data(), static_cast<std::size_t>(functions), gram.data(),
                         static_cast<std::size_t>(functions), sums.data());
         for (Index p = 0; p < functions; ++p) along[static_cast<std::size_t>(3 * p + c)] = sums[p];
       }
       for (Index e = 0; e < rank; ++e) {
         metric(e, d) =
-            static_cast<float>(fixed_dot(directions_.row(e).data(), along.data(), along.size()));
+            static_cast<float>(fixed_dot(directions.row(e).data(), along.data(), along.size()));
       }
     });
-    region_metrics_.push_back(std::move(metric));
+    tables_.metrics.push_back(std::move(metric));
   }
 }
 
 FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) const {
   RegionPoint result{&point, {}, {}};
-  if (region_metrics_.empty()) return result;
-  const FloatRows& metric = region_metrics_[static_cast<std::size_t>(region)];
+  if (tables_.metrics.empty()) return result;
+  const FloatRows& metric = tables_.metrics[static_cast<std::size_t>(region)];
   const auto times = [&](const Eigen::VectorXf& at) {
     const auto size = static_cast<std::size_t>(metric.rows());
     Eigen::VectorXf product(metric.rows());
@@ -338,7 +381,7 @@ FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) co
 }
 
 double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const {
-  if (region_metrics_.empty()) return distance(*a.point, *b.point);
+  if (tables_.metrics.empty()) return distance(*a.point, *b.point);
   const double share = region_shares_[static_cast<std::size_t>(region)];
   if (!(share > 0)) return 0;
   // (x − y)ᵀ M (x − y) with M x and M y known.

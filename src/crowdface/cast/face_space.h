@@ -8,6 +8,15 @@
 
 namespace crowdface {
 
+/// What of a face space takes long to find.
+struct FaceSpaceTables {
+  FloatRows levels;  ///< #levels by #modes: how much of each mode a level takes
+  FloatRows
+      functions;  ///< #functions by #P: what faces are sums of, in the basis of scalar functions
+  FloatRows directions;            ///< #D by 3·#P: main directions of faces' aligned shapes
+  std::vector<FloatRows> metrics;  ///< #regions (none of one), #D by #D, times its share
+};
+
 /// Where faces lie, computed from recipes alone: enough to tell how far apart two faces are without
 /// building a mesh. Every face is aligned rigidly to the mean head, which matches pairwise alignment
 /// closely (docs/casting.md), and has coordinates in a space where straight lines measure the root
@@ -24,13 +33,19 @@ class FaceSpace {
   /// \param weights  #S, what each sample counts, see sample_weights; those of zero do not count.
   /// \param bands    of each region's detail: more of them differ in more ways.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
+  /// The same from what `tables()` of the same heads and weights returned. \pre they fit
+  FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables);
+
+  /// Whether tables have the sizes of those of such heads.
+  static bool fit(const FaceSpaceTables& tables, const SampledHeads& heads);
+  const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
   /// An input head, whose two coordinates are one; from number head_count() on the heads' mirror images,
   /// where faces may be mirrored.
   Point head_point(Index head) const;
 
-  Index dimensions() const { return directions_.rows() + 1; }
+  Index dimensions() const { return tables_.directions.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
   /// The same, their mirror images included where there are some.
   Index head_point_count() const { return sides() * head_count(); }
@@ -76,9 +91,11 @@ class FaceSpace {
   void put_function(const Value& value, float* row) const;
   FloatRows functions(const SpanBasis& modes, const std::vector<float>& peaks,
                       const FunctionRows& rows) const;
-  void build_basis();
-  void build_directions(std::size_t bands);
-  void build_region_metrics();
+  FloatRows find_functions();
+  void place_heads_and_fields();
+  void find_directions(std::size_t bands);
+  void find_region_metrics(const FloatRows& basis);
+  void find_region_shares();
   Shape shape_of(const Recipe& recipe, Extrapolation extrapolation) const;
   Shape shape_in_side(const Recipe& recipe, Extrapolation extrapolation, Index side) const;
   std::vector<float> aligned(const Shape& shape) const;
@@ -88,14 +105,12 @@ class FaceSpace {
   SampledHeads heads_;
   std::vector<Index> counting_;  ///< samples that count in a distance
   Eigen::VectorXf roots_;        ///< √w of each
-  FloatRows basis_;              ///< #P by #S: orthonormal functions on the samples
-  Shape mean_shape_;             ///< #P by 3
-  std::vector<Shape> shapes_;    ///< of the heads of all sides
+  FaceSpaceTables tables_;
+  Shape mean_shape_;           ///< #P by 3
+  std::vector<Shape> shapes_;  ///< of the heads of all sides
   std::vector<float> fields_;  ///< α_k (S_L x_h − x_h): regions, those heads, rows, then #P by 3
-  FloatRows directions_;       ///< #D by 3·#P: main directions of faces' aligned shapes
   FloatRows directions_transposed_;
-  std::vector<FloatRows> region_metrics_;  ///< #regions (none of one), #D by #D, times its share
-  std::vector<double> region_shares_;      ///< of the face's area
+  std::vector<double> region_shares_;  ///< of the face's area; none of one
 };
 
 }  // namespace crowdface

@@ -16,6 +16,8 @@ inline constexpr int kMirrorVersion =
 inline constexpr int kPrepareVersion = 6;
 inline constexpr int kPatchVersion =
     1;  ///< all heads' fields on patches, and the faces made of them
+/// Where casting finds faces to lie, and so the plans made there.
+inline constexpr int kFaceSpaceVersion = 1;
 /// What the cache keeps besides: neighbours, masks at vertices, samples and their cells, the other side.
 inline constexpr int kSharedVersion = 1;
 /// A picture, what is found about a skin, or a mesh file of the same positions.

@@ -120,7 +120,7 @@ EditSession::EditSession(Job job, const std::filesystem::path& cache, std::size_
 
 EditSession::Judging EditSession::judging() const {
   auto where =
-      std::make_unique<const CastingSpace>(casting_space(job_.config, job_.inputs, prepared_));
+      std::make_unique<const CastingSpace>(casting_space(job_.config, job_.inputs, prepared_, {}));
   const FaceSpace& space = where->space;
   FacePointIndex crowd(space.dimensions());
   if (crowd_) {

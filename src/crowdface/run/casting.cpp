@@ -14,6 +14,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/kept_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
 
 namespace crowdface {
@@ -253,7 +254,8 @@ void round_as_planned(std::vector<CastFace>& crowd) {
 
 }  // namespace
 
-CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared) {
+CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                           const std::filesystem::path& cache) {
   const std::vector<double> areas =
       face_areas(inputs.faces.topology, inputs.skin, inputs.mean, config.distance.area,
                  config.faces.front, inputs.distance_mask);
@@ -265,8 +267,9 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
     heads.image = sample_images(inputs.faces, inputs.regions, *inputs.mirror, prepared.samples,
                                 prepared.traced, heads);
   }
-  FaceSpace space(std::move(heads), sample_weights(cells, prepared.samples, areas),
-                  band_count(config.sampling));
+  FaceSpace space =
+      kept_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
+                      band_count(config.sampling));
   ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
                  space.sampled().heads);
   return {std::move(space), std::move(skin)};
@@ -298,8 +301,8 @@ AttachmentDraw attachment_draw(const Config& config) {
 }
 
 Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
-          const MeshDefects& defects) {
-  const CastingSpace judged_in = casting_space(config, inputs, prepared);
+          const MeshDefects& defects, const std::filesystem::path& cache) {
+  const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
   const Casting casting = casting_of(config, inputs, head_distances);

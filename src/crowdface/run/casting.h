@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ struct CastingSpace {
   FaceSpace space;
   ProxySkin skin;
 };
-CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared);
+/// \param cache  where the tables of the space are kept; empty: nowhere.
+CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                           const std::filesystem::path& cache);
 
 /// What casting is to do, from the config.
 Casting casting_of(const Config& config, const Inputs& inputs,
@@ -61,9 +64,10 @@ AttachmentDraw attachment_draw(const Config& config);
 
 /// Casts the crowd.
 /// \param defects  what is wrong with a candidate's whole mesh; none: meshes are not judged.
+/// \param cache    as of casting_space.
 /// \throws Unsatisfiable if the constraints cannot be met: which one binds, how far it went, and what
 /// would help.
 Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
-          const MeshDefects& defects);
+          const MeshDefects& defects, const std::filesystem::path& cache);
 
 }  // namespace crowdface

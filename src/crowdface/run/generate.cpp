@@ -109,7 +109,8 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
   crowd->plan_files = std::move(planned->files);
   if (options.shard.whole()) {
     crowd->cast = timed(stages, "cast", [&] {
-      return cast_as_planned(job, directory, crowd->prepared, std::move(planned->faces));
+      return cast_as_planned(job, directory, crowd->prepared, std::move(planned->faces),
+                             options.cache);
     });
     crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
     check_compared_crowd(job.config, crowd->cast.crowd);
@@ -132,7 +133,7 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
     MeshDefects defects;
     if (candidates_are_built(job.config))
       defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
-    return cast(job.config, job.inputs, crowd->prepared, defects);
+    return cast(job.config, job.inputs, crowd->prepared, defects, options.cache);
   });
   log_casting(crowd->cast, job.names.heads);
   for (const std::string& text : contradicted_quotas(job.config, crowd->cast)) log_warning(text);

@@ -126,8 +126,8 @@ std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& direct
 }
 
 Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                     std::vector<CastFace> crowd) {
-  const FaceSpace space = casting_space(job.config, job.inputs, prepared).space;
+                     std::vector<CastFace> crowd, const std::filesystem::path& cache) {
+  const FaceSpace space = casting_space(job.config, job.inputs, prepared, cache).space;
   const Casting casting = casting_of(job.config, job.inputs, space.head_distances());
   Cast cast;
   cast.anchors = casting.anchors;

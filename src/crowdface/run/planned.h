@@ -44,7 +44,8 @@ std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& direct
 
 /// What `cast` says of a crowd, as far as it is needed once its plan is written: nothing of distances,
 /// rejections and how families came out, which casting.json tells.
+/// \param cache  as of casting_space.
 Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                     std::vector<CastFace> crowd);
+                     std::vector<CastFace> crowd, const std::filesystem::path& cache);
 
 }  // namespace crowdface
