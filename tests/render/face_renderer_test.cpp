@@ -209,7 +209,8 @@ TEST(FaceRenderer, SoftShadowsHaveNoGrain) {
   const Rgb8Image image =
       FaceRenderer(scene.topology, {.size_px = size}).render(scene.positions, camera);
   const Rgb8Image smooth =
-      FaceRenderer(scene.topology, {.size_px = size, .samples_per_side = 12, .light_rays = 48})
+      FaceRenderer(scene.topology,
+                   {.size_px = size, .samples_per_side = 12, .key_rays = 48, .sky_rays = 48})
           .render(scene.positions, camera);
   double squares = 0;
   int shadow = 255;
@@ -283,7 +284,8 @@ TEST(FaceRenderer, RefusesWhatDoesNotFit) {
   const Camera camera = camera_for(sphere.positions);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.size_px = 0}), BrokenPrecondition);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.samples_per_side = 0}), BrokenPrecondition);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {.light_rays = 0}), BrokenPrecondition);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.key_rays = 0}), BrokenPrecondition);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.sky_rays = 0}), BrokenPrecondition);
   EXPECT_THROW(FaceRenderer(sphere.topology, {}, {{SurfaceKind::kSkin}}), BrokenPrecondition);
   const FaceRenderer renderer(sphere.topology, {.size_px = 16});
   EXPECT_THROW(renderer.render(sphere.positions.topRows(5), camera), BrokenPrecondition);

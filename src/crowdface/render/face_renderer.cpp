@@ -114,7 +114,7 @@ struct FaceRenderer::Prepared {
       : topology(mesh),
         fans(mesh),
         options(choice),
-        sampling(choice.samples_per_side, choice.light_rays) {}
+        sampling(choice.samples_per_side, choice.key_rays, choice.sky_rays) {}
 
   /// Has the workspace's points in its scene.
   void put_into_scene(Workspace& workspace) const {
@@ -175,9 +175,10 @@ void check_size(const Topology& topology, const Positions& positions) {
 void check(const Topology& topology, const RenderOptions& options, const Surfaces& surfaces) {
   require(options.size_px >= 1 && options.size_px <= 16384, "render: ", options.size_px, " pixels");
   require(options.samples_per_side >= 1 && options.samples_per_side <= 16 &&
-              options.light_rays >= 1 && options.light_rays <= 256,
-          "render: ", options.samples_per_side, " samples a side, ", options.light_rays,
-          " rays to each light");
+              options.key_rays >= 1 && options.key_rays <= 256 && options.sky_rays >= 1 &&
+              options.sky_rays <= 256,
+          "render: ", options.samples_per_side, " samples a side, ", options.key_rays, " and ",
+          options.sky_rays, " rays to the lights");
   for (const std::size_t found : {surfaces.kinds.size(), surfaces.paints.size()}) {
     require(found == 0 || static_cast<Index>(found) == topology.face_count(), "render: ", found,
             " surfaces, ", topology.face_count(), " faces");

@@ -19,7 +19,8 @@ struct RenderOptions {
   int size_px = 256;         ///< side of the square image
   int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel where the picture
                              ///< changes, at fixed places; four where it does not
-  int light_rays = 3;        ///< a pixel towards each light; pixels share what theirs find
+  int key_rays = 3;          ///< a pixel towards the key light; pixels share what theirs find
+  int sky_rays = 2;          ///< the same towards the sky, where nothing has sharp edges
   bool occlusion = true;     ///< whether the sky's light is kept out of hollows
   Axis front = {2, 1};       ///< where the eyes look: irises are painted there
 };

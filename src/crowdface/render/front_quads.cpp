@@ -213,12 +213,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace crowdface {
-namespace {
-
-constexpr std::size_t kMostLanes = 16;
-
-}  // namespace
-
 HWY_EXPORT(add_to_squares);
 HWY_EXPORT(put_in_front);
 

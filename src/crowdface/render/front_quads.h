@@ -19,6 +19,9 @@ inline constexpr int kRim = 2;
 /// A square with its rim.
 inline constexpr int kRimmed = kSquare + 2 * kRim;
 
+/// Lists of numbers end with as many more as a vector of the processor holds at most.
+inline constexpr std::size_t kMostLanes = 16;
+
 /// A vertex on the image.
 struct alignas(16) PlacedVertex {
   float x, y;      ///< in pixels; infinite behind the camera

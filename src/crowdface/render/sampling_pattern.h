@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,6 +23,7 @@ class InterleavedDisc {
   explicit InterleavedDisc(int rays);
   /// Ray `k` of a pixel; only x and y modulo kInterleave count.
   const Eigen::Vector2f& point(int x, int y, int k) const;
+  std::size_t rays() const { return points_.size() / (kInterleave * kInterleave); }
 
  private:
   std::vector<Eigen::Vector2f> points_;

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/light_sharing.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crowdface/render/light_sharing.cpp"
+#include "hwy/foreach_target.h"
+// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace crowdface::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, 16>;
+using Numbers = hn::VFromD<Lanes>;
+
+HWY_INLINE Numbers number(float value) {
+  return hn::Set(Lanes(), value);
+}
+
+/// Rays of a light, weighted.
+struct Rays {
+  Numbers open, asked;
+
+  void add(Numbers others_open, Numbers others_asked, Numbers weight) {
+    open = hn::Add(open, hn::Mul(weight, others_open));
+    asked = hn::Add(asked, hn::Mul(weight, others_asked));
+  }
+  /// \param unasked  where there are none
+  Numbers share(float unasked) const {
+    return hn::IfThenElse(hn::Gt(asked, number(0)), hn::Div(open, asked), number(unasked));
+  }
+};
+
+template <bool kInARow>
+void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
+           std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
+  using Field = PointLights;
+  // The pixels around a point count its own pixel in; this is for a point unlike all of them.
+  const Numbers own = number(0.01F);
+  const Numbers zero = number(0), one = number(1);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {
+    const auto of_point = [&](int field) {
+      return hn::LoadU(Lanes(), points.lists[static_cast<std::size_t>(field)] + i);
+    };
+    const Numbers x = of_point(Field::kPoint), y = of_point(Field::kPoint + 1);
+    const Numbers z = of_point(Field::kPoint + 2), u = of_point(Field::kNormal);
+    const Numbers v = of_point(Field::kNormal + 1), w = of_point(Field::kNormal + 2);
+    Rays key = {zero, zero}, sky = {zero, zero};
+    key.add(of_point(Field::kKeyOpen), of_point(Field::kKeyAsked), own);
+    sky.add(of_point(Field::kSkyOpen), of_point(Field::kSkyAsked), own);
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 3; ++column) {
+        const std::size_t at =
+            pixel + row * PixelLights::kStride + column - PixelLights::kStride - 1;
+        const auto there = [&](int field) {
+          return kInARow ? hn::LoadU(Lanes(), pixels.list(field) + at + i)
+                         : number(pixels.list(field)[at]);
+        };
+        const auto along = [&](Numbers a, Numbers b, Numbers c) {
+          return hn::Add(hn::Add(hn::Mul(u, a), hn::Mul(v, b)), hn::Mul(w, c));
+        };
+        // How far the pixel shows the point's surface: 0 elsewhere, 1 right beside it.
+        const Numbers cosine =
+            along(there(Field::kNormal), there(Field::kNormal + 1), there(Field::kNormal + 2));
+        const Numbers facing =
+            hn::Min(hn::Max(hn::Mul(hn::Sub(cosine, number(0.7F)), number(4)), zero), one);
+        const Numbers height =
+            along(hn::Sub(there(Field::kPoint), x), hn::Sub(there(Field::kPoint + 1), y),
+                  hn::Sub(there(Field::kPoint + 2), z));
+        const Numbers pixels_away = hn::Div(hn::Abs(height), number(pixel_side));
+        const Numbers beside = hn::Min(hn::Max(hn::Sub(number(2), pixels_away), zero), one);
+        const Numbers likeness = hn::Mul(facing, beside);
+        key.add(there(Field::kKeyOpen), there(Field::kKeyAsked), likeness);
+        sky.add(there(Field::kSkyOpen), there(Field::kSkyAsked), likeness);
+      }
+    }
+    hn::StoreU(key.share(0), Lanes(), key_shares + i);
+    hn::StoreU(sky.share(1), Lanes(), sky_shares + i);
+  }
+}
+
+void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
+                  std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky) {
+  in_a_row ? share<true>(points, count, pixels, pixel, pixel_side, key, sky)
+           : share<false>(points, count, pixels, pixel, pixel_side, key, sky);
+}
+
+}  // namespace crowdface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crowdface {
+
+HWY_EXPORT(share_lights);
+
+void PixelLights::clear() {
+  numbers_.assign(PointLights::kFields * kSize, 0.0F);
+}
+
+void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
+                  std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky) {
+  HWY_DYNAMIC_DISPATCH(share_lights)
+  (points, count, pixels, pixel, in_a_row, pixel_side, key, sky);
+}
+
+}  // namespace crowdface
+#endif

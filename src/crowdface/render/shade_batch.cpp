@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/shade_batch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crowdface/render/shade_batch.cpp"
+#include "hwy/foreach_target.h"
+// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+#include <algorithm>
+#include <numbers>
+
+#include "crowdface/render/studio.h"
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace crowdface::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, ShadeBatch::kBlock>;
+using Numbers = hn::VFromD<Lanes>;
+
+HWY_INLINE Numbers number(float value) {
+  return hn::Set(Lanes(), value);
+}
+
+HWY_INLINE Numbers square(Numbers x) {
+  return hn::Mul(x, x);
+}
+
+struct Vectors {
+  Numbers x, y, z;
+};
+
+HWY_INLINE Numbers dot(const Vectors& a, const Vectors& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+HWY_INLINE Vectors direction_of(const Lamp& lamp) {
+  return {number(lamp.direction.x()), number(lamp.direction.y()), number(lamp.direction.z())};
+}
+
+/// Diffuse light with the terminator moved to a cosine of −wrap: the mean of a linear and a quadratic
+/// fall-off, in all five sixths of Lambert's light whatever the wrap.
+HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
+  const Numbers whole = hn::Add(number(1), wrap);
+  const Numbers lit = hn::Max(hn::Div(hn::Add(cosine, wrap), whole), number(0));
+  return hn::Mul(number(0.5F), hn::Div(hn::Add(square(lit), lit), whole));
+}
+
+/// Light that bounces inside a crevice is not lost: it comes out in the surface's colour (fit by
+/// Jimenez et al. 2016, "Practical realtime strategies for accurate indirect occlusion").
+HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
+  const auto line = [&](float slope, float at_zero) {
+    return hn::Add(hn::Mul(number(slope), albedo), number(at_zero));
+  };
+  const Numbers a = line(2.0404F, -0.3324F);
+  const Numbers b = line(-4.7951F, 0.6417F);
+  const Numbers c = line(2.7552F, 0.6903F);
+  const Numbers sum =
+      hn::Mul(hn::Add(hn::Mul(hn::Add(hn::Mul(visible, a), b), visible), c), visible);
+  return hn::Min(hn::Max(sum, visible), number(1));
+}
+
+/// Microfacet reflection (GGX distribution, Walter et al. 2007; Schlick's Fresnel) times the
+/// cosine.
+struct Gloss {
+  const Vectors &normal, &to_eye;
+  Numbers alpha2, reflectance, masking;
+
+  Gloss(const Vectors& n, const Vectors& eye, Numbers roughness, Numbers at_normal)
+      : normal(n), to_eye(eye), alpha2(square(square(roughness))), reflectance(at_normal) {
+    masking = beyond(hn::Max(dot(normal, to_eye), number(0.05F)));
+  }
+  HWY_INLINE Numbers beyond(Numbers cosine) const {
+    const Numbers rest = hn::Mul(hn::Sub(number(1), alpha2), square(cosine));
+    return hn::Add(cosine, hn::Sqrt(hn::Add(alpha2, rest)));
+  }
+  HWY_INLINE Numbers of(const Vectors& to_light) const {
+    const Numbers n_l = dot(normal, to_light);
+    const Vectors sum = {hn::Add(to_light.x, to_eye.x), hn::Add(to_light.y, to_eye.y),
+                         hn::Add(to_light.z, to_eye.z)};
+    const Numbers length = hn::Max(hn::Sqrt(dot(sum, sum)), number(1e-6F));
+    const Numbers n_h = hn::Max(hn::Div(dot(normal, sum), length), number(0));
+    const Numbers v_h = hn::Max(hn::Div(dot(to_eye, sum), length), number(0));
+    const Numbers spread = hn::Add(hn::Mul(square(n_h), hn::Sub(alpha2, number(1))), number(1));
+    const Numbers away = hn::Sub(number(1), v_h);
+    const Numbers away5 = hn::Mul(square(square(away)), away);
+    const Numbers fresnel = hn::Add(reflectance, hn::Mul(hn::Sub(number(1), reflectance), away5));
+    const Numbers above = hn::Mul(hn::Mul(n_l, alpha2), fresnel);
+    const Numbers below = hn::Mul(square(spread), hn::Mul(beyond(n_l), masking));
+    return hn::IfThenElseZero(hn::Gt(n_l, number(0)), hn::Div(above, below));
+  }
+};
+
+/// \param points, lights  of a block, from one point on
+HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
+  const auto field = [&](int f) {
+    return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlock);
+  };
+  const auto vectors = [&](int f) { return Vectors{field(f), field(f + 1), field(f + 2)}; };
+  const Vectors normal = vectors(ShadeBatch::kNormal), to_eye = vectors(ShadeBatch::kToEye);
+  const Numbers sky = field(ShadeBatch::kSky), key = field(ShadeBatch::kKey);
+  const Vectors to_key = direction_of(lamps.key), to_fill = direction_of(lamps.fill);
+  const Vectors to_right = direction_of(lamps.rim_right), to_left = direction_of(lamps.rim_left);
+  const Numbers n_key = dot(normal, to_key), n_fill = dot(normal, to_fill);
+  const Numbers right = hn::Mul(hn::Max(dot(normal, to_right), number(0)), sky);
+  const Numbers left = hn::Mul(hn::Max(dot(normal, to_left), number(0)), sky);
+  const Numbers up = hn::Add(number(0.5F), hn::Mul(number(0.5F), normal.y));
+  const Gloss gloss(normal, to_eye, field(ShadeBatch::kRoughness), field(ShadeBatch::kReflectance));
+  const Numbers gleam = field(ShadeBatch::kGleam), shown = field(ShadeBatch::kShown);
+  const Numbers soft = hn::Mul(gleam, square(sky));
+  const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(gleam, key));
+  const Numbers fill_gloss = hn::Mul(gloss.of(to_fill), soft);
+  const Numbers right_gloss = hn::Mul(gloss.of(to_right), soft);
+  const Numbers left_gloss = hn::Mul(gloss.of(to_left), soft);
+  for (int c = 0; c < 3; ++c) {
+    const Numbers albedo = field(ShadeBatch::kAlbedo + c), wrap = field(ShadeBatch::kWrap + c);
+    const Numbers open = with_bounces(sky, albedo);
+    const auto coloured = [&](const Lamp& lamp, Numbers amount) {
+      return hn::Mul(number(lamp.colour[c]), amount);
+    };
+    const Numbers ambient = hn::Add(number(lamps.sky_below[c]),
+                                    hn::Mul(number(lamps.sky_above[c] - lamps.sky_below[c]), up));
+    Numbers diffuse = coloured(lamps.key, hn::Mul(wrapped(n_key, wrap), key));
+    diffuse = hn::Add(diffuse, coloured(lamps.fill, hn::Mul(wrapped(n_fill, wrap), open)));
+    diffuse = hn::Add(diffuse, coloured(lamps.rim_right, right));
+    diffuse = hn::Add(diffuse, coloured(lamps.rim_left, left));
+    diffuse = hn::Add(diffuse, hn::Mul(ambient, open));
+    Numbers light = hn::Mul(albedo, diffuse);
+    light = hn::Add(light, coloured(lamps.key, key_gloss));
+    light = hn::Add(light, coloured(lamps.fill, fill_gloss));
+    light = hn::Add(light, coloured(lamps.rim_right, right_gloss));
+    light = hn::Add(light, coloured(lamps.rim_left, left_gloss));
+    hn::StoreU(hn::Mul(light, shown), Lanes(),
+               lights + static_cast<std::size_t>(c) * ShadeBatch::kBlock);
+  }
+}
+
+void shade_blocks(const float* points, std::size_t blocks, const Studio& lamps, float* lights) {
+  constexpr std::size_t kBlock = ShadeBatch::kBlock;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(Lanes())) {
+      shade_some(points + b * ShadeBatch::kFields * kBlock + i, lamps, lights + b * 3 * kBlock + i);
+    }
+  }
+}
+
+}  // namespace crowdface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crowdface {
+namespace {
+
+/// Lamps are points: what is smoother than this would show nothing of them but dots.
+constexpr float kLeastRoughness = 0.14F;
+
+/// What is darker than any skin is painted hair, which scatters what falls on it.
+float dark_gleam(const Light& albedo) {
+  constexpr float kDarkestSkin = 0.055F;
+  return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
+}
+
+}  // namespace
+
+HWY_EXPORT(shade_blocks);
+
+void ShadeBatch::add(const ShadePoint& point, float gleam) {
+  const std::size_t block = count_ / kBlock * kFields * kBlock;
+  if (points_.size() < block + kFields * kBlock) points_.resize(block + kFields * kBlock, 0.5F);
+  float* const at = points_.data() + block + count_++ % kBlock;
+  const auto put = [&](int field, float value) {
+    at[static_cast<std::size_t>(field) * kBlock] = value;
+  };
+  const Material& material = material_of(point.kind);
+  for (int c = 0; c < 3; ++c) {
+    put(kNormal + c, point.normal[c]);
+    put(kToEye + c, point.to_eye[c]);
+    put(kAlbedo + c, point.albedo[c]);
+    put(kWrap + c, material.wrap[c]);
+  }
+  put(kRoughness, point.roughness >= 0 ? std::clamp(point.roughness, kLeastRoughness, 1.0F)
+                                       : material.roughness);
+  const bool darkens = point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn;
+  put(kReflectance, material.reflectance * (darkens ? dark_gleam(point.albedo) : 1));
+  put(kKey, point.key);
+  put(kSky, point.sky);
+  // What is worn is mostly hair, which lies in all directions.
+  put(kGleam, point.kind == SurfaceKind::kWorn ? 0.45F * gleam : gleam);
+  put(kShown, point.inside ? 0.3F : 1.0F);
+}
+
+void ShadeBatch::shade() {
+  const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
+  lights_.resize(std::max(lights_.size(), blocks * 3 * kBlock));
+  HWY_DYNAMIC_DISPATCH(shade_blocks)(points_.data(), blocks, studio(), lights_.data());
+}
+
+}  // namespace crowdface
+#endif
