@@ -83,7 +83,7 @@ TEST_F(KeptHeads, AreReadOnceAndGiveTheSameCrowd) {
   const CacheContents contents = list_cache(folder_.cache());
   EXPECT_EQ(contents.read, 2U);
   EXPECT_EQ(contents.prepared, 2U);
-  EXPECT_EQ(contents.entries.size(), 6U) << "one mesh for both, and patches of both";
+  EXPECT_EQ(contents.entries.size(), 7U) << "one mesh, patches and a face space of both";
   run();
   EXPECT_THAT(log(), ::testing::HasSubstr(kBoth));
   EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());

@@ -57,7 +57,7 @@ class DamagedCache : public DisturbedCrowd {
 };
 
 TEST_F(DamagedCache, CutAnywhereIsMadeAnew) {
-  ASSERT_EQ(entries_.size(), 3U) << "two heads, and patches of both";
+  ASSERT_EQ(entries_.size(), 4U) << "two heads, patches and a face space of both";
   std::vector<std::string> damaged;
   for (std::size_t size = 0; size < bytes_.size(); size += 4096) {
     damaged.push_back(bytes_.substr(0, size));

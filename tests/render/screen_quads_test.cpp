@@ -152,12 +152,12 @@ TEST(ScreenQuads, TheSameAloneAndOnManyThreadsAndBesidesAFaceBefore) {
     for (const auto& hit : look.hits) found.push_back(hit->distance);
     return found;
   };
-  const auto many = distances(look(surface.points, surface.quads, 64, places));
+  const auto many = distances(look(surface.points, surface.quads, 2 * kSquare, places));
   const ThreadLimit one(1);
-  EXPECT_EQ(distances(look(surface.points, surface.quads, 64, places)), many);
+  EXPECT_EQ(distances(look(surface.points, surface.quads, 2 * kSquare, places)), many);
   ScreenQuads screen;
-  screen.put(before.points, before.quads, kDistance, 128);
-  screen.put(surface.points, surface.quads, kDistance, 64);
+  screen.put(before.points, before.quads, kDistance, 4 * kSquare);
+  screen.put(surface.points, surface.quads, kDistance, 2 * kSquare);
   const PixelRectangle pixels = {0, 0, kSquare + kRim, kSquare + kRim};
   std::vector<std::optional<RayHit>> hits;
   const std::vector<const PixelPlaces*> all(pixels.count(), &places);

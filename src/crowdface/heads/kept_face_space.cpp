@@ -39,7 +39,7 @@ Digest key_of(const SampledHeads& heads, const std::vector<double>& weights, std
   return hasher.digest();
 }
 
-std::vector<float> numbers_of(const FloatRows& rows) {
+std::vector<float> row_by_row(const FloatRows& rows) {
   return {rows.data(), rows.data() + rows.size()};
 }
 
@@ -50,9 +50,9 @@ Lists lists_of(const FaceSpaceTables& tables) {
                            static_cast<Index>(tables.metrics.size())}) {
     sizes.push_back(static_cast<std::uint64_t>(size));
   }
-  levels = numbers_of(tables.levels);
-  functions = numbers_of(tables.functions);
-  directions = numbers_of(tables.directions);
+  levels = row_by_row(tables.levels);
+  functions = row_by_row(tables.functions);
+  directions = row_by_row(tables.directions);
   for (const FloatRows& metric : tables.metrics) {
     metrics.insert(metrics.end(), metric.data(), metric.data() + metric.size());
   }

@@ -13,7 +13,7 @@
 namespace crowdface {
 
 /// An image is cut into squares of this side, in pixels; the rim around each belongs to others, too.
-inline constexpr int kSquareBits = 5;
+inline constexpr int kSquareBits = 6;
 inline constexpr int kSquare = 1 << kSquareBits;
 inline constexpr int kRim = 2;
 /// A square with its rim.

@@ -118,7 +118,7 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   normal.normalize();
   finish(stage, hit.primitive, weights, normal, meeting.surface);
   meeting.surface.normal = towards(meeting.surface.to_eye, side * normal);
-  meeting.asks_key = faces_key(meeting.surface);
+  meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
   // Rays start above the facets, on the smooth surface that the normals speak of, lest facets show
   // where light grazes them (Hanika 2021, "Hacking the shadow terminator").
   // At a sharp edge a vertex's normal may look away from the face: such a lift would lead below it.
@@ -145,7 +145,7 @@ Meeting meet_worn(const Stage& stage, const RayHit& hit, const Vector& direction
   meeting.surface.to_eye = -direction.normalized();
   meeting.surface.normal =
       towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
-  meeting.asks_key = faces_key(meeting.surface);
+  meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
   meeting.start = meeting.point + kRayClearance * geometric;
   return meeting;
 }

@@ -1,124 +1,197 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/shading.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crowdface/render/shading.cpp"
+#include "hwy/foreach_target.h"
+// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
+#include <numbers>
 
-#include <Eigen/Geometry>
+#include "hwy/highway.h"
 
-#include "crowdface/render/shade_batch.h"
-#include "crowdface/render/studio.h"
+HWY_BEFORE_NAMESPACE();
+namespace crowdface::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
+using Lanes = hn::CappedTag<float, ShadeBatch::kBlock>;
+using Numbers = hn::VFromD<Lanes>;
+
+HWY_INLINE Numbers number(float value) {
+  return hn::Set(Lanes(), value);
+}
+
+HWY_INLINE Numbers square(Numbers x) {
+  return hn::Mul(x, x);
+}
+
+struct Vectors {
+  Numbers x, y, z;
+};
+
+HWY_INLINE Numbers dot(const Vectors& a, const Vectors& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+HWY_INLINE Vectors direction_of(const Lamp& lamp) {
+  return {number(lamp.direction.x()), number(lamp.direction.y()), number(lamp.direction.z())};
+}
+
+/// Diffuse light with the terminator moved to a cosine of −wrap: the mean of a linear and a quadratic
+/// fall-off, in all five sixths of Lambert's light whatever the wrap.
+HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
+  const Numbers whole = hn::Add(number(1), wrap);
+  const Numbers lit = hn::Max(hn::Div(hn::Add(cosine, wrap), whole), number(0));
+  return hn::Mul(number(0.5F), hn::Div(hn::Add(square(lit), lit), whole));
+}
+
+/// Light that bounces inside a crevice is not lost: it comes out in the surface's colour (fit by
+/// Jimenez et al. 2016, "Practical realtime strategies for accurate indirect occlusion").
+HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
+  const auto line = [&](float slope, float at_zero) {
+    return hn::Add(hn::Mul(number(slope), albedo), number(at_zero));
+  };
+  const Numbers a = line(2.0404F, -0.3324F);
+  const Numbers b = line(-4.7951F, 0.6417F);
+  const Numbers c = line(2.7552F, 0.6903F);
+  const Numbers sum =
+      hn::Mul(hn::Add(hn::Mul(hn::Add(hn::Mul(visible, a), b), visible), c), visible);
+  return hn::Min(hn::Max(sum, visible), number(1));
+}
+
+/// Microfacet reflection (GGX distribution, Walter et al. 2007; Schlick's Fresnel) times the
+/// cosine.
+struct Gloss {
+  const Vectors &normal, &to_eye;
+  Numbers alpha2, reflectance, masking;
+
+  Gloss(const Vectors& n, const Vectors& eye, Numbers roughness, Numbers at_normal)
+      : normal(n), to_eye(eye), alpha2(square(square(roughness))), reflectance(at_normal) {
+    masking = beyond(hn::Max(dot(normal, to_eye), number(0.05F)));
+  }
+  HWY_INLINE Numbers beyond(Numbers cosine) const {
+    const Numbers rest = hn::Mul(hn::Sub(number(1), alpha2), square(cosine));
+    return hn::Add(cosine, hn::Sqrt(hn::Add(alpha2, rest)));
+  }
+  HWY_INLINE Numbers of(const Vectors& to_light) const {
+    const Numbers n_l = dot(normal, to_light);
+    const Vectors sum = {hn::Add(to_light.x, to_eye.x), hn::Add(to_light.y, to_eye.y),
+                         hn::Add(to_light.z, to_eye.z)};
+    const Numbers length = hn::Max(hn::Sqrt(dot(sum, sum)), number(1e-6F));
+    const Numbers n_h = hn::Max(hn::Div(dot(normal, sum), length), number(0));
+    const Numbers v_h = hn::Max(hn::Div(dot(to_eye, sum), length), number(0));
+    const Numbers spread = hn::Add(hn::Mul(square(n_h), hn::Sub(alpha2, number(1))), number(1));
+    const Numbers away = hn::Sub(number(1), v_h);
+    const Numbers away5 = hn::Mul(square(square(away)), away);
+    const Numbers fresnel = hn::Add(reflectance, hn::Mul(hn::Sub(number(1), reflectance), away5));
+    const Numbers above = hn::Mul(hn::Mul(n_l, alpha2), fresnel);
+    const Numbers below = hn::Mul(square(spread), hn::Mul(beyond(n_l), masking));
+    return hn::IfThenElseZero(hn::Gt(n_l, number(0)), hn::Div(above, below));
+  }
+};
+
+/// \param points, lights  of a block, from one point on
+HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
+  const auto field = [&](int f) {
+    return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlock);
+  };
+  const auto vectors = [&](int f) { return Vectors{field(f), field(f + 1), field(f + 2)}; };
+  const Vectors normal = vectors(ShadeBatch::kNormal), to_eye = vectors(ShadeBatch::kToEye);
+  const Numbers sky = field(ShadeBatch::kSky), key = field(ShadeBatch::kKey);
+  const Vectors to_key = direction_of(lamps.key), to_fill = direction_of(lamps.fill);
+  const Vectors to_right = direction_of(lamps.rim_right), to_left = direction_of(lamps.rim_left);
+  const Numbers n_key = dot(normal, to_key), n_fill = dot(normal, to_fill);
+  const Numbers right = hn::Mul(hn::Max(dot(normal, to_right), number(0)), sky);
+  const Numbers left = hn::Mul(hn::Max(dot(normal, to_left), number(0)), sky);
+  const Numbers up = hn::Add(number(0.5F), hn::Mul(number(0.5F), normal.y));
+  const Gloss gloss(normal, to_eye, field(ShadeBatch::kRoughness), field(ShadeBatch::kReflectance));
+  const Numbers gleam = field(ShadeBatch::kGleam), shown = field(ShadeBatch::kShown);
+  const Numbers soft = hn::Mul(gleam, square(sky));
+  const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(gleam, key));
+  const Numbers fill_gloss = hn::Mul(gloss.of(to_fill), soft);
+  const Numbers right_gloss = hn::Mul(gloss.of(to_right), soft);
+  const Numbers left_gloss = hn::Mul(gloss.of(to_left), soft);
+  for (int c = 0; c < 3; ++c) {
+    const Numbers albedo = field(ShadeBatch::kAlbedo + c), wrap = field(ShadeBatch::kWrap + c);
+    const Numbers open = with_bounces(sky, albedo);
+    const auto coloured = [&](const Lamp& lamp, Numbers amount) {
+      return hn::Mul(number(lamp.colour[c]), amount);
+    };
+    const Numbers ambient = hn::Add(number(lamps.sky_below[c]),
+                                    hn::Mul(number(lamps.sky_above[c] - lamps.sky_below[c]), up));
+    Numbers diffuse = coloured(lamps.key, hn::Mul(wrapped(n_key, wrap), key));
+    diffuse = hn::Add(diffuse, coloured(lamps.fill, hn::Mul(wrapped(n_fill, wrap), open)));
+    diffuse = hn::Add(diffuse, coloured(lamps.rim_right, right));
+    diffuse = hn::Add(diffuse, coloured(lamps.rim_left, left));
+    diffuse = hn::Add(diffuse, hn::Mul(ambient, open));
+    Numbers light = hn::Mul(albedo, diffuse);
+    light = hn::Add(light, coloured(lamps.key, key_gloss));
+    light = hn::Add(light, coloured(lamps.fill, fill_gloss));
+    light = hn::Add(light, coloured(lamps.rim_right, right_gloss));
+    light = hn::Add(light, coloured(lamps.rim_left, left_gloss));
+    hn::StoreU(hn::Mul(light, shown), Lanes(),
+               lights + static_cast<std::size_t>(c) * ShadeBatch::kBlock);
+  }
+}
+
+void shade_blocks(const float* points, std::size_t blocks, const Studio& lamps, float* lights) {
+  constexpr std::size_t kBlock = ShadeBatch::kBlock;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(Lanes())) {
+      shade_some(points + b * ShadeBatch::kFields * kBlock + i, lamps, lights + b * 3 * kBlock + i);
+    }
+  }
+}
+
+}  // namespace crowdface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace crowdface {
 namespace {
 
-float encode_srgb(float linear) {
-  if (linear <= 0.0031308F) return 12.92F * std::max(linear, 0.0F);
-  return 1.055F * std::pow(std::min(linear, 1.0F), 1 / 2.4F) - 0.055F;
+/// Lamps are points: what is smoother than this would show nothing of them but dots.
+constexpr float kLeastRoughness = 0.14F;
+
+/// What is darker than any skin is painted hair, which scatters what falls on it.
+float dark_gleam(const Light& albedo) {
+  constexpr float kDarkestSkin = 0.055F;
+  return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
 }
-
-/// Leaves the darker half as it is and bends the brighter half so that nothing burns out.
-float soft_shoulder(float x) {
-  constexpr float kKnee = 0.6F;
-  if (x <= kKnee) return x;
-  const float over = (x - kKnee) / (1 - kKnee);
-  return kKnee + (1 - kKnee) * over / (1 + 0.55F * over);
-}
-
-/// The byte that a screen shows of a light.
-int find_byte(float light) {
-  return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
-}
-
-/// The bytes of all lights, for looking up: `find_byte` takes two logarithms.
-class ByteTable {
- public:
-  ByteTable() {
-    // From the bits of floats above 0, which stand in their order, the first that shows a byte.
-    for (int byte = 1; byte < 256; ++byte) {
-      std::uint32_t below = 0, first = std::bit_cast<std::uint32_t>(kWhite);
-      while (first - below > 1) {
-        const std::uint32_t middle = below + (first - below) / 2;
-        (find_byte(std::bit_cast<float>(middle)) < byte ? below : first) = middle;
-      }
-      first_of_[static_cast<std::size_t>(byte)] = std::bit_cast<float>(first);
-    }
-    first_of_[256] = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      at_step_[i] = static_cast<std::uint8_t>(
-          find_byte(static_cast<float>(i) * (kWhite / static_cast<float>(kSteps))));
-    }
-  }
-  std::uint8_t at(float light) const {
-    const float inside = std::clamp(light, 0.0F, kWhite);
-    const auto step = static_cast<std::size_t>(inside * (static_cast<float>(kSteps) / kWhite));
-    std::size_t byte = at_step_[std::min(step, kSteps - 1)];
-    while (inside >= first_of_[byte + 1]) ++byte;
-    return static_cast<std::uint8_t>(byte);
-  }
-
- private:
-  static constexpr float kWhite = 1.5F;  ///< and all above it
-  static constexpr std::size_t kSteps = 6144;
-  std::array<float, 257> first_of_{};  ///< lights that show the byte
-  std::array<std::uint8_t, kSteps> at_step_{};
-};
 
 }  // namespace
 
-const Material& material_of(SurfaceKind kind) {
-  struct Materials {
-    Material skin, eye, iris, teeth, gums, worn;
+HWY_EXPORT(shade_blocks);
+
+void ShadeBatch::add(const ShadePoint& point, float gleam) {
+  const std::size_t block = count_ / kBlock * kFields * kBlock;
+  if (points_.size() < block + kFields * kBlock) points_.resize(block + kFields * kBlock, 0.5F);
+  float* const at = points_.data() + block + count_++ % kBlock;
+  const auto put = [&](int field, float value) {
+    at[static_cast<std::size_t>(field) * kBlock] = value;
   };
-  static const Materials materials = {
-      .skin = {{0.47F, 0.385F, 0.335F}, {0.30F, 0.19F, 0.14F}, 0.48F, 0.03F},
-      .eye = {{0.66F, 0.63F, 0.60F}, {0.15F, 0.12F, 0.10F}, 0.16F, 0.04F},
-      .iris = {{0.075F, 0.052F, 0.040F}, {0.05F, 0.05F, 0.05F}, 0.14F, 0.04F},
-      .teeth = {{0.68F, 0.62F, 0.52F}, {0.15F, 0.12F, 0.10F}, 0.25F, 0.04F},
-      .gums = {{0.42F, 0.20F, 0.18F}, {0.20F, 0.10F, 0.08F}, 0.30F, 0.04F},
-      .worn = {{0.5F, 0.5F, 0.5F}, {0.30F, 0.28F, 0.26F}, 0.45F, 0.03F}};
-  switch (kind) {
-    case SurfaceKind::kEye:
-      return materials.eye;
-    case SurfaceKind::kIris:
-      return materials.iris;
-    case SurfaceKind::kTeeth:
-      return materials.teeth;
-    case SurfaceKind::kGums:
-      return materials.gums;
-    case SurfaceKind::kWorn:
-      return materials.worn;
-    case SurfaceKind::kSkin:
-    case SurfaceKind::kHidden:
-      break;
+  const Material& material = material_of(point.kind);
+  for (int c = 0; c < 3; ++c) {
+    put(kNormal + c, point.normal[c]);
+    put(kToEye + c, point.to_eye[c]);
+    put(kAlbedo + c, point.albedo[c]);
+    put(kWrap + c, material.wrap[c]);
   }
-  return materials.skin;
+  put(kRoughness, point.roughness >= 0 ? std::clamp(point.roughness, kLeastRoughness, 1.0F)
+                                       : material.roughness);
+  const bool darkens = point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn;
+  put(kReflectance, material.reflectance * (darkens ? dark_gleam(point.albedo) : 1));
+  put(kKey, point.key);
+  put(kSky, point.sky);
+  // What is worn is mostly hair, which lies in all directions.
+  put(kGleam, point.kind == SurfaceKind::kWorn ? 0.45F * gleam : gleam);
+  put(kShown, point.inside ? 0.3F : 1.0F);
 }
 
-const Studio& studio() {
-  static const Studio lamps = {
-      .key = {Eigen::Vector3f(-0.62F, 0.62F, 0.62F).normalized(), {1.55F, 1.49F, 1.39F}},
-      .fill = {Eigen::Vector3f(0.85F, 0.05F, 0.55F).normalized(), {0.15F, 0.165F, 0.185F}},
-      .rim_right = {Eigen::Vector3f(0.80F, 0.35F, -0.50F).normalized(), {0.62F, 0.65F, 0.71F}},
-      .rim_left = {Eigen::Vector3f(-0.85F, 0.25F, -0.55F).normalized(), {0.25F, 0.26F, 0.28F}},
-      .sky_above = {0.29F, 0.30F, 0.315F},
-      .sky_below = {0.10F, 0.093F, 0.086F}};
-  return lamps;
-}
-
-Light albedo_of(SurfaceKind kind) {
-  return material_of(kind).albedo;
-}
-
-Eigen::Vector3f key_direction() {
-  return studio().key.direction;
-}
-
-bool faces_key(const ShadePoint& point) {
-  const float cosine = point.normal.dot(studio().key.direction);
-  return cosine > -material_of(point.kind).wrap.maxCoeff();
+void ShadeBatch::shade() {
+  const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
+  lights_.resize(std::max(lights_.size(), blocks * 3 * kBlock));
+  HWY_DYNAMIC_DISPATCH(shade_blocks)(points_.data(), blocks, studio(), lights_.data());
 }
 
 Light shade(const ShadePoint& point, float gleam) {
@@ -128,34 +201,5 @@ Light shade(const ShadePoint& point, float gleam) {
   return alone.light(0);
 }
 
-Light background(float y) {
-  return Light(0.23F, 0.235F, 0.245F) * (1 - 0.48F * y);
-}
-
-std::array<std::uint8_t, 3> to_srgb8(const Light& light) {
-  static const ByteTable bytes;
-  return {bytes.at(light[0]), bytes.at(light[1]), bytes.at(light[2])};
-}
-
-Eigen::Array3f to_srgb(const Light& colour) {
-  return colour.unaryExpr([](float value) { return encode_srgb(value); });
-}
-
-Light from_srgb(const Eigen::Array3f& srgb) {
-  return srgb.unaryExpr([](float value) {
-    return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
-  });
-}
-
-const std::array<float, 256>& light_of_srgb8() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> light{};
-    for (std::size_t value = 0; value < light.size(); ++value) {
-      light[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
-    }
-    return light;
-  }();
-  return table;
-}
-
 }  // namespace crowdface
+#endif

@@ -13,7 +13,6 @@
 #include "crowdface/render/light_sharing.h"
 #include "crowdface/render/meeting.h"
 #include "crowdface/render/perpendicular.h"
-#include "crowdface/render/shade_batch.h"
 
 namespace crowdface {
 namespace {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/light.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace crowdface {
+namespace {
+
+float encode_srgb(float linear) {
+  if (linear <= 0.0031308F) return 12.92F * std::max(linear, 0.0F);
+  return 1.055F * std::pow(std::min(linear, 1.0F), 1 / 2.4F) - 0.055F;
+}
+
+/// Leaves the darker half as it is and bends the brighter half so that nothing burns out.
+float soft_shoulder(float x) {
+  constexpr float kKnee = 0.6F;
+  if (x <= kKnee) return x;
+  const float over = (x - kKnee) / (1 - kKnee);
+  return kKnee + (1 - kKnee) * over / (1 + 0.55F * over);
+}
+
+/// The byte that a screen shows of a light.
+int find_byte(float light) {
+  return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
+}
+
+/// The bytes of all lights, for looking up: `find_byte` takes two logarithms.
+class ByteTable {
+ public:
+  ByteTable() {
+    // From the bits of floats above 0, which stand in their order, the first that shows a byte.
+    for (int byte = 1; byte < 256; ++byte) {
+      std::uint32_t below = 0, first = std::bit_cast<std::uint32_t>(kWhite);
+      while (first - below > 1) {
+        const std::uint32_t middle = below + (first - below) / 2;
+        (find_byte(std::bit_cast<float>(middle)) < byte ? below : first) = middle;
+      }
+      first_of_[static_cast<std::size_t>(byte)] = std::bit_cast<float>(first);
+    }
+    first_of_[256] = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      at_step_[i] = static_cast<std::uint8_t>(
+          find_byte(static_cast<float>(i) * (kWhite / static_cast<float>(kSteps))));
+    }
+  }
+  std::uint8_t at(float light) const {
+    const float inside = std::clamp(light, 0.0F, kWhite);
+    const auto step = static_cast<std::size_t>(inside * (static_cast<float>(kSteps) / kWhite));
+    std::size_t byte = at_step_[std::min(step, kSteps - 1)];
+    while (inside >= first_of_[byte + 1]) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  static constexpr float kWhite = 1.5F;  ///< and all above it
+  static constexpr std::size_t kSteps = 6144;
+  std::array<float, 257> first_of_{};  ///< lights that show the byte
+  std::array<std::uint8_t, kSteps> at_step_{};
+};
+
+}  // namespace
+
+std::array<std::uint8_t, 3> to_srgb8(const Light& light) {
+  static const ByteTable bytes;
+  return {bytes.at(light[0]), bytes.at(light[1]), bytes.at(light[2])};
+}
+
+Eigen::Array3f to_srgb(const Light& colour) {
+  return colour.unaryExpr([](float value) { return encode_srgb(value); });
+}
+
+Light from_srgb(const Eigen::Array3f& srgb) {
+  return srgb.unaryExpr([](float value) {
+    return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
+  });
+}
+
+const std::array<float, 256>& light_of_srgb8() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> light{};
+    for (std::size_t value = 0; value < light.size(); ++value) {
+      light[value] = from_srgb(Eigen::Array3f::Constant(static_cast<float>(value) / 255))[0];
+    }
+    return light;
+  }();
+  return table;
+}
+
+}  // namespace crowdface
