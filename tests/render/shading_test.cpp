@@ -2,11 +2,14 @@
 #include "crowdface/render/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/instruction_set.h"
 #include "crowdface/render/gleam.h"
 #include "crowdface/render/perpendicular.h"
 
@@ -29,6 +32,102 @@ TEST(Srgb, ShoulderRisesAndNeverBurnsOut) {
     last = value;
   }
   EXPECT_EQ(to_srgb8({-1, 0, 100}), (std::array<std::uint8_t, 3>{0, 0, 255}));
+}
+
+TEST(Srgb, BytesAreThoseOfTheCurve) {
+  const auto curve = [](double light) {
+    const double over = std::max(0.0, (light - 0.6) / 0.4);
+    const double bent = std::min(light, 0.6) + 0.4 * over / (1 + 0.55 * over);
+    const double shown = std::clamp(bent, 0.0, 1.0);
+    return 255 * (shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055);
+  };
+  std::array<int, 256> seen{};
+  for (int i = 0; i < 400'000; ++i) {
+    const float light = static_cast<float>(i) * 4e-6F;
+    const double exact = curve(static_cast<double>(light));
+    const int byte = to_srgb8({light, light, light})[0];
+    EXPECT_NEAR(byte, exact, 0.5 + 1e-4) << light;
+    ++seen[static_cast<std::size_t>(byte)];
+  }
+  EXPECT_EQ(std::ranges::count(seen, 0), 0) << "bytes that no light shows";
+}
+
+/// Points of all kinds that look in all directions.
+std::vector<ShadePoint> many_points() {
+  std::mt19937 random(2);
+  const auto unit = [&] { return std::uniform_real_distribution<float>(0, 1)(random); };
+  const auto direction = [&] {
+    return Eigen::Vector3f(2 * unit() - 1, 2 * unit() - 1, unit() + 0.01F).normalized();
+  };
+  std::vector<ShadePoint> points;
+  for (int i = 0; i < 77; ++i) {
+    ShadePoint& point = points.emplace_back();
+    point.normal = direction();
+    point.to_eye = direction();
+    point.albedo = Light(unit(), unit(), unit());
+    point.kind = static_cast<SurfaceKind>(i % 6);
+    point.inside = i % 5 == 0;
+    point.sky = unit();
+    point.key = unit();
+    if (i % 3 == 0) point.roughness = unit();
+  }
+  return points;
+}
+
+TEST(Shade, IsTheSameAloneAndInCompanyWithAnyInstructionSet) {
+  const std::vector<ShadePoint> points = many_points();
+  std::vector<Light> alone;
+  for (const ShadePoint& point : points) alone.push_back(shade(point, 0.7F));
+  ShadeBatch batch;
+  for (const std::string& name : instruction_sets()) {
+    use_instruction_set(name);
+    batch.clear();
+    for (const ShadePoint& point : points) batch.add(point, 0.7F);
+    batch.shade();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_TRUE((batch.light(i) == alone[i]).all()) << name << ", point " << i;
+    }
+  }
+  use_instruction_set(instruction_sets().front());
+}
+
+/// Light of the key alone, in double precision, by the formulas as they are printed.
+Eigen::Array3d plain_key_light(const ShadePoint& point) {
+  const Material& material = material_of(point.kind);
+  const Lamp& lamp = studio().key;
+  const Eigen::Vector3d n = point.normal.cast<double>(), v = point.to_eye.cast<double>();
+  const Eigen::Vector3d l = lamp.direction.cast<double>(), h = (l + v).normalized();
+  const Eigen::Array3d albedo = point.albedo.cast<double>(), wrap = material.wrap.cast<double>();
+  const Eigen::Array3d lit = ((n.dot(l) + wrap) / (1 + wrap)).max(0.0);
+  const Eigen::Array3d diffuse =
+      lit.square() / (1 + wrap).square() * (1 + wrap) * 0.5 + lit / (1 + wrap) * 0.5;
+  double gloss = 0;
+  if (n.dot(l) > 0) {
+    const double a2 = std::pow(static_cast<double>(material.roughness), 4);
+    const double n_l = n.dot(l), n_v = std::max(n.dot(v), 0.05), n_h = std::max(n.dot(h), 0.0);
+    const double distribution = a2 / std::pow(n_h * n_h * (a2 - 1) + 1, 2);  // GGX, times π
+    const double reflectance = static_cast<double>(material.reflectance);
+    const double fresnel = reflectance + (1 - reflectance) * std::pow(1 - v.dot(h), 5);
+    const auto smith = [&](double cosine) {
+      return cosine + std::sqrt(a2 + (1 - a2) * cosine * cosine);
+    };
+    gloss = n_l * distribution * fresnel / (smith(n_l) * smith(n_v));
+  }
+  return lamp.colour.cast<double>() * static_cast<double>(point.key) * (albedo * diffuse + gloss);
+}
+
+TEST(Shade, OfTheKeyIsTheFormulaInDoublePrecision) {
+  for (ShadePoint point : many_points()) {
+    point.inside = false;
+    point.sky = 0;
+    point.roughness = -1;
+    // What is dark, or worn, gleams less: told of elsewhere.
+    if (point.kind == SurfaceKind::kWorn) point.kind = SurfaceKind::kTeeth;
+    point.albedo = point.albedo.max(0.06F);
+    const Eigen::Array3d exact = plain_key_light(point);
+    const Eigen::Array3d found = shade(point).cast<double>();
+    EXPECT_LT(((found - exact) / (exact + 1e-3)).abs().maxCoeff(), 2e-5);
+  }
 }
 
 TEST(Shade, IsFiniteAndNotNegativeInEveryDirection) {

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/kept_face_space.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/cast/training_recipe.h"
+#include "crowdface/heads/cache_folder.h"
+
+#include "support/temporary_folder.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Index kSamples = 60;
+
+/// Heads whose samples move smoothly from level to level, in two regions.
+SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  SampledHeads sampled;
+  sampled.levels = {0, 2, 8, 32, 128};
+  sampled.mean = Positions::Zero(kSamples, 3);
+  for (int h = 0; h < 4; ++h) {
+    Positions head(kSamples, 3);
+    for (double& value : head.reshaped()) value = 50 * normal(random);
+    Trajectory trajectory(5, 3 * kSamples);
+    for (Index i = 0; i < 3 * kSamples; ++i) {
+      const double most = normal(random), quick = 1 + std::abs(normal(random));
+      for (Index l = 0; l < 5; ++l) {
+        const auto level = static_cast<double>(sampled.levels[static_cast<std::size_t>(l)]);
+        trajectory(l, i) = static_cast<float>(most * (1 - std::exp(-quick * level / 100)));
+      }
+    }
+    sampled.mean += head / 4;
+    sampled.heads.push_back(head);
+    sampled.own.push_back(trajectory);
+  }
+  sampled.trajectories = sampled.own;
+  sampled.alpha = Columns(kSamples, 2);
+  for (Index s = 0; s < kSamples; ++s) {
+    sampled.alpha(s, 0) = static_cast<double>(s) / kSamples;
+    sampled.alpha(s, 1) = 1 - sampled.alpha(s, 0);
+  }
+  sampled.mm_per_unit = 10;
+  if (mirrored) sampled.image = std::make_shared<SampledHeads>(sampled_heads(seed + 1, false));
+  return sampled;
+}
+
+class KeptFaceSpace : public ::testing::TestWithParam<bool> {
+ protected:
+  SampledHeads heads(std::uint32_t seed = 1) const {
+    SampledHeads sampled = sampled_heads(seed, GetParam());
+    return sampled;
+  }
+  FaceSpace kept(const fs::path& cache, std::uint32_t seed = 1, std::size_t bands = 2) const {
+    return kept_face_space(cache, heads(seed), weights_, bands);
+  }
+  /// Where faces lie, and how far heads are from each other in a region.
+  static std::vector<float> places(const FaceSpace& space, std::size_t bands = 2) {
+    std::vector<float> all;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      const FaceSpace::Point at = space.point(training_recipe(space.sampled(), bands, i));
+      all.insert(all.end(), at.as_built.data(), at.as_built.data() + at.as_built.size());
+      all.insert(all.end(), at.unit.data(), at.unit.data() + at.unit.size());
+    }
+    const FaceSpace::Point one = space.head_point(0), other = space.head_point(1);
+    for (Index k = 0; k < 2; ++k) {
+      all.push_back(static_cast<float>(
+          space.region_distance(space.in_region(one, k), space.in_region(other, k), k)));
+      all.push_back(static_cast<float>(space.region_share(k)));
+    }
+    return all;
+  }
+  std::size_t entries() const { return list_cache(folder_.path()).entries.size(); }
+
+  testing::TemporaryFolder folder_;
+  std::vector<double> weights_ = std::vector<double>(kSamples, 1.0 / kSamples);
+};
+
+TEST_P(KeptFaceSpace, IsTheSameToTheBitHoweverItCame) {
+  const std::vector<float> made = places(FaceSpace(heads(), weights_, 2));
+  EXPECT_EQ(places(kept(folder_.path())), made) << "made and kept";
+  EXPECT_EQ(entries(), 1U);
+  EXPECT_EQ(places(kept(folder_.path())), made) << "from the cache";
+  EXPECT_EQ(places(kept({})), made) << "not kept";
+  EXPECT_EQ(entries(), 1U);
+}
+
+TEST_P(KeptFaceSpace, IsAnotherOfOtherHeadsOrWeightsOrBands) {
+  const std::vector<float> first = places(kept(folder_.path()));
+  EXPECT_NE(places(kept(folder_.path(), 5)), first);
+  EXPECT_EQ(entries(), 2U);
+  kept(folder_.path(), 1, 1);
+  EXPECT_EQ(entries(), 3U);
+  weights_[0] = 0;
+  EXPECT_NE(places(kept(folder_.path())), first);
+  EXPECT_EQ(entries(), 4U);
+}
+
+TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsDamaged) {
+  const std::vector<float> first = places(kept(folder_.path()));
+  const fs::path entry = list_cache(folder_.path()).entries.at(0);
+  const auto size = fs::file_size(entry);
+  fs::resize_file(entry, size - 8);
+  EXPECT_EQ(places(kept(folder_.path())), first);
+  EXPECT_EQ(fs::file_size(entry), size) << "mended";
+}
+
+INSTANTIATE_TEST_SUITE_P(MirroredToo, KeptFaceSpace, ::testing::Bool());
+
+TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
+  const SampledHeads heads = sampled_heads(1, false);
+  const std::vector<double> weights(kSamples, 1.0 / kSamples);
+  const FaceSpace space(heads, weights);
+  EXPECT_TRUE(FaceSpace::fit(space.tables(), heads));
+  EXPECT_FALSE(FaceSpace::fit(FaceSpaceTables(), heads));
+  FaceSpaceTables fewer = space.tables();
+  fewer.metrics.pop_back();
+  EXPECT_FALSE(FaceSpace::fit(fewer, heads));
+  FaceSpaceTables narrower = space.tables();
+  narrower.directions = narrower.directions.leftCols(3).eval();
+  EXPECT_FALSE(FaceSpace::fit(narrower, heads));
+  EXPECT_FALSE(FaceSpace::fit(space.tables(), sampled_heads(1, true)));
+}
+
+}  // namespace
+}  // namespace crowdface
