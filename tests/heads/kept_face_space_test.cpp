@@ -113,6 +113,14 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsDamaged) {
   EXPECT_EQ(fs::file_size(entry), size) << "mended";
 }
 
+TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {
+  SampledHeads still = heads();
+  for (Trajectory& trajectory : still.own) trajectory.setZero();
+  const FaceSpace first = kept_face_space(folder_.path(), still, weights_, 1);
+  EXPECT_EQ(places(kept_face_space(folder_.path(), still, weights_, 1), 1), places(first, 1));
+  EXPECT_EQ(entries(), 1U);
+}
+
 INSTANTIATE_TEST_SUITE_P(MirroredToo, KeptFaceSpace, ::testing::Bool());
 
 TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {

@@ -2,6 +2,7 @@
 #include "crowdface/heads/kept_face_space.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -12,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// How many modes, functions, directions and metrics; levels, functions, directions, metrics row by row.
+/// Rows and columns of levels, functions and directions, how many metrics; levels, functions, directions, metrics row by row.
 using Lists = std::tuple<std::vector<std::uint64_t>, std::vector<float>, std::vector<float>,
                          std::vector<float>, std::vector<float>>;
 
@@ -46,10 +47,11 @@ std::vector<float> row_by_row(const FloatRows& rows) {
 Lists lists_of(const FaceSpaceTables& tables) {
   Lists lists;
   auto& [sizes, levels, functions, directions, metrics] = lists;
-  for (const Index size : {tables.levels.cols(), tables.functions.cols(), tables.directions.rows(),
-                           static_cast<Index>(tables.metrics.size())}) {
-    sizes.push_back(static_cast<std::uint64_t>(size));
+  for (const FloatRows* rows : {&tables.levels, &tables.functions, &tables.directions}) {
+    sizes.push_back(static_cast<std::uint64_t>(rows->rows()));
+    sizes.push_back(static_cast<std::uint64_t>(rows->cols()));
   }
+  sizes.push_back(tables.metrics.size());
   levels = row_by_row(tables.levels);
   functions = row_by_row(tables.functions);
   directions = row_by_row(tables.directions);
@@ -59,29 +61,27 @@ Lists lists_of(const FaceSpaceTables& tables) {
   return lists;
 }
 
-/// \return none that fit any heads, if the lists are none of tables
-FaceSpaceTables tables_of(const Lists& lists) {
+/// \return nothing if the lists are none of tables
+std::optional<FaceSpaceTables> tables_of(const Lists& lists) {
   const auto& [sizes, levels, functions, directions, metrics] = lists;
-  FaceSpaceTables tables;
-  if (sizes.size() != 4) return tables;
-  bool whole = true;
-  const auto rows_of = [&](std::span<const float> numbers, std::uint64_t columns) -> FloatRows {
-    if (columns == 0) return FloatRows(0, 0);
-    whole = whole && numbers.size() % columns == 0;
-    if (!whole) return FloatRows(0, 0);
-    return Eigen::Map<const FloatRows>(numbers.data(), static_cast<Index>(numbers.size() / columns),
+  if (sizes.size() != 7) return std::nullopt;
+  const std::uint64_t rank = sizes[4];  // rows and columns of a metric
+  if (levels.size() != sizes[0] * sizes[1] || functions.size() != sizes[2] * sizes[3] ||
+      directions.size() != sizes[4] * sizes[5] || metrics.size() != sizes[6] * rank * rank) {
+    return std::nullopt;
+  }
+  const auto matrix = [](const float* numbers, std::uint64_t rows, std::uint64_t columns) {
+    return Eigen::Map<const FloatRows>(numbers, static_cast<Index>(rows),
                                        static_cast<Index>(columns));
   };
-  tables.levels = rows_of(levels, sizes[0]);
-  tables.functions = rows_of(functions, sizes[1]);
-  tables.directions = rows_of(directions, 3 * sizes[1]);
-  if (sizes[3] > 0 && metrics.size() % sizes[3] == 0) {
-    const std::size_t each = metrics.size() / sizes[3];
-    for (std::uint64_t k = 0; k < sizes[3]; ++k) {
-      tables.metrics.push_back(rows_of(std::span(metrics).subspan(k * each, each), sizes[2]));
-    }
+  FaceSpaceTables tables{matrix(levels.data(), sizes[0], sizes[1]),
+                         matrix(functions.data(), sizes[2], sizes[3]),
+                         matrix(directions.data(), sizes[4], sizes[5]),
+                         {}};
+  for (std::uint64_t k = 0; k < sizes[6]; ++k) {
+    tables.metrics.emplace_back(matrix(metrics.data() + k * rank * rank, rank, rank));
   }
-  return whole ? tables : FaceSpaceTables();
+  return tables;
 }
 
 }  // namespace
@@ -91,11 +91,12 @@ FaceSpace kept_face_space(const std::filesystem::path& cache, SampledHeads heads
   if (cache.empty()) return FaceSpace(std::move(heads), weights, bands);
   const auto make = [&] { return lists_of(FaceSpace(heads, weights, bands).tables()); };
   const auto is_sound = [&](const auto&... lists) {
-    return FaceSpace::fit(tables_of(Lists(lists...)), heads);
+    const auto tables = tables_of(Lists(lists...));
+    return tables && FaceSpace::fit(*tables, heads);
   };
   const Lists lists = kept_lists<std::uint64_t, float, float, float, float>(
       cache, key_of(heads, weights, bands), make, is_sound);
-  return FaceSpace(std::move(heads), weights, tables_of(lists));
+  return FaceSpace(std::move(heads), weights, *tables_of(lists));
 }
 
 }  // namespace crowdface
