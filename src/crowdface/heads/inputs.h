@@ -29,6 +29,7 @@ struct Attachment {
   std::string name, kind;
   AttachmentMove moves = AttachmentMove::kBend;
   ObjFile file;
+  Digest text;  ///< of the file's bytes
   MaterialFiles materials;
 };
 

@@ -29,8 +29,11 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
   return inputs.faces.heads[head].positions;
 }
 
-Attachment read_item(const Config::Attachment& asked) {
-  Attachment item{asked.name, asked.kind, asked.moves, read_obj(asked.file), {}};
+Attachment item_of(const Config::Attachment& asked, HeadFile read) {
+  Attachment item{asked.name, asked.kind, asked.moves, std::move(read.file), read.text, {}};
+  item.file.topology = read.mesh->topology;
+  item.file.uvs = read.mesh->uvs;
+  item.file.corner_normals = read.mesh->corner_normals;
   item.materials = find_material_files(item.file.path, item.file.material_libraries);
   return item;
 }
@@ -56,7 +59,7 @@ Digest digest_of_attachments(const AttachmentSet& set) {
   Hasher hasher;
   hasher.add_array(numbers_of(set.fitted_to));
   for (const Attachment& item : set.items) {
-    hasher.add(item.name).add(static_cast<int>(item.moves)).add(hash_bytes(item.file.file.bytes()));
+    hasher.add(item.name).add(static_cast<int>(item.moves)).add(item.text);
     for (const MaterialFile& file : item.materials.files) {
       throw_if_interrupted();
       hasher.add(file.relative.generic_string()).add(hash_file(file.from).digest);
@@ -73,12 +76,11 @@ std::size_t AttachmentSet::index(const std::string& name) const {
   return static_cast<std::size_t>(found - items.begin());
 }
 
-void load_attachments(const Config& config, Inputs& inputs, Problems& problems) {
+void load_attachments(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+                      Problems& problems) {
   const std::vector<Config::Attachment>& asked = config.attachments.items;
   if (asked.empty()) return;
   AttachmentSet set;
-  std::vector<std::optional<Attachment>> items(asked.size());
-  std::vector<std::optional<Error>> errors(asked.size());
   const std::size_t before = problems.size();
   try {
     set.fitted_to = fitted_mesh(config, inputs);
@@ -86,10 +88,20 @@ void load_attachments(const Config& config, Inputs& inputs, Problems& problems) 
     problems.add(error);
     return;
   }
+  std::vector<std::filesystem::path> paths;
+  for (const Config::Attachment& item : asked) paths.push_back(item.file);
+  std::vector<HeadFile> files;
+  for (auto& file : read_mesh_files(paths, "attachments", cache, problems)) {
+    if (file) files.push_back(std::move(*file));
+  }
+  keep_heads(files, cache);
+  if (problems.size() > before) return;
+  std::vector<std::optional<Attachment>> items(asked.size());
+  std::vector<std::optional<Error>> errors(asked.size());
   parallel_for_each(asked.size(), [&](std::size_t i) {
     throw_if_interrupted();
     try {
-      items[i] = read_item(asked[i]);
+      items[i] = item_of(asked[i], std::move(files[i]));
       check_place(*items[i], set.fitted_to);
     } catch (const Error& error) {
       errors[i] = error;

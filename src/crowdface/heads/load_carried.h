@@ -28,6 +28,8 @@ void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
 /// The attachments, read in parallel. A problem is a mesh that cannot be read, one that lies far from the
 /// head, a fitted head in another topology. What their materials lack is warned of.
-void load_attachments(const Config& config, Inputs& inputs, Problems& problems);
+/// \param cache  as of load_shapes
+void load_attachments(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+                      Problems& problems);
 
 }  // namespace crowdface

@@ -386,7 +386,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);
   load_rig(config, inputs, problems);
-  load_attachments(config, inputs, problems);
+  load_attachments(config, cache, inputs, problems);
   if (problems.size() > before) return std::nullopt;
   find_levels(config, cache, inputs);
   return inputs;
