@@ -2,14 +2,16 @@
 #include "crowdface/heads/kept_face_space.h"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/cast/training_recipe.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/kept_lists.h"
 
 #include "support/temporary_folder.h"
 
@@ -55,10 +57,7 @@ SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
 
 class KeptFaceSpace : public ::testing::TestWithParam<bool> {
  protected:
-  SampledHeads heads(std::uint32_t seed = 1) const {
-    SampledHeads sampled = sampled_heads(seed, GetParam());
-    return sampled;
-  }
+  static SampledHeads heads(std::uint32_t seed = 1) { return sampled_heads(seed, GetParam()); }
   FaceSpace kept(const fs::path& cache, std::uint32_t seed = 1, std::size_t bands = 2) const {
     return kept_face_space(cache, heads(seed), weights_, bands);
   }
@@ -111,6 +110,44 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsDamaged) {
   fs::resize_file(entry, size - 8);
   EXPECT_EQ(places(kept(folder_.path())), first);
   EXPECT_EQ(fs::file_size(entry), size) << "mended";
+}
+
+/// An entry that is whole, and of this key, but holds what no face space has.
+TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsForged) {
+  const std::vector<float> first = places(kept(folder_.path()));
+  const fs::path entry = list_cache(folder_.path()).entries.at(0);
+  const auto key = parse_digest(entry.stem().string());
+  ASSERT_TRUE(key);
+  std::vector<std::uint64_t> sizes;
+  std::vector<std::string> numbers;
+  {
+    const auto found = find_lists(folder_.path(), *key, 5);
+    ASSERT_TRUE(found);
+    ASSERT_TRUE(detail::take_list(found->lists[0], sizes));
+    for (std::size_t i = 1; i < 5; ++i) numbers.emplace_back(found->lists[i]);
+  }
+  const auto expect_mended = [&](const std::vector<std::uint64_t>& forged_sizes,
+                                 const std::vector<std::string>& forged) {
+    keep_lists(folder_.path(), *key,
+               {bytes_of(std::span(forged_sizes)), forged[0], forged[1], forged[2], forged[3]});
+    EXPECT_EQ(places(kept(folder_.path())), first);
+  };
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    for (const std::uint64_t size :
+         {std::uint64_t{0}, sizes[i] + 1, std::uint64_t{1} << 63U, ~std::uint64_t{0}}) {
+      if (size == sizes[i]) continue;
+      std::vector<std::uint64_t> forged = sizes;
+      forged[i] = size;
+      expect_mended(forged, numbers);
+    }
+  }
+  expect_mended({1, 2}, numbers);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::vector<std::string> forged = numbers;
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(forged[i].data(), &none, sizeof none);
+    expect_mended(sizes, forged);
+  }
 }
 
 TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_face_space.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -61,15 +63,23 @@ Lists lists_of(const FaceSpaceTables& tables) {
   return lists;
 }
 
+/// Finite numbers, row by row; in a forged entry sizes may be anything.
+bool are_rows(std::span<const float> numbers, std::uint64_t rows, std::uint64_t columns) {
+  constexpr std::uint64_t kMost = 1U << 31U;
+  const bool whole = rows < kMost && columns < kMost && rows * columns == numbers.size();
+  return whole && std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
+}
+
 /// \return nothing if the lists are none of tables
 std::optional<FaceSpaceTables> tables_of(const Lists& lists) {
   const auto& [sizes, levels, functions, directions, metrics] = lists;
   if (sizes.size() != 7) return std::nullopt;
-  const std::uint64_t rank = sizes[4];  // rows and columns of a metric
-  if (levels.size() != sizes[0] * sizes[1] || functions.size() != sizes[2] * sizes[3] ||
-      directions.size() != sizes[4] * sizes[5] || metrics.size() != sizes[6] * rank * rank) {
+  if (!are_rows(levels, sizes[0], sizes[1]) || !are_rows(functions, sizes[2], sizes[3]) ||
+      !are_rows(directions, sizes[4], sizes[5])) {
     return std::nullopt;
   }
+  const std::uint64_t rank = sizes[4];  // rows and columns of a metric
+  if (!are_rows(metrics, sizes[6], rank * rank)) return std::nullopt;
   const auto matrix = [](const float* numbers, std::uint64_t rows, std::uint64_t columns) {
     return Eigen::Map<const FloatRows>(numbers, static_cast<Index>(rows),
                                        static_cast<Index>(columns));
