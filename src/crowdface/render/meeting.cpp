@@ -44,11 +44,11 @@ Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vecto
   return eye_albedo(stage.eyes[eye], stage.gaze, point);
 }
 
-/// A normal that does not look away from the viewer: at the edge of a coarse ear the normals of vertices
+/// A unit normal that does not look away from the viewer: at the edge of a coarse ear the normals of vertices
 /// may, though the face between them is seen.
 Vector towards(const Vector& viewer, const Vector& normal) {
-  const float away = std::min(0.0F, normal.dot(viewer));
-  return (normal - away * viewer).normalized();
+  const float away = normal.dot(viewer);
+  return away < 0 ? Vector((normal - away * viewer).normalized()) : normal;
 }
 
 /// A unit normal that leans as slopes say, which are along the texture's axes on this quad.

@@ -76,24 +76,18 @@ struct Shares {
   std::vector<float> key, sky;
 };
 
-/// What a thread works with on its tiles, one after the other: of a megabyte, which would be made anew for every tile.
+/// What a thread works with on its tiles, one after the other: some megabytes, which would be made anew for every tile.
 struct TileMemory {
+  std::vector<Ray> rays;
+  std::vector<std::optional<RayHit>> hits;
   std::vector<Meeting> meetings;
+  std::vector<Meeting*> asking;
   PixelLights pixels;
   PointLists points;
   std::vector<Meeting> middles;  ///< of a row of pixels
   Shares row_shares, shares;
   ShadeBatch batch;
 };
-
-/// An empty list of this thread's, with the memory that it had before: of a megabyte, which would be made anew for every
-/// tile. For one user at a time.
-template <class Item>
-std::vector<Item>& emptied() {
-  thread_local std::vector<Item> list;
-  list.clear();
-  return list;
-}
 
 TileMemory& tile_memory() {
   thread_local TileMemory memory;
@@ -169,7 +163,8 @@ class Tile {
   template <class PlacesOf>
   void look(const PlacesOf& places_of) {
     std::vector<const PixelPlaces*> places;
-    std::vector<Ray>& rays = emptied<Ray>();
+    std::vector<Ray>& rays = memory_.rays;
+    rays.clear();
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
       places.push_back(places_of(pixel));
       if (places.back() == nullptr) return;
@@ -180,9 +175,9 @@ class Tile {
         rays.back().lot = (2 * number++ + 1) * 32768U / places.back()->count();
       }
     });
-    std::vector<std::optional<RayHit>>& hits = emptied<std::optional<RayHit>>();
+    std::vector<std::optional<RayHit>>& hits = memory_.hits;
     stage_.screen.nearest_hits({left_ / kSquare, top_ / kSquare}, outer_, places, hits);
-    std::vector<std::optional<RayHit>> worn(rays.size());
+    std::vector<std::optional<RayHit>> worn;
     if (stage_.worn != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
         if (hits[r]) rays[r].furthest = hits[r]->distance;
@@ -199,7 +194,7 @@ class Tile {
       pixel.backdrop = Light::Zero();
       for (const Eigen::Vector2f& place : looked->list()) {
         fetch_ahead(stage_, hits, ray);
-        if (worn[ray]) {
+        if (!worn.empty() && worn[ray]) {
           meetings_.push_back(meet_worn(stage_, *worn[ray], rays[ray].direction));
         } else if (hits[ray]) {
           meetings_.push_back(meet(stage_, *hits[ray], rays[ray].direction));
@@ -279,23 +274,29 @@ class Tile {
 
   void ask_key() {
     const Vector key = key_direction();
-    std::vector<Ray>& rays = emptied<Ray>();
-    std::vector<Openness*>& asking = emptied<Openness*>();
+    std::vector<Ray>& rays = memory_.rays;
+    std::vector<Meeting*>& asking = memory_.asking;
+    rays.clear();
+    asking.clear();
     for_each_ask(sampling_.key,
                  [&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
                    if (!meeting.asks_key) return;
                    const Vector start = meeting.start + kThickness * meeting.surface.normal;
                    rays.push_back({start, key + kKeyRadius * around(key, disc)});
                    rays.back().lot = lot;
-                   asking.push_back(&meeting.key);
+                   asking.push_back(&meeting);
                  });
-    trace(rays, asking);
+    const std::vector<bool> blocked = are_blocked(rays);
+    for (std::size_t r = 0; r < rays.size(); ++r)
+      asking[r]->key.add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
   }
 
   /// Directions are cosine-weighted.
   void ask_sky() {
-    std::vector<Ray>& rays = emptied<Ray>();
-    std::vector<Meeting*>& asking = emptied<Meeting*>();
+    std::vector<Ray>& rays = memory_.rays;
+    rays.clear();
+    std::vector<Meeting*>& asking = memory_.asking;
+    asking.clear();
     for_each_ask(
         sampling_.sky, [&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
           const Vector& normal = meeting.surface.normal;
@@ -328,13 +329,6 @@ class Tile {
     const std::vector<bool> dark = are_blocked(behind);
     for (std::size_t r = 0; r < behind.size(); ++r) {
       if (!dark[r]) thin[r]->sky.open += kThrough;
-    }
-  }
-
-  void trace(const std::vector<Ray>& rays, const std::vector<Openness*>& asking) {
-    const std::vector<bool> blocked = are_blocked(rays);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-      asking[r]->add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
     }
   }
 
