@@ -29,6 +29,6 @@ inline constexpr int kRigVersion = 1;          ///< joints that follow, and what
 inline constexpr int kAttachmentsVersion = 4;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 3;      ///< textures of faces' own
-inline constexpr int kSheetVersion = 15;  ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kSheetVersion = 16;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

@@ -19,7 +19,7 @@ namespace {
 
 using Vector = Eigen::Vector3f;
 
-constexpr int kRays = 128;  // a vertex
+constexpr int kRays = 64;  // a vertex
 constexpr std::size_t kVerticesPerBlock = 64;
 // Shares of the head's largest extent.
 constexpr float kReach = 0.3F;
