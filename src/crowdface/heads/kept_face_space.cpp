@@ -64,7 +64,7 @@ Lists lists_of(const FaceSpaceTables& tables) {
 }
 
 /// Finite numbers, row by row; in a forged entry sizes may be anything.
-bool are_rows(std::span<const float> numbers, std::uint64_t rows, std::uint64_t columns) {
+bool are_matrix(std::span<const float> numbers, std::uint64_t rows, std::uint64_t columns) {
   constexpr std::uint64_t kMost = 1U << 31U;
   const bool whole = rows < kMost && columns < kMost && rows * columns == numbers.size();
   return whole && std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
@@ -74,12 +74,12 @@ bool are_rows(std::span<const float> numbers, std::uint64_t rows, std::uint64_t 
 std::optional<FaceSpaceTables> tables_of(const Lists& lists) {
   const auto& [sizes, levels, functions, directions, metrics] = lists;
   if (sizes.size() != 7) return std::nullopt;
-  if (!are_rows(levels, sizes[0], sizes[1]) || !are_rows(functions, sizes[2], sizes[3]) ||
-      !are_rows(directions, sizes[4], sizes[5])) {
+  if (!are_matrix(levels, sizes[0], sizes[1]) || !are_matrix(functions, sizes[2], sizes[3]) ||
+      !are_matrix(directions, sizes[4], sizes[5])) {
     return std::nullopt;
   }
   const std::uint64_t rank = sizes[4];  // rows and columns of a metric
-  if (!are_rows(metrics, sizes[6], rank * rank)) return std::nullopt;
+  if (!are_matrix(metrics, sizes[6], rank * rank)) return std::nullopt;
   const auto matrix = [](const float* numbers, std::uint64_t rows, std::uint64_t columns) {
     return Eigen::Map<const FloatRows>(numbers, static_cast<Index>(rows),
                                        static_cast<Index>(columns));
