@@ -2,8 +2,10 @@
 #include "crowdface/smooth/field_patches.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -223,6 +225,16 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   EXPECT_FALSE(with(&PatchLists::numbers, [](auto& v) { v.push_back(0); }));
   EXPECT_FALSE(FieldPatches::of(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
   EXPECT_FALSE(FieldPatches::of(made.lists(), kVertices + 128, ranks).has_value());
+}
+
+TEST(FieldPatches, TellOfEachPatchAndEndWhereTheyAreTold) {
+  const auto heads = smooth_heads(3);
+  std::atomic<std::size_t> told{0};
+  const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.1,
+                                                  [&](std::size_t more) { told += more; });
+  EXPECT_EQ(told, patches.size());
+  const auto stop = [](std::size_t) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(interpolate_fields(heads, kLevels, rows_of_grid(), 0.1, stop), std::runtime_error);
 }
 
 }  // namespace

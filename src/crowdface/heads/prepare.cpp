@@ -156,8 +156,14 @@ KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepare
   const double left = std::max(0.0, tolerance - missed);
   return kept_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
     const double two_edges = 2 * inputs.edge_length_mm / mm_per(config.faces.units);
+    Progress progress("comparing heads patch by patch",
+                      patch_count(static_cast<std::size_t>(inputs.faces.topology.vertex_count)));
     return interpolate_fields(head_levels(config, prepared), test_levels(*prepared.nodes).levels,
-                              patch_order(inputs.faces.heads.front().positions, two_edges), left);
+                              patch_order(inputs.faces.heads.front().positions, two_edges), left,
+                              [&](std::size_t patches) {
+                                throw_if_interrupted();
+                                progress.step(patches);
+                              });
   });
 }
 
@@ -186,7 +192,8 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
-  Progress progress("preparing heads", inputs.faces.heads.size());
+  std::optional<Progress> progress;
+  progress.emplace("preparing heads", inputs.faces.heads.size());
   std::vector<Digest> keys(inputs.faces.heads.size());
   std::vector<std::optional<PreparedHead>> heads(keys.size());
   parallel_for_each(keys.size(), [&](std::size_t h) {
@@ -209,8 +216,9 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
     }
     prepared.trajectories.push_back(std::move(head->trajectory));
     prepared.levels.push_back(std::move(head->levels));
-    progress.step();
+    progress->step();
   }
+  progress.reset();
   if (config.smoothing.levels == Levels::kExact) {
     preparation.filter();
   } else {

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::size_t kPatchesATask = 16;
 
-std::size_t patch_count(std::size_t vertices) {
-  return (vertices + kPatchVertices - 1) / kPatchVertices;
-}
-
 /// w_p with |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any vectors e_p: peaks of φ_p, times what
 /// Cauchy and Schwarz ask for.
 std::vector<double> error_weights(const HeadLevels& head, std::span<const std::uint64_t> levels) {
@@ -308,7 +304,8 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double near) 
 
 FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
                                 std::span<const std::uint64_t> levels,
-                                std::span<const std::uint32_t> order, double tolerance) {
+                                std::span<const std::uint32_t> order, double tolerance,
+                                const std::function<void(std::size_t)>& progress) {
   require(!heads.empty(), "patches of no head");
   std::vector<Index> ranks;
   for (const HeadLevels& head : heads) {
@@ -337,6 +334,7 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
       std::ranges::sort(vertices);
       maker.add(vertices, parts[begin / kPatchesATask]);
     }
+    progress(end - begin);
   });
   const MadePatches& made =
       all->made = {join(parts, &MadePatches::skeletons), join(parts, &MadePatches::counts),

@@ -41,6 +41,11 @@ struct FieldPatch {
   }
 };
 
+/// Patches of a mesh of so many vertices.
+inline std::size_t patch_count(std::size_t vertices) {
+  return (vertices + kPatchVertices - 1) / kPatchVertices;
+}
+
 /// What patches are made of, one after the other.
 struct PatchLists {
   std::span<const std::uint32_t> vertices;   ///< #V, each once
@@ -90,8 +95,10 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
 /// \param tolerance  no vertex misses any of the levels of any head by more (without rounding: numbers are rounded once
 ///                   more to the steps of the patch, none of which exceeds the largest of its vertices' tiles), in the
 ///                   positions' unit.
-FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
-                                std::span<const std::uint64_t> levels,
-                                std::span<const std::uint32_t> order, double tolerance);
+/// \param progress   told of patches as they are done, by any thread; what it throws ends the work
+FieldPatches interpolate_fields(
+    std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
+    std::span<const std::uint32_t> order, double tolerance,
+    const std::function<void(std::size_t patches)>& progress = [](std::size_t) {});
 
 }  // namespace crowdface
