@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/cast/face_area.h"
+#include "crowdface/heads/kept_statistics.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/level_size.h"
 #include "crowdface/smooth/smoothing_operator.h"
@@ -47,9 +48,18 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
       inputs.faces.heads.front().positions);
+  const Digest rows =
+      Hasher().add(inputs.topology_digest).add(inputs.head_digests.front()).digest();
   const auto add = [&](const HeadTextures& textures) {
+    const auto find = [&](const std::function<SurfaceStatistics()>& make) {
+      if (inputs.cache.empty()) return make();
+      return kept_statistics(
+          inputs.cache,
+          statistics_key(rows, topology, inputs.faces.uvs, textures.blended, options.scale),
+          static_cast<std::size_t>(topology.vertex_count), inputs.faces.heads.size(), make);
+    };
     blenders_.push_back(std::make_unique<TextureBlender>(
-        topology, inputs.faces.uvs, filter, inputs.regions, textures.blended, options));
+        topology, inputs.faces.uvs, filter, inputs.regions, textures.blended, options, find));
     for (std::size_t p = 0; p < textures.names.size(); ++p) {
       pictures_.push_back({blenders_.back().get(), p});
     }

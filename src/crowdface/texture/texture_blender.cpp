@@ -145,7 +145,8 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
 
 TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
                                const ChebyshevFilter& filter, const RegionWeights& regions,
-                               const CrowdTextures& textures, TextureBlending options)
+                               const CrowdTextures& textures, TextureBlending options,
+                               const FindStatistics& find)
     : regions_(regions), textures_(textures), options_(std::move(options)) {
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   require(textures.layout.of_face.size() == static_cast<std::size_t>(topology.face_count()) &&
@@ -160,7 +161,8 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
     }
     codings_.push_back(common_coding(textures.maps[p]));
   }
-  statistics_ = surface_statistics(filter, texels_, textures.maps, options_.scale);
+  statistics_ =
+      find([&] { return surface_statistics(filter, texels_, textures.maps, options_.scale); });
 
   region_shares_.assign(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
   double total = 0;

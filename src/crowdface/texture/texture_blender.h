@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "crowdface/blend/recipe.h"
@@ -32,10 +33,14 @@ struct TextureBlending {
 /// texture the others have its weight. The same bits on any number of threads.
 class TextureBlender {
  public:
+  /// Gives what `make()` would: it may have been made before.
+  using FindStatistics =
+      std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param filter  of the mesh, whatever its kind. \param regions, textures  must outlive this object; so must the maps.
-  TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
-                 const ChebyshevFilter& filter, const RegionWeights& regions,
-                 const CrowdTextures& textures, TextureBlending options);
+  TextureBlender(
+      const Topology& topology, const TextureCoordinates& uvs, const ChebyshevFilter& filter,
+      const RegionWeights& regions, const CrowdTextures& textures, TextureBlending options,
+      const FindStatistics& find = [](const auto& make) { return make(); });
 
   /// \param picture  of the layout's. Any thread may ask.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
