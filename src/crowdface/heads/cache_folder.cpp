@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -115,6 +116,10 @@ InvalidInput bad_entry(const fs::path& path, std::string_view what) {
 
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end) {
   return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
+}
+
+bool all_finite(std::span<const float> numbers) {
+  return std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
 }
 
 bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end) {

@@ -66,6 +66,7 @@ bool are_coordinates(std::span<const double> values);
 /// Whether all numbers are below `end`; in `are_rows` some may be kNoIndex, too.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
 bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end);
+bool all_finite(std::span<const float> numbers);
 
 /// The bytes of an object or a list, for `write_entry`.
 inline std::string_view bytes_of(const void* data, std::size_t size) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_face_space.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -66,13 +64,15 @@ Lists lists_of(const FaceSpaceTables& tables) {
 /// Finite numbers, row by row; in a forged entry sizes may be anything.
 bool are_matrix(std::span<const float> numbers, std::uint64_t rows, std::uint64_t columns) {
   constexpr std::uint64_t kMost = 1U << 31U;
-  const bool whole = rows < kMost && columns < kMost && rows * columns == numbers.size();
-  return whole && std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
+  return rows < kMost && columns < kMost && rows * columns == numbers.size() && all_finite(numbers);
 }
 
 /// \return nothing if the lists are none of tables
-std::optional<FaceSpaceTables> tables_of(const Lists& lists) {
-  const auto& [sizes, levels, functions, directions, metrics] = lists;
+std::optional<FaceSpaceTables> tables_of(std::span<const std::uint64_t> sizes,
+                                         std::span<const float> levels,
+                                         std::span<const float> functions,
+                                         std::span<const float> directions,
+                                         std::span<const float> metrics) {
   if (sizes.size() != 7) return std::nullopt;
   if (!are_matrix(levels, sizes[0], sizes[1]) || !are_matrix(functions, sizes[2], sizes[3]) ||
       !are_matrix(directions, sizes[4], sizes[5])) {
@@ -99,14 +99,20 @@ std::optional<FaceSpaceTables> tables_of(const Lists& lists) {
 FaceSpace kept_face_space(const std::filesystem::path& cache, SampledHeads heads,
                           const std::vector<double>& weights, std::size_t bands) {
   if (cache.empty()) return FaceSpace(std::move(heads), weights, bands);
-  const auto make = [&] { return lists_of(FaceSpace(heads, weights, bands).tables()); };
-  const auto is_sound = [&](const auto&... lists) {
-    const auto tables = tables_of(Lists(lists...));
-    return tables && FaceSpace::fit(*tables, heads);
-  };
-  const Lists lists = kept_lists<std::uint64_t, float, float, float, float>(
-      cache, key_of(heads, weights, bands), make, is_sound);
-  return FaceSpace(std::move(heads), weights, *tables_of(lists));
+  std::optional<FaceSpace> made;
+  std::optional<FaceSpaceTables> found;
+  const Digest key = key_of(heads, weights, bands);
+  kept_lists<std::uint64_t, float, float, float, float>(
+      cache, key,
+      [&] {
+        made.emplace(std::move(heads), weights, bands);
+        return lists_of(made->tables());
+      },
+      [&](const auto&... lists) {
+        found = tables_of(lists...);
+        return found && FaceSpace::fit(*found, heads);
+      });
+  return made ? *std::move(made) : FaceSpace(std::move(heads), weights, *std::move(found));
 }
 
 }  // namespace crowdface

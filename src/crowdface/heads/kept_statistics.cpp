@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_statistics.h"
 
-#include <algorithm>
-#include <cmath>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -36,10 +34,6 @@ Lists lists_of(SurfaceStatistics statistics) {
   return lists;
 }
 
-bool all_finite(std::span<const float> numbers) {
-  return std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
-}
-
 }  // namespace
 
 Digest statistics_key(const Digest& rows, const Topology& topology, const TextureCoordinates& uvs,
@@ -68,7 +62,6 @@ Digest statistics_key(const Digest& rows, const Topology& topology, const Textur
 SurfaceStatistics kept_statistics(const std::filesystem::path& cache, const Digest& key,
                                   std::size_t vertices, std::size_t heads,
                                   const std::function<SurfaceStatistics()>& make) {
-  if (cache.empty()) return make();
   SurfaceStatistics statistics;
   statistics.pairs = heads * (heads + 1) / 2;
   auto [coarse, covariances] = kept_lists<float, float>(

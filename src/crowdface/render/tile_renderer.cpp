@@ -39,26 +39,14 @@ Vector around(const Vector& axis, const Eigen::Vector2f& disc) {
 /// show.
 enum class Change : std::uint8_t { kNone, kRelief, kEdge };
 
-/// Lists of numbers of a pixel's points.
+/// Lists of numbers of points.
 class PointLists {
  public:
   void resize(std::size_t count) {
     room_ = std::max(room_, count + kMostLanes);
     numbers_.resize(PointLights::kFields * room_);
   }
-  void put(std::size_t i, const Meeting& meeting) {
-    const auto at = [&](int field) -> float& {
-      return numbers_[static_cast<std::size_t>(field) * room_ + i];
-    };
-    for (int c = 0; c < 3; ++c) {
-      at(PointLights::kPoint + c) = meeting.point[c];
-      at(PointLights::kNormal + c) = meeting.surface.normal[c];
-    }
-    at(PointLights::kKeyOpen) = meeting.key.open;
-    at(PointLights::kKeyAsked) = meeting.key.asked;
-    at(PointLights::kSkyOpen) = meeting.sky.open;
-    at(PointLights::kSkyAsked) = meeting.sky.asked;
-  }
+  float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * room_; }
   PointLights lights() const {
     PointLights lights;
     for (std::size_t f = 0; f < lights.lists.size(); ++f)
@@ -70,6 +58,36 @@ class PointLists {
   std::size_t room_ = 0;
   std::vector<float> numbers_;
 };
+
+/// \param lists  PointLists or PixelLights
+template <class Lists>
+void put(const Meeting& meeting, std::size_t at, Lists& lists) {
+  for (int c = 0; c < 3; ++c) {
+    lists.list(PointLights::kPoint + c)[at] = meeting.point[c];
+    lists.list(PointLights::kNormal + c)[at] = meeting.surface.normal[c];
+  }
+  lists.list(PointLights::kKeyOpen)[at] = meeting.key.open;
+  lists.list(PointLights::kKeyAsked)[at] = meeting.key.asked;
+  lists.list(PointLights::kSkyOpen)[at] = meeting.sky.open;
+  lists.list(PointLights::kSkyAsked)[at] = meeting.sky.asked;
+}
+
+/// Means of what they show, so that the normal is shorter than 1 where they differ, and all their rays.
+Meeting mean_of(std::span<const Meeting> meetings) {
+  Meeting mean = meetings.front();
+  for (const Meeting& other : meetings.subspan(1)) {
+    mean.point += other.point;
+    mean.surface.normal += other.surface.normal;
+    mean.surface.albedo += other.surface.albedo;
+    mean.key.add(other.key, 1);
+    mean.sky.add(other.sky, 1);
+  }
+  const auto count = static_cast<float>(meetings.size());
+  mean.point /= count;
+  mean.surface.normal /= count;
+  mean.surface.albedo /= count;
+  return mean;
+}
 
 /// Shares of the lights that arrive at points.
 struct Shares {
@@ -272,43 +290,50 @@ class Tile {
     }
   }
 
-  void ask_key() {
-    const Vector key = key_direction();
+  /// Asks for a light and counts what arrives.
+  /// \param ray_of  of a meeting in a direction, or none: it does not ask for the light
+  /// \return whether each of the thread's rays is blocked
+  template <class RayOf>
+  std::vector<bool> ask(const InterleavedDisc& directions, Openness Meeting::*light,
+                        const RayOf& ray_of) {
     std::vector<Ray>& rays = memory_.rays;
     std::vector<Meeting*>& asking = memory_.asking;
     rays.clear();
     asking.clear();
-    for_each_ask(sampling_.key,
-                 [&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
-                   if (!meeting.asks_key) return;
-                   const Vector start = meeting.start + kThickness * meeting.surface.normal;
-                   rays.push_back({start, key + kKeyRadius * around(key, disc)});
-                   rays.back().lot = lot;
-                   asking.push_back(&meeting);
-                 });
-    const std::vector<bool> blocked = are_blocked(rays);
-    for (std::size_t r = 0; r < rays.size(); ++r)
-      asking[r]->key.add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
+    for_each_ask(directions, [&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
+      const std::optional<Ray> ray = ray_of(meeting, disc);
+      if (!ray) return;
+      rays.push_back(*ray);
+      rays.back().lot = lot;
+      asking.push_back(&meeting);
+    });
+    std::vector<bool> blocked = are_blocked(rays);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      (asking[r]->*light).add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
+    }
+    return blocked;
+  }
+
+  void ask_key() {
+    const Vector key = key_direction();
+    ask(sampling_.key, &Meeting::key,
+        [&](const Meeting& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
+          if (!meeting.asks_key) return std::nullopt;
+          const Vector start = meeting.start + kThickness * meeting.surface.normal;
+          return Ray{start, key + kKeyRadius * around(key, disc)};
+        });
   }
 
   /// Directions are cosine-weighted.
   void ask_sky() {
-    std::vector<Ray>& rays = memory_.rays;
-    rays.clear();
-    std::vector<Meeting*>& asking = memory_.asking;
-    asking.clear();
-    for_each_ask(
-        sampling_.sky, [&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
-          const Vector& normal = meeting.surface.normal;
-          const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
-          rays.push_back({meeting.start, around(normal, disc) + height * normal, 0, kSkyReach});
-          rays.back().lot = lot;
-          asking.push_back(&meeting);
-        });
-    const std::vector<bool> blocked = are_blocked(rays);
-    for (std::size_t r = 0; r < rays.size(); ++r)
-      asking[r]->sky.add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
-    add_light_through(rays, asking, blocked);
+    const std::vector<bool> blocked =
+        ask(sampling_.sky, &Meeting::sky,
+            [](const Meeting& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
+              const Vector& normal = meeting.surface.normal;
+              const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
+              return Ray{meeting.start, around(normal, disc) + height * normal, 0, kSkyReach};
+            });
+    add_light_through(memory_.rays, memory_.asking, blocked);
   }
 
   /// What is thin and lies in the dark on the side that is seen, such as the inside of a lock at the edge of a
@@ -354,30 +379,11 @@ class Tile {
   std::size_t light_index(int x, int y) const { return PixelLights::index(x - left_, y - top_); }
 
   void summarize() {
-    PixelLights& lights = memory_.pixels;
-    lights.clear();
+    memory_.pixels.clear();
     for (int y = rim_top_; y < rim_bottom_; ++y) {
       for (int x = rim_left_; x < rim_right_; ++x) {
         const std::span<const Meeting> meetings = meetings_of(pixel(x, y));
-        if (meetings.empty()) continue;
-        Vector point = Vector::Zero(), normal = Vector::Zero();
-        Openness key, sky;
-        for (const Meeting& meeting : meetings) {
-          point += meeting.point;
-          normal += meeting.surface.normal;
-          key.add(meeting.key, 1);
-          sky.add(meeting.sky, 1);
-        }
-        const auto count = static_cast<float>(meetings.size());
-        const std::size_t at = light_index(x, y);
-        for (int c = 0; c < 3; ++c) {
-          lights.list(PointLights::kPoint + c)[at] = point[c] / count;
-          lights.list(PointLights::kNormal + c)[at] = normal[c] / count;
-        }
-        lights.list(PointLights::kKeyOpen)[at] = key.open;
-        lights.list(PointLights::kKeyAsked)[at] = key.asked;
-        lights.list(PointLights::kSkyOpen)[at] = sky.open;
-        lights.list(PointLights::kSkyAsked)[at] = sky.asked;
+        if (!meetings.empty()) put(mean_of(meetings), light_index(x, y), memory_.pixels);
       }
     }
   }
@@ -402,7 +408,7 @@ class Tile {
   /// Each point of a pixel that shows several things.
   void add_each(std::span<const Meeting> meetings, int x, int y) {
     memory_.points.resize(meetings.size());
-    for (std::size_t m = 0; m < meetings.size(); ++m) memory_.points.put(m, meetings[m]);
+    for (std::size_t m = 0; m < meetings.size(); ++m) put(meetings[m], m, memory_.points);
     share(memory_.points, meetings.size(), x, y, false, memory_.shares);
     for (std::size_t m = 0; m < meetings.size(); ++m) add_to_batch(meetings[m], memory_.shares, m);
   }
@@ -415,8 +421,9 @@ class Tile {
     for (std::size_t i = 0; i < width; ++i) {
       const Pixel& at = pixel(left_ + static_cast<int>(i), y);
       if (!shows_one(at)) continue;
-      middles[i] = middle_of(at);
-      memory_.points.put(i, middles[i]);
+      middles[i] = mean_of(meetings_of(at));
+      middles[i].surface.normal.normalize();
+      put(middles[i], i, memory_.points);
     }
     share(memory_.points, width, left_, y, true, memory_.row_shares);
     memory_.batch.clear();
@@ -443,24 +450,6 @@ class Tile {
       const auto bytes = to_srgb8(light);
       std::copy(bytes.begin(), bytes.end(), image.at(x, y));
     }
-  }
-
-  /// The one point that stands for all of a pixel.
-  Meeting middle_of(const Pixel& pixel) {
-    const std::span<const Meeting> meetings = meetings_of(pixel);
-    Meeting middle = meetings.front();
-    for (const Meeting& other : meetings.subspan(1)) {
-      middle.point += other.point;
-      middle.surface.normal += other.surface.normal;
-      middle.surface.albedo += other.surface.albedo;
-      middle.key.add(other.key, 1);
-      middle.sky.add(other.sky, 1);
-    }
-    const auto count = static_cast<float>(meetings.size());
-    middle.point /= count;
-    middle.surface.normal.normalize();
-    middle.surface.albedo /= count;
-    return middle;
   }
 
   const Stage& stage_;
