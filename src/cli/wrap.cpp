@@ -240,9 +240,9 @@ WrapOptions sorted(WrapOptions options) {
 }
 
 void declare_wrap(CLI::App& command, WrapOptions& options) {
-  add_option(command, "template", options.first, "TEMPLATE.obj",
+  add_option(command, "template_file", options.first, "TEMPLATE.obj",
              "The head whose topology the result has");
-  add_option(command, "scan", options.scan, "SCAN.{obj,ply,stl,glb}",
+  add_option(command, "scan_file", options.scan, "SCAN.{obj,ply,stl,glb}",
              "The scan, in any unit and pose");
   add_option(command, "-o,--output", options.out, "OUT",
              "The head to write, or with --batch the folder");

@@ -201,7 +201,9 @@ TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
   draw_attachments(draw, {}, after, rejected);
   for (std::size_t i = 0; i < after.size(); ++i) {
     EXPECT_EQ(after[i].attachments.size(), 1U) << i;
-    if (i != 2 && i != 5) EXPECT_EQ(after[i].attachments, before[i].attachments) << i;
+    if (i != 2 && i != 5) {
+      EXPECT_EQ(after[i].attachments, before[i].attachments) << i;
+    }
   }
   // A second review does not change what the first has changed.
   std::vector<CastFace> twice = after;
@@ -209,7 +211,9 @@ TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
   twice[5].recipe.target = 1 - twice[5].recipe.target;
   draw_attachments(draw, {}, twice, rejected);
   for (std::size_t i = 0; i < twice.size(); ++i) {
-    if (i != 5) EXPECT_EQ(twice[i].attachments, after[i].attachments) << i;
+    if (i != 5) {
+      EXPECT_EQ(twice[i].attachments, after[i].attachments) << i;
+    }
   }
 }
 

@@ -254,21 +254,32 @@ TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
   EXPECT_EQ(testing::read_text(folder / "large/plan.jsonl").substr(0, few.size()), few);
   std::map<std::string, int> faces;
   for (const json& line : plan_lines(folder / "large")) {
-    if (line.at("id") == "mob_kin_mother") EXPECT_FALSE(line.contains("group"));
-    if (line.at("id") == "mob_kin_father") EXPECT_EQ(line.at("group"), "rest");
+    if (line.at("id") == "mob_kin_mother") {
+      EXPECT_FALSE(line.contains("group"));
+    }
+    if (line.at("id") == "mob_kin_father") {
+      EXPECT_EQ(line.at("group"), "rest");
+    }
     if (line.at("index").is_null()) continue;
     const auto group = line.at("group").get<std::string>();
     ++faces[group];
     for (const json& region : line.at("regions")) {
       for (const auto& [head, weight] : region.at("weights").items()) {
-        if (group == "few") EXPECT_TRUE(head == "ann" || head == "bob");
+        if (group == "few") {
+          EXPECT_TRUE(head == "ann" || head == "bob");
+        }
         if (group == "rest") {
-          EXPECT_TRUE(head == "cyd" || head == "dan" || head == line.at("target"));
+          EXPECT_TRUE(head == "cyd" || head == "dan" ||
+                      head == line.at("target").get<std::string>());
         }
       }
-      if (group == "three") EXPECT_EQ(region.at("extrapolation"), 1.05);
+      if (group == "three") {
+        EXPECT_EQ(region.at("extrapolation"), 1.05);
+      }
     }
-    if (group == "few") EXPECT_EQ(line.at("target"), "ann");
+    if (group == "few") {
+      EXPECT_EQ(line.at("target"), "ann");
+    }
   }
   EXPECT_EQ(faces["few"], 6);
   EXPECT_EQ(faces["three"], 3);

@@ -88,7 +88,9 @@ TEST(GenerateBands, ALockedBandStays) {
   run(folder, round);
   const auto after = plan_lines(folder.out());
   for (std::size_t i = 0; i < before.size(); ++i) {
-    if (i != 1) EXPECT_EQ(after[i], before[i]);
+    if (i != 1) {
+      EXPECT_EQ(after[i], before[i]);
+    }
   }
   EXPECT_EQ(after[1].at("target"), before[1].at("target"));
   for (int k = 1; k <= 3; ++k) {
@@ -116,7 +118,9 @@ TEST(GenerateBands, ChildrenInheritByBand) {
     const json& from = child.at("inherits").at(concat("region_", k));
     EXPECT_EQ(from.at("a_build"), "mother");
     EXPECT_EQ(from.at("b_features"), "father");
-    if (k == 3) EXPECT_EQ(from.at("c_skin"), "father");
+    if (k == 3) {
+      EXPECT_EQ(from.at("c_skin"), "father");
+    }
     // At least three quarters of what it tends to is the parent's.
     EXPECT_GE(region(child, k).at("weights").at("ann").get<double>(), 0.7);
     EXPECT_GE(region(child, k).at("bands").at("b_features").at("weights").at("bob").get<double>(),

@@ -204,8 +204,12 @@ TEST(GenerateMirror, KeepLeftShapesOnTheirLeft) {
     double left = 0;
     for (Index v = 0; v < rest.rows(); ++v) {
       const double moved = (acting.row(v) - at_rest.row(v)).norm();
-      if (rest(v, 0) <= kLeftFrom) EXPECT_EQ(moved, 0) << id << ' ' << v;
-      if (moved > 0) EXPECT_GT(at_rest(v, 0), 0) << id << ' ' << v;
+      if (rest(v, 0) <= kLeftFrom) {
+        EXPECT_EQ(moved, 0) << id << ' ' << v;
+      }
+      if (moved > 0) {
+        EXPECT_GT(at_rest(v, 0), 0) << id << ' ' << v;
+      }
       left = std::max(left, moved);
     }
     const double wanted = (mesh.positions - rest).rowwise().norm().maxCoeff();

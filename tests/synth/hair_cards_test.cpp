@@ -104,7 +104,9 @@ TEST(HairCards, LieOnTheHeadAboveTheEars) {
     const Mesh& hair = cards_of(cut);
     for (Index v = 0; v < hair.positions.rows(); ++v) {
       const Vector3d p = hair.positions.row(v);
-      if (p.y() > 5) ASSERT_LT(head_distance(p), most) << cut.name << " at " << p.transpose();
+      if (p.y() > 5) {
+        ASSERT_LT(head_distance(p), most) << cut.name << " at " << p.transpose();
+      }
     }
   }
 }

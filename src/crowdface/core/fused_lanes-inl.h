@@ -15,32 +15,43 @@
 HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 
+#if !HWY_NATIVE_FMA
+/// std::fma in every lane, for targets without the instruction.
+template <class V>
+V fused_lane_by_lane(V a, V b, V c) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::DFromV<V> lanes;
+  using T = hn::TFromD<decltype(lanes)>;
+  HWY_ALIGN T factors[2][HWY_MAX_BYTES / sizeof(T)];
+  HWY_ALIGN T sums[HWY_MAX_BYTES / sizeof(T)];
+  hn::Store(a, lanes, factors[0]);
+  hn::Store(b, lanes, factors[1]);
+  hn::Store(c, lanes, sums);
+  for (size_t i = 0; i < hn::Lanes(lanes); ++i) {
+    sums[i] = std::fma(factors[0][i], factors[1][i], sums[i]);
+  }
+  return hn::Load(lanes, sums);
+}
+#endif
+
 /// a·b + c in every lane, rounded once. Highway's own MulAdd rounds twice on targets without the
 /// instruction.
 template <class V>
 HWY_INLINE V fused(V a, V b, V c) {
-#if HWY_TARGET == HWY_SCALAR
-  return V(std::fma(a.raw, b.raw, c.raw));
-#elif HWY_TARGET == HWY_EMU128
-  V result;
-  for (size_t i = 0; i < V::kPrivateN; ++i) result.raw[i] = std::fma(a.raw[i], b.raw[i], c.raw[i]);
-  return result;
-#else
+#if HWY_NATIVE_FMA
   return hwy::HWY_NAMESPACE::MulAdd(a, b, c);
+#else
+  return fused_lane_by_lane(a, b, c);
 #endif
 }
 
 /// a·b − c in every lane, rounded once.
 template <class V>
 HWY_INLINE V fused_less(V a, V b, V c) {
-#if HWY_TARGET == HWY_SCALAR
-  return V(std::fma(a.raw, b.raw, -c.raw));
-#elif HWY_TARGET == HWY_EMU128
-  V result;
-  for (size_t i = 0; i < V::kPrivateN; ++i) result.raw[i] = std::fma(a.raw[i], b.raw[i], -c.raw[i]);
-  return result;
-#else
+#if HWY_NATIVE_FMA
   return hwy::HWY_NAMESPACE::MulSub(a, b, c);
+#else
+  return fused_lane_by_lane(a, b, hwy::HWY_NAMESPACE::Neg(c));
 #endif
 }
 

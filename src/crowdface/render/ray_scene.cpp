@@ -6,11 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include <embree3/rtcore.h>
-
 #include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/render/embree.h"
 
 namespace crowdface {
 namespace {
@@ -25,16 +24,12 @@ struct EightRays {
   static constexpr std::size_t kCount = 8;
   using Rays = RTCRay8;
   using RaysAndHits = RTCRayHit8;
-  static constexpr auto kIntersect = rtcIntersect8;
-  static constexpr auto kOccluded = rtcOccluded8;
 };
 
 struct SixteenRays {
   static constexpr std::size_t kCount = 16;
   using Rays = RTCRay16;
   using RaysAndHits = RTCRayHit16;
-  static constexpr auto kIntersect = rtcIntersect16;
-  static constexpr auto kOccluded = rtcOccluded16;
 };
 
 /// \param valid  -1 for each of the packet's rays that is one, 0 for the rest.
@@ -88,16 +83,13 @@ void for_each_packet(std::span<const Ray> rays, std::size_t count, const Body& b
 template <class Packet>
 std::vector<std::optional<RayHit>> nearest_hits_of(std::span<const Ray> rays, RTCScene scene) {
   std::vector<std::optional<RayHit>> hits(rays.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for_each_packet(rays, Packet::kCount, [&](std::size_t first, std::span<const Ray> some) {
     alignas(64) std::array<int, Packet::kCount> valid;
     typename Packet::RaysAndHits query;
     fill(some, query.ray, valid);
     std::fill_n(query.hit.geomID, Packet::kCount, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(query.hit.instID[0], Packet::kCount, RTC_INVALID_GEOMETRY_ID);
-    Packet::kIntersect(valid.data(), scene, &context, &query);
+    embree::intersect(valid.data(), scene, embree::Rays::kCoherent, query);
     for (std::size_t r = 0; r < some.size(); ++r) {
       const auto& hit = query.hit;
       if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -114,13 +106,11 @@ std::vector<std::optional<RayHit>> nearest_hits_of(std::span<const Ray> rays, RT
 template <class Packet>
 std::vector<bool> occluded_of(std::span<const Ray> rays, RTCScene scene) {
   std::vector<bool> blocked(rays.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   for_each_packet(rays, Packet::kCount, [&](std::size_t first, std::span<const Ray> some) {
     alignas(64) std::array<int, Packet::kCount> valid;
     typename Packet::Rays query;
     fill(some, query, valid);
-    Packet::kOccluded(valid.data(), scene, &context, &query);
+    embree::occluded(valid.data(), scene, query);
     for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
   });
   return blocked;

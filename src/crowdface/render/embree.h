@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Embree 3 (Debian 12) and Embree 4 (Debian 13, Ubuntu 24.04, Fedora) under one set of calls. CMake defines
+// CROWDFACE_EMBREE as the major version that it found.
+#if CROWDFACE_EMBREE == 4
+#include <embree4/rtcore.h>
+#elif CROWDFACE_EMBREE == 3
+#include <embree3/rtcore.h>
+#else
+#error "crowdface works with Embree 3 and Embree 4"
+#endif
+
+namespace crowdface::embree {
+
+/// Whether the rays of a packet run alike, which lets Embree trace them faster.
+enum class Rays { kIncoherent, kCoherent };
+
+#if CROWDFACE_EMBREE == 4
+
+inline RTCIntersectArguments intersect_arguments(Rays rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  if (rays == Rays::kCoherent) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  return arguments;
+}
+
+/// Finds the first surface on each ray of a packet.
+/// \param valid  -1 for each lane with a ray, 0 for the others; aligned to 64 bytes.
+/// \param query  must hold rays and empty hits; receives distances and hits.
+inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
+  RTCIntersectArguments arguments = intersect_arguments(rays);
+  rtcIntersect8(valid, scene, &query, &arguments);
+}
+inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit16& query) {
+  RTCIntersectArguments arguments = intersect_arguments(rays);
+  rtcIntersect16(valid, scene, &query, &arguments);
+}
+
+/// Sets `tfar` of each ray of a packet that meets a surface to -infinity.
+inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
+  rtcOccluded8(valid, scene, &rays, nullptr);
+}
+inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
+  rtcOccluded16(valid, scene, &rays, nullptr);
+}
+
+#else
+
+inline RTCIntersectContext intersect_context(Rays rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (rays == Rays::kCoherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
+  RTCIntersectContext context = intersect_context(rays);
+  rtcIntersect8(valid, scene, &context, &query);
+}
+inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit16& query) {
+  RTCIntersectContext context = intersect_context(rays);
+  rtcIntersect16(valid, scene, &context, &query);
+}
+
+inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
+  RTCIntersectContext context = intersect_context(Rays::kIncoherent);
+  rtcOccluded8(valid, scene, &context, &rays);
+}
+inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
+  RTCIntersectContext context = intersect_context(Rays::kIncoherent);
+  rtcOccluded16(valid, scene, &context, &rays);
+}
+
+#endif
+
+}  // namespace crowdface::embree
