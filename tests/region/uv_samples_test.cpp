@@ -44,6 +44,8 @@ TEST(TileNumber, CountsTenColumnsARow) {
   EXPECT_EQ(tile_number(0, 0), 1001);
   EXPECT_EQ(tile_number(9, 0), 1010);
   EXPECT_EQ(tile_number(2, 3), 1033);
+  EXPECT_EQ(tile_number(8, 899), 9999);
+  EXPECT_THROW(tile_number(9, 899), InvalidInput) << "five digits, which no file's name has";
   EXPECT_THROW(tile_number(10, 0), InvalidInput);
   EXPECT_THROW(tile_number(-1, 0), InvalidInput);
   EXPECT_THROW(tile_number(0, -1), InvalidInput);

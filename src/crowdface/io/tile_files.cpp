@@ -16,12 +16,13 @@ namespace crowdface {
 namespace fs = std::filesystem;
 
 int tile_number(double column, double row) {
-  if (!(column >= 0 && column < 10 && row >= 0 && row < 900)) {
-    throw InvalidInput(
-        concat("expected texture coordinates inside the UDIM tiles, u in [0, 10] and ",
-               "v in [0, 900], found the tile at column ", column, ", row ", row));
+  if (column >= 0 && column < 10 && row >= 0 && row < 900) {
+    const int number = kFirstTile + static_cast<int>(column) + 10 * static_cast<int>(row);
+    if (number <= kLastTile) return number;
   }
-  return kFirstTile + static_cast<int>(column) + 10 * static_cast<int>(row);
+  throw InvalidInput(concat("expected texture coordinates inside the UDIM tiles ", kFirstTile,
+                            " to ", kLastTile, ", u in [0, 10] and v in [0, 900], found the tile ",
+                            "at column ", column, ", row ", row));
 }
 
 fs::path with_tile(const fs::path& path, int tile) {

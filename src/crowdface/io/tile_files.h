@@ -7,10 +7,11 @@
 
 namespace crowdface {
 
-/// Textures beside each other, ten columns to a row, each of side 1 (UDIM): that at the origin.
-inline constexpr int kFirstTile = 1001;
+/// Textures beside each other, ten columns to a row, each of side 1 (UDIM): that at the origin, and the last one that
+/// has a number of four digits.
+inline constexpr int kFirstTile = 1001, kLastTile = 9999;
 
-/// kFirstTile + column + 10 · row. \throws InvalidInput unless 0 ≤ column < 10 and 0 ≤ row < 900.
+/// kFirstTile + column + 10 · row. \throws InvalidInput unless 0 ≤ column < 10, 0 ≤ row and that is at most kLastTile.
 int tile_number(double column, double row);
 
 /// Stands in a file's name for the number of a UDIM tile, four digits.
