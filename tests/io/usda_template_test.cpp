@@ -138,6 +138,20 @@ TEST(UsdaTemplate, NamesTexturesBeside) {
   EXPECT_THAT(text, Not(HasSubstr("GeomSubset"))) << "one material is the whole mesh's";
 }
 
+// An @ in a file's name ended the asset path, and no reader could parse the layer.
+TEST(UsdaTemplate, PutsNamesWithAnAtSignBetweenThreeOfThem) {
+  Scene scene;
+  scene.options.face_materials = {0, 0, 0};
+  scene.options.materials[0].image = 0;
+  const UsdaTemplate form(scene.topology, scene.uvs, scene.options, Subdivision::kNone);
+  const auto layer = [&](const std::string& image) {
+    return form.encode(scene.positions, scene.normals, "x", scene.moves, {&image, 1}).text();
+  };
+  EXPECT_THAT(layer("./a@2x.png"), HasSubstr("asset inputs:file = @@@./a@2x.png@@@\n"));
+  EXPECT_THAT(layer("./a@@@b.png"), HasSubstr("asset inputs:file = @@@./a\\@@@b.png@@@\n"));
+  EXPECT_THAT(layer("./a.png"), HasSubstr("asset inputs:file = @./a.png@\n"));
+}
+
 TEST(UsdaTemplate, HoldsShapesUnderTheirNames) {
   const Scene scene;
   const std::string text = scene.text();

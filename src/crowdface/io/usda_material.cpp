@@ -17,16 +17,28 @@ std::string colour_text(const std::array<float, 4>& colour) {
   return concat('(', rounded(colour[0]), ", ", rounded(colour[1]), ", ", rounded(colour[2]), ')');
 }
 
+/// A file as an asset path: between @, or where its name holds one, between @@@, which may stand escaped in it.
+std::string asset_path(std::string_view file) {
+  if (file.find('@') == file.npos) return concat('@', file, '@');
+  std::string text = "@@@";
+  for (; !file.empty(); file.remove_prefix(1)) {
+    if (file.starts_with("@@@")) text += '\\';
+    text += file.front();
+  }
+  return text + "@@@";
+}
+
 /// A texture as a shader of its own. \param more  lines of its inputs.
 std::string texture_text(const std::string& path, std::string_view name, const std::string& file,
                          std::string_view wrap, bool is_colour, std::string_view more,
                          std::string_view output) {
   return concat('\n', kInner, "def Shader \"", name, "\"\n", kInner, "{\n", kDeep,
-                "uniform token info:id = \"UsdUVTexture\"\n", kDeep, "asset inputs:file = @", file,
-                "@\n", more, kDeep, "token inputs:sourceColorSpace = \"",
-                is_colour ? "sRGB" : "raw", "\"\n", kDeep, "float2 inputs:st.connect = <", path,
-                "/st.outputs:result>\n", kDeep, "token inputs:wrapS = \"", wrap, "\"\n", kDeep,
-                "token inputs:wrapT = \"", wrap, "\"\n", kDeep, output, '\n', kInner, "}\n");
+                "uniform token info:id = \"UsdUVTexture\"\n", kDeep,
+                "asset inputs:file = ", asset_path(file), '\n', more, kDeep,
+                "token inputs:sourceColorSpace = \"", is_colour ? "sRGB" : "raw", "\"\n", kDeep,
+                "float2 inputs:st.connect = <", path, "/st.outputs:result>\n", kDeep,
+                "token inputs:wrapS = \"", wrap, "\"\n", kDeep, "token inputs:wrapT = \"", wrap,
+                "\"\n", kDeep, output, '\n', kInner, "}\n");
 }
 
 /// A Material prim. \param path  of the prim. \param name  its last part.
