@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 
@@ -18,11 +19,28 @@ namespace crowdface {
 namespace {
 
 /// A control group's limit; nothing if there is none.
-std::optional<std::uint64_t> group_limit(const char* file) {
+std::optional<std::uint64_t> group_limit(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string text;
   if (!(stream >> text)) return std::nullopt;
   return parse_unsigned(text);  // "max" is no number: no limit
+}
+
+/// Lowers `least` to the least limit of a group and of all groups that it lies in.
+/// \param mount  the folder of the outermost group. \param file  the limit's name in each folder.
+void lower_to_groups(std::optional<std::uint64_t>& least, const std::filesystem::path& mount,
+                     const std::filesystem::path& group, const char* file) {
+  std::filesystem::path folder = mount;
+  const auto lower = [&] {
+    const auto limit = group_limit(folder / file);
+    if (limit) least = std::min(least.value_or(*limit), *limit);
+  };
+  lower();
+  for (const std::filesystem::path& part : group.relative_path()) {
+    if (part == "..") return;  // above what this namespace shows
+    folder /= part;
+    lower();
+  }
 }
 
 std::atomic<bool> ran_out = false;
@@ -35,13 +53,30 @@ std::atomic<bool> ran_out = false;
 }  // namespace
 
 std::uint64_t machine_memory() {
-  std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-  for (const char* file :
-       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    if (const auto limit = group_limit(file)) bytes = std::min(bytes, *limit);
+  const std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                              static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  return std::min(bytes, memory_limit_of_groups().value_or(bytes));
+}
+
+std::optional<std::uint64_t> memory_limit_of_groups(const std::filesystem::path& groups,
+                                                    const std::filesystem::path& root) {
+  std::optional<std::uint64_t> least;
+  const auto lower = [&](const std::string& controllers, const std::string& group) {
+    if (controllers.empty()) lower_to_groups(least, root, group, "memory.max");
+    if (contains(split(controllers, ','), "memory")) {
+      lower_to_groups(least, root / "memory", group, "memory.limit_in_bytes");
+    }
+  };
+  lower("", "");  // also where the system names no groups
+  lower("memory", "");
+  std::ifstream lines(groups);
+  for (std::string line; std::getline(lines, line);) {
+    // "4:memory:/group"; version 2 names no controllers: "0::/group".
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == line.npos) continue;
+    lower(line.substr(first + 1, second - first - 1), line.substr(second + 1));
   }
-  return bytes;
+  return least;
 }
 
 void give_back_large_blocks() {
@@ -103,7 +138,9 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
 std::string format_bytes(std::uint64_t bytes) {
   const double value = static_cast<double>(bytes);
   if (value >= 1073741824.0) return concat(format_fixed(value / 1073741824.0, 1), " GiB");
-  return concat(format_fixed(value / 1048576.0, 0), " MiB");
+  if (value >= 1048576.0) return concat(format_fixed(value / 1048576.0, 0), " MiB");
+  if (value >= 1024.0) return concat(format_fixed(value / 1024.0, 0), " KiB");
+  return concat(bytes, " bytes");
 }
 
 }  // namespace crowdface
