@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/triangles.h"
 
 #include "support/meshes.h"
 
@@ -32,6 +33,16 @@ TEST(VertexNormals, OfNothingPointForward) {
   const Positions normals =
       vertex_normals(testing::make_topology(4, {{0, 1, 2}}), Positions::Zero(4, 3));
   for (Index i = 0; i < 4; ++i) EXPECT_EQ(normals.row(i), Eigen::RowVector3d(0, 0, 1));
+}
+
+// Two functions of one name differed there.
+TEST(VertexNormalsOrZero, AreZeroWhereThereIsNoNormal) {
+  Positions positions = testing::cube_positions();
+  const std::vector<Triangle> triangles = triangles_of(testing::cube_topology());
+  const Positions normals = vertex_normals_or_zero(triangles, positions);
+  EXPECT_LT((normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+  EXPECT_EQ(vertex_normals_or_zero(triangles, Positions::Zero(8, 3)), Positions::Zero(8, 3));
+  EXPECT_EQ(vertex_normals_or_zero({}, positions), Positions::Zero(8, 3));
 }
 
 /// The normals face by face, scattered to the rows of its corners.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
+#include "crowdface/core/require.h"
 #include "crowdface/validity/skin_check.h"
 
 #include "support/meshes.h"
@@ -144,6 +145,11 @@ TEST(SkinCheck, CountsWhatTheTargetHasNot) {
   EXPECT_EQ(check.compare(heads[1].positions, 1).intersecting, 0) << "the target's own";
   EXPECT_EQ(check.compare(heads[0].positions, 0).local.flipped, 0);
   EXPECT_GT(check.compare(heads[1].positions, 0).local.flipped, 100);
+}
+
+TEST(SkinCheck, NeedsAHead) {
+  const Sheet sheet;
+  EXPECT_THROW(SkinCheck(sheet.topology, sheet.components, {}, {}, {}), BrokenPrecondition);
 }
 
 /// Of the bent sheet, what is above the flat half: a viewer above sees its back.

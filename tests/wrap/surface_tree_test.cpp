@@ -44,7 +44,7 @@ TEST(SurfaceTree, FindsTheNearestThatFacesAWayWhateverIsGuessed) {
   const SyntheticHeads heads(5000);
   const Positions positions = heads.positions(1, 1);
   const std::vector<Triangle> triangles = triangles_of(heads.topology());
-  const Positions normals = vertex_normals(triangles, positions);
+  const Positions normals = vertex_normals_or_zero(triangles, positions);
   const SurfaceTree tree(positions, triangles);
   const Positions points = 15 * random_positions(60, 3), ways = random_positions(60, 4);
   for (Index i = 0; i < points.rows(); ++i) {

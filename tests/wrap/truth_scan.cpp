@@ -213,7 +213,7 @@ TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandma
   scatter(scan, options.seed);
   cut_holes(scan, options);
   scan = shuffled(scan, options.seed);
-  const Positions normals = vertex_normals(scan.triangles, scan.positions);
+  const Positions normals = vertex_normals_or_zero(scan.triangles, scan.positions);
   for (Index v = 0; v < scan.positions.rows(); ++v) {
     const RandomKey key{options.seed, static_cast<std::uint64_t>(v), "truth/noise"};
     scan.positions.row(v) += options.noise_mm * random_normal(key) * normals.row(v);

@@ -73,7 +73,8 @@ std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen:
   return {va / sum, vb / sum, vc / sum};
 }
 
-Positions vertex_normals(const std::vector<Triangle>& triangles, const Positions& positions) {
+Positions vertex_normals_or_zero(const std::vector<Triangle>& triangles,
+                                 const Positions& positions) {
   Positions normals = Positions::Zero(positions.rows(), 3);
   for (const Triangle& t : triangles) {
     const Eigen::RowVector3d area = area_vector(positions, t).transpose();

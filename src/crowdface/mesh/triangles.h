@@ -31,7 +31,8 @@ std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen:
                                           const Eigen::Vector3d& c, const Eigen::Vector3d& p);
 
 /// Unit normals of the vertices, #V by 3, each the sum of the normals around it weighted by area; zero
-/// where none is.
-Positions vertex_normals(const std::vector<Triangle>& triangles, const Positions& positions);
+/// where the sum vanishes, and at vertices of no triangle. (`vertex_normals` of a Topology has (0, 0, 1) there.)
+Positions vertex_normals_or_zero(const std::vector<Triangle>& triangles,
+                                 const Positions& positions);
 
 }  // namespace crowdface

@@ -48,7 +48,7 @@ std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Posi
 
 std::vector<bool> skin_that_may_meet(const SkinTriangles& skin, const Positions& neutral,
                                      const Positions& shaped, double extent) {
-  const Positions normals = vertex_normals(skin.triangles, shaped);
+  const Positions normals = vertex_normals_or_zero(skin.triangles, shaped);
   const std::vector<std::uint32_t> representative =
       representatives(skin, shaped, normals, kMeetingCell * extent);
   std::vector<std::uint32_t> asked;

@@ -7,10 +7,16 @@
 #include <utility>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
+
+const Head& first_of(const std::vector<Head>& heads) {
+  require(!heads.empty(), "skin is checked against heads, and there is none");
+  return heads.front();
+}
 
 /// By which boxes are grown, so that rounding lets no ray miss one.
 double margin_of(const Positions& positions) {
@@ -134,7 +140,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
                      const std::vector<Head>& heads, const std::set<Index>& targets,
                      Viewing viewing)
     : triangles_(outward(triangles_of(topology, components, components.largest()),
-                         heads.front().positions)),
+                         first_of(heads).positions)),
       tree_(triangles_, heads.front().positions),
       around_(topology_of(triangles_, topology.vertex_count)),
       viewing_(std::move(viewing)) {

@@ -29,7 +29,7 @@ struct SkinDefects {
 /// Judges whole meshes of one topology against their targets, from any thread.
 class SkinCheck {
  public:
-  /// \param heads    #V by 3 each.
+  /// \param heads    #V by 3 each. \throws BrokenPrecondition if there is none.
   /// \param targets  heads that will be asked about.
   SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
             const std::set<Index>& targets, Viewing viewing);

@@ -146,7 +146,7 @@ class Bending {
 
   /// What the scan nearest to each vertex asks of it.
   void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) {
-    const Positions normals = vertex_normals(skin_.triangles, current);
+    const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
     std::vector<Pull> pulls(visible_.size());
     parallel_for_each(static_cast<std::uint32_t>(pulls.size()), 128, [&](std::uint32_t v) {
       const double seen = visible_[v];

@@ -211,7 +211,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
                         const ScanSurface& scan, int smoothings) {
   std::optional<PatchMender> mender;
   Positions result = positions;
-  Positions normals = vertex_normals(skin.triangles, result);
+  Positions normals = vertex_normals_or_zero(skin.triangles, result);
   if (smoothings > 0) {
     const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
     const auto times = static_cast<std::uint64_t>(smoothings);
@@ -228,7 +228,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
   // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
   const SmoothFit fit(skin.adjacency, 16 * std::pow(kStiffnessEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
-    if (smoothings == 0) normals = vertex_normals(skin.triangles, result);
+    if (smoothings == 0) normals = vertex_normals_or_zero(skin.triangles, result);
     const AskedOfSkin asked = ask_scan(skin, result, normals, scan);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
     even_out_folds(skin, rest, result, normals, mender, along);

@@ -89,7 +89,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   const Similarity faces_meet =
       fit_similarity(rest(face, Eigen::all), wrapped(face, Eigen::all), ScaleFit::kUniform);
   const Positions placed = faces_meet.apply(rest);
-  const Positions normals = vertex_normals(shape.skin.triangles, placed);
+  const Positions normals = vertex_normals_or_zero(shape.skin.triangles, placed);
   std::vector<double> out;
   std::size_t far = 0;
   for (const std::uint32_t v : skull) {

@@ -18,7 +18,7 @@ constexpr double kLeastShare = 0.001;
 
 ScanSurface::ScanSurface(const Scan& scan)
     : scan_(without_small_pieces(scan, kLeastShare)),
-      normals_(vertex_normals(scan_.triangles, scan_.positions)),
+      normals_(vertex_normals_or_zero(scan_.triangles, scan_.positions)),
       rim_(build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
       tree_(scan_.positions, scan_.triangles) {}
 

@@ -141,8 +141,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                  const ShapeFitOptions& options, double first_scale,
                  std::vector<std::uint32_t>& found, ShapeFit& fit) {
   const Positions placed = fit.pose.apply(model.shape(fit.coefficients));
-  std::vector<Match> matches = find_matches(placed, vertex_normals(skin.triangles, placed), scan,
-                                            probes, reach_mm * fit.pose.scale, found);
+  std::vector<Match> matches = find_matches(placed, vertex_normals_or_zero(skin.triangles, placed),
+                                            scan, probes, reach_mm * fit.pose.scale, found);
   if (matches.size() < probes.size() / 50 + 3) return 0;
   leave_out_farthest(matches);
   const double mm = fit.pose.scale;  // in the scan's unit

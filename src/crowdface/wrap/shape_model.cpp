@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/smooth/symmetric_eigen.h"
 
 namespace crowdface {
@@ -22,6 +23,7 @@ Positions ShapeModel::shape(const Eigen::VectorXd& coefficients) const {
 }
 
 ShapeModel make_model(const std::vector<Positions>& heads) {
+  require(!heads.empty(), "a model is made of heads, and there is none");
   const auto count = static_cast<Index>(heads.size());
   ShapeModel model;
   model.mean = Positions::Zero(heads[0].rows(), 3);

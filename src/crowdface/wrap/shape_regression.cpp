@@ -132,7 +132,7 @@ std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
                             const Positions& positions, const ScanSurface& scan,
                             const std::vector<std::uint32_t>& places, double reach,
                             double noise_mm) {
-  const Positions normals = vertex_normals(skin.triangles, positions);
+  const Positions normals = vertex_normals_or_zero(skin.triangles, positions);
   std::vector<Asked> asked(places.size());
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
     const std::uint32_t v = places[i];

@@ -28,7 +28,7 @@ SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corne
 
 SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles)
     : positions_(positions), triangles_(triangles) {
-  const Positions normals = vertex_normals(triangles, positions);
+  const Positions normals = vertex_normals_or_zero(triangles, positions);
   Positions centres(static_cast<Index>(triangles.size()), 3);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
