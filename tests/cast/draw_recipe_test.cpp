@@ -444,6 +444,32 @@ TEST(DrawRecipe, SizesBecomeTheirIterations) {
   }
 }
 
+// An empty list of sources was read beyond its end.
+TEST(DrawRecipe, NeedsTargetsAndSources) {
+  Casting casting = example();
+  casting.sampling.sources.clear();
+  EXPECT_THROW(draw_any_face(casting, 1), BrokenPrecondition);
+  casting = example();
+  casting.sampling.targets.clear();
+  EXPECT_THROW(draw_any_face(casting, 1), BrokenPrecondition);
+}
+
+TEST(DrawRecipe, TheNumberOfSourcesHoldsForEachRegionAlone) {
+  Casting casting = example();
+  casting.sampling.max_sources = 1;
+  ASSERT_GT(casting.region_names.size(), 1U);
+  bool others_elsewhere = false;
+  for (const CastFace& face : draw_crowd(casting)) {
+    std::set<Index> heads;
+    for (const RegionRecipe& region : face.recipe.regions) {
+      EXPECT_LE(region.weights.size(), 2U) << "one source and the target";
+      for (const SourceWeight& weight : region.weights) heads.insert(weight.head);
+    }
+    others_elsewhere = others_elsewhere || heads.size() > 2;
+  }
+  EXPECT_TRUE(others_elsewhere);
+}
+
 TEST(DrawRecipe, SourcesAndTheirNumberAreKept) {
   Casting casting = example();
   casting.sampling.targets = {{2, 1}};

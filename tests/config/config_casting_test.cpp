@@ -122,12 +122,16 @@ TEST_F(ConfigTest, GroupsLeaveOutHeadsWithATag) {
 
 TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   const auto refused = [&](const std::string& group, const std::string& phrase) {
-    EXPECT_FALSE(read(kTagged + "groups: [{name: a, " + group + "}]\n")) << group;
+    EXPECT_FALSE(read(kTagged + "sampling: {bands: {build: {}, skin: 8 mm}}\ngroups: [{name: a, " +
+                      group + "}]\n"))
+        << group;
     EXPECT_THAT(told(), HasSubstr(phrase)) << group;
   };
   refused("without: [purple]", "no head has the tag \"purple\"");
   refused("tags: [old], without: [old]", "every head that the group could have");
   refused("sources: [ann], without: [female]", "every head that the group could have");
+  refused("bands: {skin: {sources: [ann]}}, without: [old]",
+          "every head that could lend to the band skin");
   refused("without: old", "a list of tags");
   refused("without: [not old]", "name");
 }

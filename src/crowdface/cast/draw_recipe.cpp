@@ -7,6 +7,7 @@
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
 #include "crowdface/core/random.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/smooth/level_size.h"
@@ -72,6 +73,7 @@ PlanePoint draw_in_hull(const Casting& casting, const std::vector<Index>& source
 PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
                          const std::vector<Index>& sources, Index target, const FaceDraws& draws,
                          const std::string& region, std::uint32_t retry) {
+  require(!sources.empty(), "a position is drawn among sources, and there is none");
   const std::uint32_t first = kLanesOfPosition * retry;
   switch (distribution.kind) {
     case PositionDistribution::Kind::kFixed:
@@ -233,6 +235,7 @@ CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawK
   face.id = hand.id;
   face.group = kind.group;
   face.notes.attempt = key.attempt;
+  require(hand.target || !kind.targets.empty(), "a recipe is drawn on targets, and there is none");
   face.recipe.target =
       hand.target
           ? *hand.target

@@ -99,9 +99,9 @@ struct SamplingOptions {
   std::vector<Eigen::Index> sources;    ///< heads whose details take part, ascending
   std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
   std::vector<BandSampling> bands;      ///< coarse to fine; none: detail is one band
-  std::optional<int> max_sources;       ///< keep only the largest weights of a position; none: all
-  Range age = {0, 0};                   ///< of sampled faces, see apply_age
-  Range asymmetry = {1, 1};             ///< see Recipe
+  std::optional<int> max_sources;  ///< of each band of each region: the largest weights; none: all
+  Range age = {0, 0};              ///< of sampled faces, see apply_age
+  Range asymmetry = {1, 1};        ///< see Recipe
   Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> old_heads;  ///< tagged old, ascending
   std::vector<Eigen::Index> young_heads;

@@ -34,6 +34,7 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const bool known = draft.heads_known && draft.tags_known;
   SamplingOptions& sampling = group.sampling;
   const bool had_some = !sampling.targets.empty() && !sampling.sources.empty();
+  std::vector<std::string> emptied;  // bands
   for (const std::string& tag : *tags) {
     const std::vector<Eigen::Index> tagged = heads_with({tag}, draft.config.faces);
     if (known && tagged.empty()) {
@@ -43,11 +44,17 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
     std::erase_if(sampling.targets, [&](const auto& target) { return is_tagged(target.head); });
     std::erase_if(sampling.sources, is_tagged);
     for (BandSampling& band : sampling.bands) {
-      if (band.sources) std::erase_if(*band.sources, is_tagged);
+      if (!band.sources || std::erase_if(*band.sources, is_tagged) == 0) continue;
+      if (band.sources->empty()) emptied.push_back(band.name);
     }
   }
   if (known && had_some && (sampling.targets.empty() || sampling.sources.empty())) {
     draft.complaints.about(node, "every head that the group could have has one of these tags");
+  }
+  for (const std::string& band : emptied) {
+    draft.complaints.about(node, concat("every head that could lend to the band ", band,
+                                        " has one of these tags; give the group's bands.", band,
+                                        " sources of its own"));
   }
 }
 

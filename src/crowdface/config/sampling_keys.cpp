@@ -278,7 +278,7 @@ const Keys<SamplingOptions>& sampling_keys() {
                     [](const Sampling& sampling, const ConfigWriting&) {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
-          .in_starter({"3", "", "How many heads lend their features to one face."}),
+          .in_starter({"3", "", "How many heads lend their features to each region of a face."}),
       {"bands", read_bands, write_bands},
       key("age", &Sampling::age, age()),
       key("asymmetry", &Sampling::asymmetry, asymmetry()).written_if(is_mirrored),
