@@ -127,6 +127,30 @@ TEST(CastingFamilies, DrawnParentsStandOnHeadsOfTheirSex) {
   EXPECT_EQ(targets("{bob: [male]}", "one")["father"], "bobbob") << "and no head is a woman's";
 }
 
+// Members were settled before their drawn parents joined the crowd, and never compared with them.
+TEST(CastingFamilies, ChildrenKeepTheirDistanceFromDrawnParents) {
+  SmallCrowd crowd = six_bowls();
+  crowd.count = 1;
+  crowd.more =
+      "diversity: {min_distance: 1.2 mm}\n"
+      "families: [{name: kin, members: 3, parents: {mother: drawn, father: drawn}, max_distance: "
+      "2.5 mm, min_distance: 0.4 mm}]\n";
+  const SmallCrowdFolder folder(crowd);
+  for (const char* seed : {"1", "2", "3", "4"}) {
+    ConfigOverrides overrides;
+    overrides.seed = seed;
+    run_to(folder, seed, overrides);
+    const Measured faces(folder, seed);
+    ASSERT_EQ(faces.lines.size(), 6U);
+    EXPECT_EQ(faces.lines[0].at("id"), "mob_kin_mother");
+    for (std::size_t child = 2; child < 5; ++child) {
+      for (const std::size_t parent : {0U, 1U}) {
+        EXPECT_GE(faces.between(parent, child), 1.2 - kTolerance) << seed;
+      }
+    }
+  }
+}
+
 TEST(CastingFamilies, ChildrenOfAGroupAreMadeOfItsHeads) {
   SmallCrowd crowd = six_bowls();
   crowd.more =

@@ -37,7 +37,9 @@ std::vector<FaceSearch::Found> draw_members(const Casting& casting, const Family
     FaceSearch search([&](std::uint32_t attempt) { return draws.member(cast, number, attempt); },
                       judge, casting.diversity, 1);
     auto member = search.settle(crowd, [&](const FaceSpace::Point& point) {
-      return draws.refuses(cast, point, own, kinship);
+      return draws.drawn_parent_mm(point) < casting.diversity.min_distance_mm
+                 ? std::optional(Reason::kMinDistance)
+                 : draws.refuses(cast, point, own, kinship);
     });
     rejections.add(search.rejections());
     if (!member) break;

@@ -2,6 +2,7 @@
 #include "crowdface/cast/family_draws.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -181,11 +182,7 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
         judge_, casting_.diversity, 1,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts));
     auto found = search.settle(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
-      for (const FaceSearch::Found& other : drawn_) {
-        if (FaceSpace::distance(point, other.point) < casting_.diversity.min_distance_mm) {
-          return Reason::kMinDistance;
-        }
-      }
+      if (drawn_parent_mm(point) < casting_.diversity.min_distance_mm) return Reason::kMinDistance;
       return kinship.refuses(point);
     });
     rejections.add(search.rejections());
@@ -195,6 +192,14 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
   }
   meet_parents();
   return true;
+}
+
+double FamilyDraws::drawn_parent_mm(const FaceSpace::Point& point) const {
+  double mm = HUGE_VAL;
+  for (const FaceSearch::Found& parent : drawn_) {
+    mm = std::min(mm, FaceSpace::distance(point, parent.point));
+  }
+  return mm;
 }
 
 /// By whose numbers a face was drawn.
@@ -370,6 +375,7 @@ std::optional<Reason> FamilyDraws::refuses(const FamilyCast& cast, const FaceSpa
   if (kinship.intrudes(point, relatives_)) return Reason::kFamily;
   if (!takes_after_parents(cast, point)) return Reason::kFamily;
   if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
+  if (drawn_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
   double farthest = 0;
   for (const FaceSpace::Point& relative : own) {
     const double mm = FaceSpace::distance(point, relative);

@@ -42,6 +42,8 @@ class FamilyDraws {
                     Rejections& rejections);
   /// Those that were drawn, mother first.
   const std::vector<FaceSearch::Found>& drawn_parents() const { return drawn_; }
+  /// How far the nearest of these is, who are not in the crowd yet.
+  double drawn_parent_mm(const FaceSpace::Point& point) const;
 
   /// What all members start from: half of either parent where there are parents, else a face like any
   /// other.
