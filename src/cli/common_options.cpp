@@ -53,6 +53,12 @@ void CommonOptions::add_to(CLI::App& command) {
                "How large inputs may be: " + describe_input_limits());
 }
 
+std::vector<std::string> CommonOptions::limit_arguments() const {
+  std::vector<std::string> arguments;
+  for (const std::string& limit : limits) arguments.insert(arguments.end(), {"--limit", limit});
+  return arguments;
+}
+
 std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMostThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);

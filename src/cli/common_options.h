@@ -25,6 +25,8 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
+  /// `--limit` as it was given, for runs that this one starts.
+  std::vector<std::string> limit_arguments() const;
   /// Applies them. \return keeps the thread limit for as long as it lives.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
 };

@@ -32,6 +32,11 @@ void edit(const EditorOptions& options) {
   constexpr std::uint64_t kLargestPort = 65535, kMostVertices = 10'000'000;
   EditOptions edited;
   edited.cache = options.config.cache_path();
+  edited.generate_arguments = options.limit_arguments();
+  if (!options.threads.empty()) {
+    edited.generate_arguments.insert(edited.generate_arguments.end(),
+                                     {"--threads", options.threads});
+  }
   edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   edited.preview_vertices =
       whole_number("--preview-vertices", options.preview_vertices, 100, kMostVertices);

@@ -117,6 +117,7 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.program =
       options.program.empty() ? fs::read_symlink("/proc/self/exe") : full_path(options.program);
   tasks.config = config_arguments(options.config, tasks.directory.root);
+  tasks.limits = options.limit_arguments();
   tasks.crowd = job.config.crowd.name;
   tasks.cache = options.config.cache.empty() ? tasks.directory.submitted() / "cache"
                                              : full_path(options.config.cache);

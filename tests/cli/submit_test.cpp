@@ -20,6 +20,17 @@ TEST(Submit, PrintWritesScriptsAndSubmitsNothing) {
   crowdface(0, {"status", folder.out().string(), "--json"}, {"\"shards\":[{\"shard\":1,\"of\":3"});
 }
 
+// Heads that only a --limit admits were refused by every task.
+TEST(Submit, GivesLimitsToEveryTask) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  crowdface(0, {"submit", folder.config().string(), "--print", "--limit", "vertices=70000000",
+                "--limit", "textures=5"});
+  const std::string script = read_text(folder.out() / "submit/task.sh");
+  EXPECT_THAT(script, ::testing::HasSubstr(
+                          "limits=('--limit' 'vertices=70000000' '--limit' 'textures=5')\n"));
+  EXPECT_THAT(script, ::testing::HasSubstr("\"${command[@]}\" \"${limits[@]}\" --cache"));
+}
+
 TEST(Submit, RefusesWhatCannotBeMeant) {
   const SmallCrowdFolder folder(SmallCrowd{});
   const auto refused = [&](const std::vector<std::string>& options, const char* phrase) {

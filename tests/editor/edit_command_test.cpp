@@ -46,9 +46,11 @@ class EditCommandTest : public ::testing::Test {
     return outcome.code;
   }
   std::vector<std::string> arguments() const {
-    return {"edit",         folder_.config().string(),
-            "--cache",      folder_.cache().string(),
-            "--no-browser", "--quiet"};
+    std::vector<std::string> all = {"edit",         folder_.config().string(),
+                                    "--cache",      folder_.cache().string(),
+                                    "--no-browser", "--quiet"};
+    all.insert(all.end(), more_.begin(), more_.end());
+    return all;
   }
   std::filesystem::path edited(const std::string& name) const {
     return folder_.out() / "edited" / name;
@@ -76,6 +78,7 @@ class EditCommandTest : public ::testing::Test {
   }
 
   SmallCrowdFolder folder_;
+  std::vector<std::string> more_;  ///< arguments
   Outcome outcome_;
   std::string address_, host_, path_;
 
@@ -197,7 +200,10 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
   EXPECT_EQ(plan.code, 0) << plan.err;
 }
 
-TEST_F(EditCommandTest, GeneratesTheCrowdBesideThePage) {
+// The run beside the page did not know of the editor's --limit, and refused what the editor had opened.
+TEST_F(EditCommandTest, GeneratesTheCrowdBesideThePageUnderTheSameLimits) {
+  std::ofstream(folder_.config(), std::ios::app) << '#' << std::string(1 << 20, 'x') << '\n';
+  more_ = {"--limit", "yaml_bytes=2000000"};
   const auto state = [&] { return Json::parse(get("api/generate")->body)["state"]; };
   edit([&] {
     EXPECT_EQ(state(), "idle");

@@ -56,9 +56,11 @@ class EditorLock {
 
 /// The command that makes the faces of the job as it was opened.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
-                                            const std::filesystem::path& cache) {
+                                            const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",
-                                        cache.string()};
+                                        options.cache.string()};
+  arguments.insert(arguments.end(), options.generate_arguments.begin(),
+                   options.generate_arguments.end());
   const auto add = [&](const char* option, const std::optional<std::string>& value) {
     if (value) arguments.insert(arguments.end(), {option, *value});
   };
@@ -89,7 +91,7 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
   const std::filesystem::path path = make_edited_folder(job.config);
   EditorLock lock(path);
   const bool is_crowd = is_folder(given);
-  GenerateRun run(generate_arguments(job.config, overrides, options.cache), path / "generate.log");
+  GenerateRun run(generate_arguments(job.config, overrides, options), path / "generate.log");
 
   std::mutex opening, answering;
   std::shared_ptr<OpenedJob>

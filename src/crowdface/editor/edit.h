@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "crowdface/config/config_reader.h"
 
@@ -14,6 +15,8 @@ struct EditOptions {
   std::filesystem::path cache;  ///< folder of prepared heads
   int port = 0;                 ///< 0: any that is free
   std::size_t preview_vertices = 50'000;
+  std::vector<std::string> generate_arguments =
+      {};  ///< further ones of the run that makes the crowd
 };
 
 /// Serves the editor of a crowd until a signal asks to end.

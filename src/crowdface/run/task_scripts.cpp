@@ -101,7 +101,7 @@ case $stage in
 esac
 case $stage in plan | blend) command+=("${memory[@]}") ;; esac
 
-"$program" "${command[@]}" --cache "$cache" --threads "$processors" &
+"$program" "${command[@]}" "${limits[@]}" --cache "$cache" --threads "$processors" &
 child=$!
 trap 'kill -TERM $child 2>/dev/null' TERM INT HUP
 wait $child
@@ -209,6 +209,7 @@ std::string task_script(const TaskJob& job) {
   script += assign("directory", job.directory.root.string());
   script += assign("program", job.program.string());
   script += concat("config=(", shell_words(job.config), ")\n");
+  script += concat("limits=(", shell_words(job.limits), ")\n");
   script += assign("cache", job.cache.string());
   script += assign("scratch", job.scratch);
   script += concat("prepares=", job.prepares, " shards=", job.shards,

@@ -18,6 +18,7 @@ namespace crowdface {
 struct TaskJob {
   std::filesystem::path program;
   std::vector<std::string> config;  ///< arguments: the config file and what overrides it
+  std::vector<std::string> limits;  ///< arguments of every task: how large inputs may be
   std::string crowd;                ///< its name
   CrowdDirectory directory;
   std::filesystem::path cache;  ///< that all machines share
