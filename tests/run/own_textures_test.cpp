@@ -359,6 +359,29 @@ TEST_F(OwnMaps, PicturesShowThem) {
   EXPECT_NE(read_text(folder_.out() / "renders/mob_0002.png"), shown);
 }
 
+// Pictures showed the normals of the target alone.
+TEST_F(OwnMaps, PicturesShowThemWhereColoursAreNotBlended) {
+  for (const std::string colours : {"map_Kd ann.png\n", ""}) {
+    for (const std::string& name : folder_.names()) {
+      folder_.folder().write(concat("heads/", name, ".mtl"),
+                             concat("newmtl skin\nKd 1 1 1\n", colours, "norm ", name, "_n.png\n"));
+      folder_.folder().write(concat("heads/", name, "_n.png"), normal_png(16, 0.2));
+    }
+    // One head's differ, and no face is built on this head.
+    const std::vector<std::string> set = {"output.contact_sheet={cell: 64}",
+                                          "sampling.targets=[bob]", "sampling.sources=[ann]"};
+    folder_.folder().write("heads/ann_n.png", normal_png(16, 0.3));
+    run(folder_, set, Replace::kForce);
+    const std::string shown = read_text(folder_.out() / "renders/mob_0002.png");
+    fs::remove(folder_.out() / "renders/mob_0002.png");
+    remake_sheets(folder_.out(), {}, folder_.cache());
+    EXPECT_EQ(read_text(folder_.out() / "renders/mob_0002.png"), shown) << colours;
+    folder_.folder().write("heads/ann_n.png", normal_png(16, -0.9));
+    run(folder_, set, Replace::kForce);
+    EXPECT_NE(read_text(folder_.out() / "renders/mob_0002.png"), shown) << colours;
+  }
+}
+
 TEST_F(OwnMaps, WhatIsNoNormalMapIsRefused) {
   folder_.folder().write("heads/bob_n.png", grey_png(8, 200));
   testing::expect_error(ExitCode::kBadData, {"bob_n.png", "normal map"}, [&] { run(folder_); });

@@ -94,7 +94,13 @@ int shown_texels(const Config::ContactSheet& sheet) {
   return std::max(kLeast, 2 * sheet.cell);
 }
 
-OwnCoat::OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, int most_px)
+bool any_is_shown(const std::vector<HeadTextures>& maps) {
+  return std::ranges::any_of(
+      maps, [](const HeadTextures& of_kind) { return is_shown(of_kind.names.front().kind); });
+}
+
+OwnCoat::OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
+                 int most_px)
     : most_px_(most_px) {
   const auto add_kind = [&](const HeadTextures& textures) {
     const TextureLayout& layout = textures.blended.layout;
@@ -105,7 +111,13 @@ OwnCoat::OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& m
     layer.of_face = layout.of_face;
     layer.textures.resize(layout.pictures.size());
   };
-  add_kind(colours);
+  if (colours.blend()) {
+    add_kind(colours);
+  } else if (auto of_target = coat_of_head(colours, target, most_px)) {
+    coat_ = std::move(*of_target);
+  } else {
+    coat_.of_face.assign(maps.front().blended.layout.of_face.size(), TextureLayer::kNone);
+  }
   for (const HeadTextures& of_kind : maps) add_kind(of_kind);
 }
 

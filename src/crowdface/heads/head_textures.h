@@ -43,16 +43,21 @@ struct HeadTextures {
 /// Pixels a side that textures keep in pictures, if they have them: more no sheet shows.
 int shown_texels(const Config::ContactSheet& sheet);
 
+/// Whether pictures show any of these kinds.
+bool any_is_shown(const std::vector<HeadTextures>& maps);
+
 /// What pictures show of a face's own textures: colours in linear light, and how its normals and its
 /// roughness have it reflect.
 class OwnCoat {
  public:
-  /// \param colours  of which faces have pictures of their own. \param maps  all other kinds.
-  /// \param most_px  larger ones are made smaller: more than this no picture shows.
-  OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, int most_px);
+  /// \param maps     all kinds but colours.
+  /// \param target   whose colours the face bears if colours are not blended.
+  /// \param most_px  larger pictures are made smaller: more than this no picture shows.
+  OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
+          int most_px);
 
-  /// \param picture  the colours' come first, then those of one kind after the other. All must come, from
-  /// any thread, before the coat is used.
+  /// \param picture  those of the colours come first, if these are blended, then those of one kind after the
+  /// other. All must come, from any thread, before the coat is used.
   void add(std::size_t picture, const BlendedPicture& blended);
   const TextureCoat& coat() const { return coat_; }
 

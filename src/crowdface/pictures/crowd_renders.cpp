@@ -98,14 +98,14 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
   return renderer_.render(positions, cameras_.front(), colours);
 }
 
-std::optional<OwnCoat> CrowdRenders::own_coat() const {
-  if (!textured_ || !inputs_.textures.blend()) return std::nullopt;
-  return OwnCoat(inputs_.textures, inputs_.maps, most_texels_);
+std::optional<OwnCoat> CrowdRenders::own_coat(Index target) const {
+  if (!textured_ || !(inputs_.textures.blend() || any_is_shown(inputs_.maps))) return std::nullopt;
+  return OwnCoat(inputs_.textures, inputs_.maps, target, most_texels_);
 }
 
 std::optional<OwnCoat> CrowdRenders::own_coat(const FaceTextures& textures,
                                               const Recipe& recipe) const {
-  std::optional<OwnCoat> coat = own_coat();
+  std::optional<OwnCoat> coat = own_coat(recipe.target);
   if (!coat) return coat;
   parallel_for_each(textures.picture_count(),
                     [&](std::size_t p) { coat->add(p, textures.blend(recipe, p)); });
@@ -115,6 +115,10 @@ std::optional<OwnCoat> CrowdRenders::own_coat(const FaceTextures& textures,
 std::optional<TextureCoat> CrowdRenders::coat_of(Index head) const {
   if (!textured_) return std::nullopt;
   std::optional<TextureCoat> coat = coat_of_head(inputs_.textures, head, most_texels_);
+  if (!coat && any_is_shown(inputs_.maps)) {
+    coat.emplace().of_face.assign(static_cast<std::size_t>(inputs_.faces.topology.face_count()),
+                                  TextureLayer::kNone);
+  }
   if (coat) add_finish_of_head(inputs_.maps, head, most_texels_, *coat);
   return coat;
 }

@@ -64,8 +64,8 @@ class CrowdRenders {
 
   /// What a head wears in pictures; nothing if it has no texture, or none is shown.
   std::optional<TextureCoat> coat_of(Index head) const;
-  /// To be given a face's own pictures; nothing if none are shown.
-  std::optional<OwnCoat> own_coat() const;
+  /// To be given the own pictures of a face; nothing if none are shown.
+  std::optional<OwnCoat> own_coat(Index target) const;
   /// The same with the pictures of a face.
   std::optional<OwnCoat> own_coat(const FaceTextures& textures, const Recipe& recipe) const;
 

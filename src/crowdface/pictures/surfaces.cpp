@@ -40,7 +40,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
       surfaces.kinds[f] = SurfaceKind::kEye;
     }
   }
-  if (inputs.textures.any()) surfaces.uvs = inputs.faces.uvs;
+  if (inputs.textures.any() || any_is_shown(inputs.maps)) surfaces.uvs = inputs.faces.uvs;
   return surfaces;
 }
 

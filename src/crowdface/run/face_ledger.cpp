@@ -60,7 +60,7 @@ Digest digest_of_output(const Job& job, const FaceExtras& extras) {
     for (const View view : sheet.views) hasher.add(static_cast<int>(view));
     hasher.add(job.inputs.textures.digest);
     for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
-    if (job.inputs.textures.blend()) hasher.add(kTextureVersion);
+    if (has_own_textures(job.inputs)) hasher.add(kTextureVersion);
     for (const auto& [material, surface] : config.output.surfaces) {
       hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());
       for (const std::uint8_t value : surface.colour.value_or(std::array<std::uint8_t, 3>{})) {

@@ -304,7 +304,7 @@ class FaceStages::Output {
   /// One texture after the other is blended, encoded and forgotten.
   Skin paint(const Recipe& recipe) {
     Skin skin;
-    if (renders_ != nullptr) skin.coat = renders_->own_coat();
+    if (renders_ != nullptr) skin.coat = renders_->own_coat(recipe.target);
     const bool written = stages_.own_ && !stages_.formats_.empty();
     if (!written && !skin.coat) return skin;
     skin.files->resize(stages_.textures_.picture_count());
