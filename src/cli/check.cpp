@@ -24,7 +24,7 @@ namespace {
 void look_at_output(const Job& job) {
   try {
     check_output(job, Replace::kRefuse);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat("generate would refuse this: ", error.what()));
   }
 }

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 bool has_three_bands(const fs::path& image) {
   try {
     return mask_channels(read_image(image)).size() == 3;
-  } catch (const Error&) {
+  } catch (const RecoverableError&) {
     return false;
   }
 }

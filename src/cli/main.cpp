@@ -16,12 +16,14 @@
 #include <unistd.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/instruction_set.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
+#include "crowdface/io/image_codec.h"
 
 #include "cli/commands.h"
 
@@ -76,7 +78,7 @@ int run(const Run& command) {
     }
     if (!std::cout.flush()) throw IoError("standard output: writing failed");
     return static_cast<int>(ExitCode::kDone);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     return fail(error.code(), error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(ExitCode::kIoError, error.what());
@@ -158,6 +160,8 @@ int run_program(int argc, char** argv) {
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
   give_back_large_blocks();
   watch_for_lack_of_memory();
+  watch_mapped_files();
+  guard_start_of_image_libraries();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + kVersion);

@@ -150,8 +150,8 @@ void run_script(const fs::path& script) {
   const bool is_ours = code == static_cast<int>(ExitCode::kUnsatisfiable) ||
                        (code >= static_cast<int>(ExitCode::kUsage) &&
                         code <= static_cast<int>(ExitCode::kInterrupted));
-  throw Error(is_ours ? static_cast<ExitCode>(code) : ExitCode::kIoError,
-              concat(script.string(), ": ended with code ", code));
+  throw RecoverableError(is_ours ? static_cast<ExitCode>(code) : ExitCode::kIoError,
+                         concat(script.string(), ": ended with code ", code));
 }
 
 void submit(const SubmitOptions& options) {

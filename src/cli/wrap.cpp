@@ -211,7 +211,7 @@ void wrap_all(const WrapOptions& options) {
       } else {
         wrap_one(options, shared, task, inputs);
       }
-    } catch (const Error& error) {
+    } catch (const RecoverableError& error) {
       // A scan that is no good keeps none of the others from being wrapped.
       if (error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kIoError) throw;
       problems.add(error);

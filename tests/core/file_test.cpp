@@ -101,6 +101,30 @@ TEST(MakeDirectories, RefusesWhereAFileStands) {
   EXPECT_NO_THROW(make_directories(std::filesystem::path("m.png").parent_path()));
 }
 
+// Reading a file put a handler of SIGBUS into the host's process, which ended it where a file was cut. (The first
+// of these tests: later ones switch the handler on, as the program does.)
+TEST(MappedFile, UnwatchedLeavesSignalsToTheHostAndIsACopy) {
+  const TemporaryFolder folder;
+  const std::string bytes(20'000, 'x');
+  const std::filesystem::path path = folder.write("copied", bytes);
+  const MappedFile copied(path), filled(path, WhenCut::kFill);
+  struct sigaction action {};
+  ASSERT_EQ(::sigaction(SIGBUS, nullptr, &action), 0);
+  EXPECT_EQ(action.sa_handler, SIG_DFL);
+  ASSERT_EQ(::truncate(path.c_str(), 5000), 0);
+  EXPECT_EQ(copied.bytes(), bytes);
+  EXPECT_EQ(filled.bytes(), bytes);
+  EXPECT_FALSE(filled.was_cut());
+}
+
+TEST(MappedFile, UnwatchedRefusesAFileThatEndsTooSoon) {
+  const char* short_one =
+      "/sys/kernel/mm/transparent_hugepage/enabled";  // its size is said to be a page
+  if (!is_file(short_one)) GTEST_SKIP() << "this system has no such file";
+  expect_error(ExitCode::kIoError, {short_one, "was cut while it was being read"},
+               [&] { MappedFile file(short_one); });
+}
+
 // The process died of SIGBUS.
 TEST(MappedFile, ScratchBytesLieInAFileOfNoName) {
   const TemporaryFolder folder;
@@ -120,6 +144,7 @@ TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {
   const testing::TemporaryFolder folder;
   const std::string bytes(20'000, 'x');
   const std::filesystem::path path = folder.write("mapped", bytes);
+  watch_mapped_files();
   const MappedFile filled(path, WhenCut::kFill);
   EXPECT_EQ(filled.bytes(), bytes);
   EXPECT_FALSE(filled.was_cut());

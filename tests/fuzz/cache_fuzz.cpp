@@ -53,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
     try {
       if (const auto head = read_cached_head(folder, key, shape)) read_all(*head, shape);
-    } catch (const Error&) {
+    } catch (const RecoverableError&) {
     }
   }
   write(head_entry(folder, key));
@@ -61,11 +61,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     ObjFile head;
     find_head(folder, key, head);
-  } catch (const Error&) {
+  } catch (const RecoverableError&) {
   }
   try {
     if (const auto mesh = find_mesh(folder, key)) build_adjacency(mesh->topology);
-  } catch (const Error&) {
+  } catch (const RecoverableError&) {
   }
   return 0;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/image.h"
 
+#include <csignal>
 #include <filesystem>
 #include <limits>
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -20,6 +22,18 @@ namespace {
 using std::filesystem::path;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+
+// Loading the library for images set and cancelled the alarm of the host, and handled the host's signals.
+TEST(ImageLibrary, LeavesAlarmAndHandlersToTheHost) {
+  ::alarm(1000);
+  encode_jpeg(1, 1, std::vector<std::uint8_t>(3));
+  EXPECT_GT(::alarm(0), 900U);
+  for (const int signal : {SIGABRT, SIGALRM, SIGSEGV, SIGTRAP}) {
+    struct sigaction action {};
+    ASSERT_EQ(::sigaction(signal, nullptr, &action), 0);
+    EXPECT_EQ(action.sa_handler, SIG_DFL) << signal;
+  }
+}
 
 class ImageFiles : public ::testing::Test {
  protected:

@@ -2,11 +2,15 @@
 #include "crowdface/page/local_server.h"
 
 #include <atomic>
+#include <csignal>
 #include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 
@@ -116,6 +120,30 @@ TEST_F(LocalServerTest, BoundsWhatItReads) {
   EXPECT_EQ(client().Get(path_ + std::string(600, 'a'))->status, 404);
   EXPECT_EQ(client().Delete(path_, ours())->status, 405);
   EXPECT_EQ(answered_, 0);
+}
+
+// The server ignored SIGPIPE for the whole process of its host.
+TEST_F(LocalServerTest, LeavesSigpipeToTheHostAndOutlivesReadersWhoLeave) {
+  struct sigaction action {};
+  ASSERT_EQ(::sigaction(SIGPIPE, nullptr, &action), 0);
+  EXPECT_EQ(action.sa_handler, SIG_DFL);
+  for (int i = 0; i < 50; ++i) {
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in there{};
+    there.sin_family = AF_INET;
+    there.sin_port = htons(static_cast<std::uint16_t>(port()));
+    there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ASSERT_EQ(::connect(socket, reinterpret_cast<const sockaddr*>(&there), sizeof(there)), 0);
+    std::string requests;
+    for (int k = 0; k < 20; ++k) {
+      requests += "GET " + path_ + "api/job HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n";
+    }
+    EXPECT_GT(::send(socket, requests.data(), requests.size(), MSG_NOSIGNAL), 0);
+    const linger at_once = {1, 0};
+    ::setsockopt(socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof(at_once));
+    ::close(socket);
+  }
+  EXPECT_TRUE(client().Get(path_ + "api/job"));
 }
 
 TEST_F(LocalServerTest, SharesItsPortWithNobody) {

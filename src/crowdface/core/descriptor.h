@@ -65,6 +65,9 @@ struct OpenedFile {
 };
 /// \throws MissingInput if there is no such regular file; IoError if the machine is to blame.
 OpenedFile open_for_reading(const std::filesystem::path& path);
+/// Reads `size` bytes, or as many as the file has. \return how many. \param path  for the message. \throws IoError
+std::size_t read_up_to(const Descriptor& file, char* to, std::size_t size,
+                       const std::filesystem::path& path);
 
 /// Writes all of it, however many calls that takes. \return whether it worked.
 inline bool write_all(int fd, std::string_view bytes) {

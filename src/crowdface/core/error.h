@@ -20,7 +20,7 @@ enum class ExitCode : int {
   kInterrupted = 75,   ///< stopped by a signal; run again to resume
 };
 
-/// Base of every exception crowdface throws. The message names the file, what was expected and what
+/// Base of every exception that crowdface throws. The message names the file, what was expected and what
 /// was found; `main` turns it into the exit code.
 class Error : public std::runtime_error {
  public:
@@ -31,15 +31,21 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// One with a code of its own, so that it can be caught alone.
+/// Base of the errors that inputs, the machine or the user cause: all but BrokenPrecondition (core/require.h).
+/// The library itself catches these alone, so that it never hides a bug.
+struct RecoverableError : Error {
+  using Error::Error;
+};
+
+/// An error with a code of its own, so that callers can catch it alone.
 template <ExitCode kCode>
-struct ErrorOf : Error {
-  explicit ErrorOf(const std::string& message) : Error(kCode, message) {}
+struct ErrorOf : RecoverableError {
+  explicit ErrorOf(const std::string& message) : RecoverableError(kCode, message) {}
 };
 
 /// Wrong command line or config.
 using UsageError = ErrorOf<ExitCode::kUsage>;
-/// Unusable input data. A broken precondition of our own is no Error: core/require.h.
+/// Unusable input data.
 using InvalidInput = ErrorOf<ExitCode::kBadData>;
 /// \throws InvalidInput "FILE: WHAT".
 [[noreturn]] inline void refuse_file(const std::filesystem::path& file, const std::string& what) {

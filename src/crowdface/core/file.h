@@ -35,18 +35,24 @@ FileDigest hash_file(const std::filesystem::path& path);
 /// Whether the file holds just that; a file that cannot be read does not.
 bool holds(const std::filesystem::path& path, const FileDigest& content);
 
-/// What becomes of the process when somebody cuts a file that it has mapped.
+/// From now on a MappedFile maps its file and no longer copies it, and a handler of SIGBUS sees to files that
+/// somebody cuts while they are mapped. For programs, at their start: the handler belongs to the whole process.
+void watch_mapped_files();
+
+/// What the handler does when somebody cuts a mapped file.
 enum class WhenCut {
-  kEnd,  ///< it ends with 74 and the file's name
+  kEnd,  ///< it ends the process with code 74 and a message that names the file
   kFill  ///< what is gone reads as zeros, and `was_cut` tells
 };
 
-/// A file's bytes mapped read-only for as long as the object, or a copy, lives; the pages belong to the system,
-/// so that large inputs cost no memory of ours.
+/// A file's bytes, read-only, for as long as the object or a copy of it lives. After watch_mapped_files() the pages
+/// belong to the system, so that large inputs cost no memory of ours. Before, they are a copy, because nobody
+/// could catch the signal that a cut file raises.
 class MappedFile {
  public:
   MappedFile() = default;
-  /// \throws MissingInput if the file cannot be opened or is no regular file; IoError.
+  /// \throws MissingInput if the file cannot be opened or is no regular file; IoError, also if somebody cuts the
+  ///         file while it is copied.
   explicit MappedFile(const std::filesystem::path& path, WhenCut when_cut = WhenCut::kEnd);
   /// Puts bytes into a file without a name, which goes with the process however that ends, and maps it: from
   /// then on they lie on the disk, and in memory as far as the system has room.

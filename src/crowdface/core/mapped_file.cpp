@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of file.h that maps. When a page of a mapping is gone with the end of its file, the system
-// sends SIGBUS, whose handler looks up here what is to become of it.
+// sends SIGBUS, whose handler, where a program has asked for one, looks up here what to do.
 #include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -37,6 +37,7 @@ struct Watch {
 };
 
 std::array<Watch, 4096> watches;  // more mappings than open files; those beyond are not watched
+std::atomic<bool> watching = false;
 
 // Only what a signal handler may call. (mmap is a plain system call on Linux.)
 void on_bus_error(int signal, siginfo_t* info, void*) {
@@ -61,23 +62,14 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   std::signal(signal, SIG_DFL);  // none of ours: it comes again
 }
 
-void catch_bus_errors() {
-  struct sigaction before {};
-  if (::sigaction(SIGBUS, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
-  struct sigaction action {};
-  action.sa_sigaction = on_bus_error;
-  action.sa_flags = SA_SIGINFO;
-  ::sigaction(SIGBUS, &action, nullptr);
-}
+constexpr std::string_view kWasCut = ": was cut while it was being read";
 
 int begin_watch(char* begin, std::size_t size, WhenCut when_cut, const fs::path& path) {
-  static std::once_flag once;
-  std::call_once(once, catch_bus_errors);
   for (std::size_t i = 0; i < watches.size(); ++i) {
     Watch& watch = watches[i];
     if (watch.taken.exchange(true)) continue;
-    const std::string message = concat("error: ", printable(path.string()).substr(0, 400),
-                                       ": was cut while it was being read\n");
+    const std::string message =
+        concat("error: ", printable(path.string()).substr(0, 400), kWasCut, '\n');
     std::memcpy(watch.message.data(), message.c_str(), message.size() + 1);
     watch.cut = false;
     watch.fill = when_cut == WhenCut::kFill;
@@ -103,7 +95,23 @@ Descriptor nameless_file(const fs::path& folder) {
 
 }  // namespace
 
+void watch_mapped_files() {
+  watching = true;
+  struct sigaction before {};
+  if (::sigaction(SIGBUS, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
+  struct sigaction action {};
+  action.sa_sigaction = on_bus_error;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
 struct MappedFile::Mapping {
+  /// Room for a copy.
+  explicit Mapping(std::size_t length, const fs::path& name)
+      : data(::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)),
+        size(length) {
+    if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be read");
+  }
   Mapping(Descriptor file, std::size_t length, WhenCut when_cut, const fs::path& name)
       : data(::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file.get(), 0)), size(length) {
     if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be mapped");
@@ -126,8 +134,14 @@ struct MappedFile::Mapping {
 
 MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {
   auto [file, size] = open_for_reading(path);
-  if (size > 0) {
+  if (size == 0) return;
+  if (watching) {
     mapping_ = std::make_shared<const Mapping>(std::move(file), size, when_cut, path);
+    return;
+  }
+  mapping_ = std::make_shared<const Mapping>(size, path);
+  if (read_up_to(file, static_cast<char*>(mapping_->data), size, path) < size) {
+    throw IoError(concat(path.string(), kWasCut));
   }
 }
 

@@ -23,7 +23,7 @@ ExitCode Problems::code() const {
 }
 
 void Problems::throw_if_any() const {
-  if (!empty()) throw Error(code(), join(messages_, "\n"));
+  if (!empty()) throw RecoverableError(code(), join(messages_, "\n"));
 }
 
 }  // namespace crowdface

@@ -69,17 +69,20 @@ OpenedFile open_for_reading(const fs::path& path) {
   return {std::move(descriptor), static_cast<std::size_t>(status.st_size)};
 }
 
-std::string read_file(const fs::path& path) {
-  const OpenedFile file = open_for_reading(path);
-  std::string bytes(file.size, '\0');
+std::size_t read_up_to(const Descriptor& file, char* to, std::size_t size, const fs::path& path) {
   std::size_t done = 0;
-  while (done < bytes.size()) {
-    const std::size_t got =
-        read_some(file.descriptor, bytes.data() + done, bytes.size() - done, path);
+  while (done < size) {
+    const std::size_t got = read_some(file, to + done, size - done, path);
     if (got == 0) break;
     done += got;
   }
-  bytes.resize(done);
+  return done;
+}
+
+std::string read_file(const fs::path& path) {
+  const OpenedFile file = open_for_reading(path);
+  std::string bytes(file.size, '\0');
+  bytes.resize(read_up_to(file.descriptor, bytes.data(), bytes.size(), path));
   return bytes;
 }
 
@@ -101,7 +104,7 @@ bool holds(const fs::path& path, const FileDigest& content) {
   if (fs::file_size(path, error) != content.bytes || error) return false;
   try {
     return hash_file(path) == content;
-  } catch (const Error&) {
+  } catch (const RecoverableError&) {
     return false;
   }
 }

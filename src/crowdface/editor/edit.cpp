@@ -22,7 +22,7 @@ namespace {
   std::string where = "it has not said yet at which address";
   try {
     where = read_file(address);
-  } catch (const Error&) {  // it is another user's, or has just begun
+  } catch (const RecoverableError&) {  // it is another user's, or has just begun
   }
   throw UsageError(concat(folder.parent_path().string(), ": is edited already: ", where));
 }

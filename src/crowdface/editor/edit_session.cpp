@@ -78,7 +78,7 @@ std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
       faces.push_back(std::move(line.face));
     }
     return faces;
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     return refuse(error.what());
   }
 }

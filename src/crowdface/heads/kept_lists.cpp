@@ -50,7 +50,7 @@ std::optional<FoundLists> find_lists(const fs::path& cache, const Digest& key, s
     }
     if (!bytes.empty()) throw bad_entry(path, "of the wrong size");
     return found;
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat(error.what(), "; it is made anew"));
     return std::nullopt;
   }
@@ -67,7 +67,7 @@ bool keep_lists(const fs::path& cache, const Digest& key,
   try {
     write_entry(cache_entry(cache, key, kListsEnding), std::move(pieces));
     return true;
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat("what was found of the heads cannot be kept: ", error.what()));
     return false;
   }

@@ -84,7 +84,7 @@ void load_attachments(const Config& config, const std::filesystem::path& cache, 
   const std::size_t before = problems.size();
   try {
     set.fitted_to = fitted_mesh(config, inputs);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
     return;
   }
@@ -103,7 +103,7 @@ void load_attachments(const Config& config, const std::filesystem::path& cache, 
     try {
       items[i] = item_of(asked[i], std::move(files[i]));
       check_place(*items[i], set.fitted_to);
-    } catch (const Error& error) {
+    } catch (const RecoverableError& error) {
       errors[i] = error;
     }
   });

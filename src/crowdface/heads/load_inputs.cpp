@@ -37,7 +37,7 @@ void check_masks(const std::vector<std::string>& files, Problems& problems) {
     if (mask.tiled()) continue;
     try {
       mask.read(0);
-    } catch (const Error& error) {
+    } catch (const RecoverableError& error) {
       problems.add(error);
     }
   }
@@ -283,7 +283,7 @@ void read_textures(const Config& config, const std::filesystem::path& cache, Inp
       inputs.maps.push_back(std::move(maps));
       for (const std::string& text : inputs.maps.back().warnings) inputs.warn(text);
     }
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
   }
 }
@@ -346,7 +346,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
       inputs.warn(std::move(text));
     }
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
     return std::nullopt;
   }
@@ -358,7 +358,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
     check_stance(config, inputs);
     const std::string key = mirroring_key(config);
     if (!key.empty()) inputs.mirror = mirror_for(config, inputs, key);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
   }
   if (problems.size() > before) return std::nullopt;
@@ -372,7 +372,7 @@ std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::p
           mask_values(inputs.faces.topology, inputs.faces.uvs, MaskSource(*config.distance.mask));
     }
     inputs.max_level = max_level_of(config, inputs.edge_length_mm);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
     return std::nullopt;
   }

@@ -120,7 +120,7 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems) {
     if (const auto root = read_yaml(config.points.string(), complaints)) {
       read_file(config.points, *root, config.shapes.neutral, inputs, complaints);
     }
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
   }
   complaints.tell(problems);

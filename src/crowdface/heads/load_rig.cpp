@@ -202,7 +202,7 @@ void load_rig(const Config& config, Inputs& inputs, Problems& problems) {
                                               : fit_by_id(file, config, inputs),
                       config);
     inputs.rig.digest = digest_of_rig(inputs.rig);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
   }
 }

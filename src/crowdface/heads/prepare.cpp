@@ -90,7 +90,7 @@ std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const
                                        const HeadCacheShape& shape) {
   try {
     return read_cached_head(cache, key, shape);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat(error.what(), "; it is made anew"));
     return std::nullopt;
   }
@@ -100,7 +100,7 @@ std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const
 void clean(const std::filesystem::path& cache) {
   try {
     remove_leftovers(cache);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(error.what());
   }
 }
@@ -111,7 +111,7 @@ bool into_cache(const std::filesystem::path& cache, const Digest& key, const Hea
   try {
     write_cached_head(cache, key, shape, head);
     return true;
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat("prepared heads cannot be kept: ", error.what()));
     return false;
   }

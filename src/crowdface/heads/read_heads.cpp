@@ -96,7 +96,7 @@ bool read_from_cache(HeadFile& head, const fs::path& cache, MeshShelf& shelf) {
     head.mesh = shelf.find(*mesh);
     if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
     refuse_file(head.file.path, "its cache entry is damaged (it is of another mesh)");
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat(error.what(), "; it is made anew"));
     return false;
   }
@@ -164,7 +164,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
       if (errors[i]) return;
       try {
         read(i);
-      } catch (const Error& error) {
+      } catch (const RecoverableError& error) {
         errors[i] = error;
       }
     });
@@ -219,7 +219,7 @@ void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
     parallel_for_each(lacking.size(), [&](std::size_t i) {
       keep_head(cache, lacking[i]->text, lacking[i]->mesh_digest, lacking[i]->file);
     });
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     log_warning(concat("heads that were read cannot be kept: ", error.what()));
   }
 }

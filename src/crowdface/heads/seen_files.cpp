@@ -50,7 +50,7 @@ SeenFile::SeenFile(const fs::path& cache, const fs::path& file) : file_(file) {
     if (seen != *stamp_) return;
     digest_.emplace();
     std::memcpy(&*digest_, entry->content.data() + sizeof seen, sizeof *digest_);
-  } catch (const Error&) {  // what is not kept well is not known
+  } catch (const RecoverableError&) {  // what is not kept well is not known
   }
 }
 
@@ -65,7 +65,7 @@ void SeenFile::remember(const Digest& digest) const {
   }
   try {
     write_entry(entry_, {bytes_of(&*stamp_, sizeof *stamp_), bytes_of(&digest, sizeof digest)});
-  } catch (const Error&) {  // then it is read whole the next time too
+  } catch (const RecoverableError&) {  // then it is read whole the next time too
   }
 }
 

@@ -2,10 +2,12 @@
 #include "crowdface/io/image_codec.h"
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -32,6 +34,7 @@ constexpr const char* kFunction = "crowdface_image_codec";
 
 constexpr unsigned kLongestStart = 60;  ///< seconds
 
+std::atomic<bool> guarded = false;
 volatile std::sig_atomic_t starting = 0;
 
 /// Called by exit(), which libgfortran calls where it gets no memory to start.
@@ -72,11 +75,14 @@ class StartOfLibraries {
 };
 
 void* open_library(const std::string& name, int flags) {
-  const StartOfLibraries start;
+  std::optional<StartOfLibraries> start;
+  if (guarded) start.emplace();
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
   } catch (...) {  // leaves the loader locked, so that nothing can be undone
-    end_without_libraries(0);
+    if (guarded) end_without_libraries(0);
+    throw IoError(
+        "images can be neither read nor written: the libraries for them threw as they started");
   }
 }
 
@@ -105,6 +111,10 @@ const ImageCodec& load() {
 }
 
 }  // namespace
+
+void guard_start_of_image_libraries() {
+  guarded = true;
+}
 
 const ImageCodec& image_codec() {
   static const ImageCodec& codec = load();

@@ -48,4 +48,9 @@ struct ImageCodec {
 /// \throws IoError if it is not where it was installed, or cannot be loaded.
 const ImageCodec& image_codec();
 
+/// From now on, while image_codec() loads these libraries, handlers of signals and of exit end the process with code
+/// 74 and a message if a library aborts, calls exit, or waits longer than a minute: without memory or threads the
+/// libraries do so. For programs, at their start: handlers and the alarm belong to the whole process.
+void guard_start_of_image_libraries();
+
 }  // namespace crowdface

@@ -97,7 +97,7 @@ HttpAnswer answer_or_refuse(const HttpRequest& request,
                             const std::function<HttpAnswer(const HttpRequest&)>& answer) {
   try {
     return answer(request);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     return refusal(status_of(error), error.what());
   } catch (const std::exception& error) {
     log_error(concat(request.path, ": internal error, please report it: ", error.what()));

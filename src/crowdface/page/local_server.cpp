@@ -4,7 +4,9 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <future>
+#include <memory>
 #include <system_error>
 #include <thread>
 
@@ -60,9 +62,31 @@ void refuse(int status, const std::string& sentence, httplib::Response& response
   response.set_content(concat("{\"error\": \"", sentence, "\"}"), "application/json");
 }
 
+struct sigaction action_of_sigpipe() {
+  struct sigaction action {};
+  ::sigaction(SIGPIPE, nullptr, &action);
+  return action;
+}
+
+/// Threads in which a reader that is gone raises no signal: writing to it fails.
+httplib::TaskQueue* make_threads() {
+  constexpr int kThreads = 16;
+  sigset_t pipe, before;
+  ::sigemptyset(&pipe);
+  ::sigaddset(&pipe, SIGPIPE);
+  ::pthread_sigmask(SIG_BLOCK, &pipe, &before);  // threads inherit it
+  auto pool = std::make_unique<httplib::ThreadPool>(kThreads);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return pool.release();
+}
+
 }  // namespace
 
 struct LocalServer::State {
+  /// A server ignores SIGPIPE for the whole process from its constructor on, which is the host's to decide.
+  State() { ::sigaction(SIGPIPE, &of_host, nullptr); }
+
+  const struct sigaction of_host = action_of_sigpipe();
   httplib::Server server;
   std::function<HttpAnswer(const HttpRequest&)> answer;
   std::string token = random_token();
@@ -115,8 +139,8 @@ bool LocalServer::State::passes(const httplib::Request& request,
 }
 
 void LocalServer::State::configure() {
-  constexpr int kThreads = 16, kPatienceSeconds = 5;
-  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  constexpr int kPatienceSeconds = 5;
+  server.new_task_queue = make_threads;
   server.set_socket_options(set_socket_options);
   server.set_tcp_nodelay(true);
   server.set_default_headers(safe_headers());

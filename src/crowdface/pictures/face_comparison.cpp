@@ -126,7 +126,7 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
     if (!is_surely_there(file) || !std::filesystem::is_directory(file)) {
       read_reference(file, inputs.faces.topology.vertex_count);
     }
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     problems.add(error);
   }
 }

@@ -117,7 +117,7 @@ std::uint64_t worn_picture_bytes(std::span<const Attachment* const> items, int m
       const int block = (std::max(size.width, size.height) + most_px - 1) / most_px;
       bytes += textures * sizeof(Light) * static_cast<std::uint64_t>(size.width / block + 1) *
                static_cast<std::uint64_t>(size.height / block + 1);
-    } catch (const Error&) {
+    } catch (const RecoverableError&) {
       return;  // pictures will do without it
     }
   };
