@@ -48,9 +48,10 @@ TEST(Require, WhatIsBrokenIsOurMistakeAndNoUsersError) {
   try {
     require(false, "tiles: ", 5, " positions, ", 6, " vertices");
     FAIL();
-  } catch (const Error&) {
+  } catch (const RecoverableError&) {
     FAIL() << "would end with a code of the user's";
-  } catch (const std::exception& error) {
+  } catch (const Error& error) {  // which a host catches
+    EXPECT_EQ(error.code(), ExitCode::kBug);
     EXPECT_STREQ(error.what(), "tiles: 5 positions, 6 vertices");
   }
 }

@@ -47,7 +47,7 @@ std::string message_of_masks(const Strip& strip, const std::vector<MaskSource>& 
                              Index regions) {
   try {
     region_weights(strip.topology, strip.uvs, masks, regions);
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     return error.what();
   }
   return "accepted";
@@ -223,7 +223,7 @@ TEST_F(MaskFiles, MissingTilesAreAllNamed) {
   try {
     region_weights(strip.topology, strip.uvs, {MaskSource(path("m.<UDIM>.png"))}, 3);
     FAIL() << "accepted";
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     EXPECT_EQ(error.code(), ExitCode::kMissingInput);
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("tile 1002"), HasSubstr("m.1002.png"), HasSubstr("tile 1011")));

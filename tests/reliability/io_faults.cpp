@@ -253,7 +253,7 @@ int run_child(const std::function<void()>& work) {
   try {
     work();
     return 0;
-  } catch (const Error& error) {
+  } catch (const RecoverableError& error) {
     keep_message(error.what());
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
