@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 
 #include "reliability/crowd_under_test.h"
@@ -104,6 +105,7 @@ TEST_F(DamagedCache, CutWhileItIsInUseItIsMadeAnewAndTheRunGoesOn) {
     const ChildOutcome outcome =
         run_with_fault(folder_.out(), {Fault::Kind::kSignal, call, SIGUSR1}, [&] {
           std::signal(SIGUSR1, cut_them);
+          watch_mapped_files();  // as the program does
           generate_here();
         });
     ASSERT_TRUE(outcome.struck);
