@@ -33,7 +33,7 @@ struct SubmitOptions : CommonOptions {
 void declare_submit(CLI::App& command, SubmitOptions& options) {
   options.config.add_to(command);
   options.config.add_review_to(command);
-  add_option(command, "--engine", options.engine, "NAME", "slurm, parallel or openjd");
+  add_option(command, "--engine", options.engine, "NAME", "slurm or parallel");
   add_option(command, "--shards", options.shards, "N",
              "Tasks that make faces (default: as many as last about ten minutes each)");
   add_option(command, "--prepare-tasks", options.prepares, "N",
@@ -77,11 +77,10 @@ std::vector<std::string> config_arguments(const ConfigOptions& options, const fs
 }
 
 Engine engine_from(const std::string& name) {
-  for (const Engine engine : {Engine::kSlurm, Engine::kParallel, Engine::kOpenJd}) {
+  for (const Engine engine : {Engine::kSlurm, Engine::kParallel}) {
     if (name == name_of(engine)) return engine;
   }
-  throw UsageError(
-      concat("--engine: expected one of slurm, parallel, openjd, found ", quoted(name)));
+  throw UsageError(concat("--engine: expected slurm or parallel, found ", quoted(name)));
 }
 
 /// \throws UsageError if the engine has no use for an option that was given.
@@ -94,9 +93,6 @@ void refuse_strange_options(const SubmitOptions& options, Engine engine) {
   only_for("--partition", !of_engine.partition.empty(), Engine::kSlurm);
   only_for("--time", !of_engine.time.empty(), Engine::kSlurm);
   only_for("--host", !of_engine.hosts.empty(), Engine::kParallel);
-  if (engine == Engine::kOpenJd && !of_engine.more.empty()) {
-    throw UsageError("--engine-option: only slurm and parallel are started from here");
-  }
   if (of_engine.time.find_first_not_of("0123456789:-") != std::string::npos) {
     throw UsageError(
         concat("--time: expected minutes, hours:minutes:seconds or another form of "
@@ -168,7 +164,7 @@ void submit(const SubmitOptions& options) {
                   " to prepare heads, 1 to ", "plan, ", tasks.shards,
                   " to make faces, 1 to gather; crowdface status ", tasks.directory.root.string(),
                   " tells how far they are"));
-  if (options.print || engine == Engine::kOpenJd) {
+  if (options.print) {
     print(concat(file.string(), "\n"));
   } else {
     run_script(file);
@@ -179,7 +175,7 @@ void submit(const SubmitOptions& options) {
 
 Run add_submit(CLI::App& program) {
   return add_command(program, "submit",
-                     "The whole job as tasks for a farm: Slurm, GNU parallel, Open Job Description",
+                     "The whole job as tasks for a farm: Slurm or GNU parallel",
                      declare_submit, submit);
 }
 

@@ -38,7 +38,7 @@ TEST(Submit, RefusesWhatCannotBeMeant) {
     arguments.insert(arguments.end(), options.begin(), options.end());
     crowdface(64, arguments, {phrase});
   };
-  refused({"--engine", "pbs"}, "slurm, parallel, openjd");
+  refused({"--engine", "pbs"}, "slurm or parallel");
   refused({"--shards", "0"}, "--shards");
   refused({"--shards", "10000"}, "9999");
   refused({"--prepare-tasks", "x"}, "--prepare-tasks");
@@ -48,7 +48,6 @@ TEST(Submit, RefusesWhatCannotBeMeant) {
   refused({"--grace", "0"}, "--grace");
   refused({"--engine", "parallel", "--time", "5"}, "--time: only --engine slurm");
   refused({"--host", "a"}, "--host: only --engine parallel");
-  refused({"--engine", "openjd", "--engine-option", "-x"}, "--engine-option");
   refused({"--set", "crowd.count=0.5"}, "crowd.count");
   EXPECT_FALSE(fs::exists(folder.out()));
 }

@@ -98,25 +98,6 @@ TEST_F(Tasks, SlurmGetsTheSitesOptionsAndChainsTheStages) {
   }
 }
 
-TEST_F(Tasks, OpenJobDescriptionHasAStepAStage) {
-  const auto file = write_task_scripts(job_, Engine::kOpenJd, {"", "", 7000, {}, {}});
-  const auto description = testing::read_json(file);
-  EXPECT_EQ(description["specificationVersion"], "jobtemplate-2023-09");
-  ASSERT_EQ(description["steps"].size(), 4U);
-  const std::vector<std::string> names = {"Prepare", "Plan", "Blend", "Gather"};
-  for (std::size_t s = 0; s < names.size(); ++s) {
-    EXPECT_EQ(description["steps"][s]["name"], names[s]);
-    EXPECT_EQ(description["steps"][s].contains("dependencies"), s > 0);
-    if (s == 0) continue;
-    EXPECT_EQ(description["steps"][s]["dependencies"][0]["dependsOn"], names[s - 1]);
-  }
-  const auto& blend = description["steps"][2];
-  EXPECT_EQ(blend["parameterSpace"]["taskParameterDefinitions"][0]["range"], "1-7");
-  EXPECT_EQ(blend["script"]["actions"]["onRun"]["args"][2], "{{Task.Param.Number}}");
-  // The specification has ten minutes at most.
-  EXPECT_EQ(blend["script"]["actions"]["onRun"]["cancelation"]["notifyPeriodInSeconds"], 600);
-}
-
 TEST(FittingTasks, GrowWithTheCrowdAndAreNeverMoreThanItsFaces) {
   SmallCrowd crowd;
   crowd.contact_sheet = "{cell: 256}";

@@ -2,7 +2,6 @@
 #include "crowdface/run/task_scripts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -14,8 +13,6 @@
 
 namespace crowdface {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// As one word of the shell.
 std::string shell_word(std::string_view text) {
@@ -177,30 +174,6 @@ constexpr std::string_view kHead = R"sh(#!/usr/bin/env bash
 # Written by crowdface submit; docs/farm.md explains it.
 )sh";
 
-Json step(const TaskJob& job, const EngineOptions& options, const std::string& name,
-          const std::string& stage, std::uint64_t tasks, const std::string& after) {
-  Json step = {{"name", name}};
-  if (!after.empty()) step["dependencies"] = Json::array({{{"dependsOn", after}}});
-  std::string number = "1";
-  if (tasks > 1) {
-    step["parameterSpace"]["taskParameterDefinitions"] =
-        Json::array({{{"name", "Number"}, {"type", "INT"}, {"range", concat("1-", tasks)}}});
-    number = "{{Task.Param.Number}}";
-  }
-  step["script"]["actions"]["onRun"] = {
-      {"command", "bash"},
-      {"args", {script_of(job).string(), stage, number}},
-      {"cancelation",
-       {{"mode", "NOTIFY_THEN_TERMINATE"},
-        {"notifyPeriodInSeconds", std::min<std::uint64_t>(options.grace_seconds, 600)}}}};
-  Json amounts = Json::array({{{"name", "amount.worker.vcpu"}, {"min", job.processors}}});
-  if (job.memory > 0) {
-    amounts.push_back({{"name", "amount.worker.memory"}, {"min", job.memory >> 20U}});
-  }
-  step["hostRequirements"]["amounts"] = amounts;
-  return step;
-}
-
 std::string task_script(const TaskJob& job) {
   std::string script(kHead);
   script += "# task.sh STAGE NUMBER: one task of the crowd, on the machine that it is started on\n";
@@ -251,17 +224,6 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   return script + std::string(kParallel);
 }
 
-std::string openjd_template(const TaskJob& job, const EngineOptions& options) {
-  Json document = {{"specificationVersion", "jobtemplate-2023-09"},
-                   {"name", job.crowd},
-                   {"steps", Json::array()}};
-  document["steps"].push_back(step(job, options, "Prepare", "prepare", job.prepares, ""));
-  document["steps"].push_back(step(job, options, "Plan", "plan", 1, "Prepare"));
-  document["steps"].push_back(step(job, options, "Blend", "blend", job.shards, "Plan"));
-  document["steps"].push_back(step(job, options, "Gather", "gather", 1, "Blend"));
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace
 
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
@@ -281,8 +243,7 @@ std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors) {
 }
 
 std::string_view name_of(Engine engine) {
-  constexpr std::array<std::string_view, 3> kNames = {"slurm", "parallel", "openjd"};
-  return kNames[static_cast<std::size_t>(engine)];
+  return engine == Engine::kSlurm ? "slurm" : "parallel";
 }
 
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
@@ -292,15 +253,11 @@ std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
   refuse_folder_elsewhere(job.directory, folder / "log");
   make_directories(folder / "log");
   write_file(script_of(job), task_script(job));
-  const Json notes = {{"engine", name_of(engine)},
+  const nlohmann::ordered_json notes = {{"engine", name_of(engine)},
                       {"prepares", job.prepares},
                       {"shards", job.shards},
                       {"processors", job.processors}};
   write_file(folder / "job.json", notes.dump() + "\n");
-  if (engine == Engine::kOpenJd) {
-    write_file(folder / "template.json", openjd_template(job, options));
-    return folder / "template.json";
-  }
   write_file(folder / "submit.sh",
              engine == Engine::kSlurm ? slurm_script(job, options) : parallel_script(job, options));
   return folder / "submit.sh";

@@ -29,7 +29,7 @@ struct TaskJob {
   std::uint64_t memory = 0;      ///< bytes of a task; 0: the engine's default
 };
 
-enum class Engine { kSlurm, kParallel, kOpenJd };
+enum class Engine { kSlurm, kParallel };
 std::string_view name_of(Engine engine);
 
 /// What only some engines want.
@@ -47,9 +47,8 @@ std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::ui
 std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors);
 
 /// Writes `submit/` of the crowd's folder: `task.sh STAGE NUMBER`, which runs one task on the machine that
-/// it is started on, and what hands all tasks to the engine.
-/// \return the latter: a script for bash that submits to Slurm or runs GNU parallel to its end, or a job
-/// template (2023-09).
+/// starts the script, and `submit.sh`, which hands all tasks to the engine.
+/// \return `submit.sh`, a script for bash that submits to Slurm or runs GNU parallel to its end.
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                          const EngineOptions& options);
 
