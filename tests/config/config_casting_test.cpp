@@ -17,7 +17,7 @@ TEST_F(ConfigTest, CastingIsRead) {
   const auto config =
       read(kBands +
            "diversity: {mode: spread, min_distance: 1.5 mm, min_distance_to_faces: "
-           "1 mm, max_weight: 0.7, quotas: {ann: 0.25}, candidates: 4, pool: 20, "
+           "1 mm, max_weight: 0.7, candidates: 4, pool: 20, "
            "max_attempts: 50}\n"
            "distance: {area: skin}\n"
            "believability: {max_deviation: 2, max_stretch: 4, max_flipped: 0.01, "
@@ -31,8 +31,6 @@ TEST_F(ConfigTest, CastingIsRead) {
   EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
   EXPECT_EQ(config->diversity.min_distance_to_faces_mm, 1);
   EXPECT_EQ(config->diversity.max_weight, 0.7);
-  ASSERT_EQ(config->diversity.quotas.size(), 1U);
-  EXPECT_THAT(config->diversity.quotas[0].heads, ElementsAre(0));
   EXPECT_EQ(config->diversity.candidates, 4);
   EXPECT_EQ(config->diversity.pool, 20);
   EXPECT_EQ(config->diversity.max_attempts, 50);
@@ -147,7 +145,6 @@ TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
   refused("groups: [{name: a, share: 0.7, count: 1}]\n", "not both");
   refused("groups: [{name: a, count: 1000}]\n", "counts of 1000 faces");
   refused("groups: [{name: a, tags: [purple]}]\n", "no head has all of these tags");
-  refused("diversity: {quotas: {ann: 0.5}}\ngroups: [{name: a}]\n", "do not go together");
   refused("families: [{name: k, members: 1, group: nobody}]\n", "no group is called \"nobody\"");
 }
 
@@ -203,27 +200,29 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   EXPECT_THAT(sources_of(again->groups[0].sampling, 2), ElementsAre(2));
 }
 
-TEST_F(ConfigTest, QuotasOfBandsAreReadWrittenAndChecked) {
-  const auto config =
-      read(kBands + kDetail + "diversity: {quotas: {bob: {share: 0.25, band: skin}, ann: 0.5}}\n");
-  ASSERT_TRUE(config) << told();
-  ASSERT_EQ(config->diversity.quotas.size(), 2U);
-  EXPECT_EQ(config->diversity.quotas[0].share, 0.25);
-  EXPECT_EQ(config->diversity.quotas[0].band, 2U);
-  EXPECT_FALSE(config->diversity.quotas[1].band);
-  const std::string written = effective_config(*config, folder_);
-  const auto again = read(written);
-  ASSERT_TRUE(again) << told() << written;
-  EXPECT_EQ(again->diversity.quotas[0].band, 2U);
-  for (const auto& [quotas, phrase] :
-       {std::pair("bob: {share: 0.2, band: hair}", "no band of sampling.bands is called \"hair\""),
-        {"bob: {band: skin}", "share"},
-        {"ann: {share: 0.2, band: skin}", "among the band's sources"},
-        {"bob: {share: 0.2, band: skin}, cyd: {share: 0.2, band: skin}", "for whom is the rest"},
-        {"bob: {share: 0.7, band: skin}, ann: 0.5", "at most 1"}}) {
+TEST_F(ConfigTest, QuotasAreRefusedWithTheGroupsThatReplaceThem) {
+  EXPECT_TRUE(read(kBands + "diversity: {quotas: {}}\n")) << "as older crowds have it";
+  struct Case {
+    const char *config, *groups;
+  };
+  for (const auto& [config, groups] :
+       {Case{"sampling: {targets: [ann, bob]}\ndiversity: {quotas: {ann: 0.25}}\n",
+             "  - {name: ann, share: 0.25, targets: [ann]}\n  - {name: others, targets: [bob]}"},
+        Case{"sampling: {targets: {ann: 2, bob: 1}}\ndiversity: {quotas: {ann: 0.5, bob: 0.5}}\n",
+             "  - {name: ann, share: 0.5, targets: {ann: 2}}\n  - {name: bob, share: 0.5, targets: "
+             "[bob]}"},
+        Case{"sampling: {bands: {build: 240 mm, skin: {smoothness: 8 mm, sources: [bob, cyd]}}}\n"
+             "diversity: {quotas: {bob: {share: 0.25, band: skin}, ann: 0.5}}\n",
+             "  - {name: bob, share: 0.25, targets: [bob, cyd], bands: {skin: {sources: [bob]}}}\n"
+             "  - {name: ann, share: 0.5, targets: [ann], bands: {skin: {sources: [cyd]}}}\n"
+             "  - {name: others, targets: [bob, cyd], bands: {skin: {sources: [cyd]}}}"}}) {
     problems_ = Problems();
-    EXPECT_FALSE(read(concat(kBands, kDetail, "diversity: {quotas: {", quotas, "}}\n"))) << quotas;
-    EXPECT_THAT(told(), HasSubstr(phrase)) << quotas;
+    EXPECT_FALSE(read(kBands + config)) << config;
+    EXPECT_THAT(told(), HasSubstr(concat("add to the config:\ngroups:\n", groups)));
+    const std::string rest(config, std::string_view(config).find("diversity"));
+    problems_ = Problems();
+    const auto pasted = read(concat(kBands, rest, "groups:\n", groups, "\n"));
+    EXPECT_TRUE(pasted) << told();
   }
 }
 
@@ -293,10 +292,7 @@ TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   refused("diversity: {min_distance: 2}\n", "expected a length with its unit");
   refused("diversity: {mode: best}\n", "first_fit or spread");
   refused("diversity: {max_weight: 0}\n", "above 0");
-  refused("diversity: {quotas: {eve: 0.5}}\n", "\"eve\"");
-  refused("diversity: {quotas: {ann: 0.7, bob: 0.4}}\n", "at most 1");
-  refused("diversity: {quotas: {ann: 0.2, bob: 0.2, cyd: 0.2}}\n", "for whom is the rest");
-  refused("sampling: {targets: [ann]}\ndiversity: {quotas: {bob: 0.5}}\n", "sampling.targets");
+  refused("diversity: {quotas: {eve: 0.5}}\n", "groups take the place of quotas");
   refused("families: [{name: smith, members: 0, max_distance: 2 mm}]\n", "from 1 to 1000");
   refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "needs a letter");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, min_distance: 3 mm}]\n",

@@ -78,7 +78,8 @@ TEST(Casting, DistancesThatAreAskedForAreKept) {
 TEST(Casting, GrowingTheCrowdMovesNoFace) {
   SmallCrowd crowd = six_bowls();
   crowd.more =
-      "diversity: {min_distance: 0.5 mm, quotas: {ann: 0.25, bob: 0.25}}\n"
+      "diversity: {min_distance: 0.5 mm}\n"
+      "groups: [{name: a, share: 0.25, targets: [ann]}, {name: b, share: 0.25, targets: [bob]}]\n"
       "families: [{name: kin, members: 2, max_distance: 3 mm}]\n";
   const SmallCrowdFolder folder(crowd);
   ConfigOverrides few, many;
@@ -90,10 +91,12 @@ TEST(Casting, GrowingTheCrowdMovesNoFace) {
   EXPECT_EQ(testing::read_text(folder / "many/plan.jsonl").substr(0, small.size()), small);
 }
 
-TEST(Casting, QuotasAreMetByCount) {
+TEST(Casting, SharesOfGroupsAreMetByCount) {
   SmallCrowd crowd = six_bowls();
   crowd.count = 41;
-  crowd.more = "diversity: {quotas: {ann: 0.3, bob: 0.125}}\n";
+  crowd.more =
+      "groups: [{name: a, share: 0.3, targets: [ann]}, {name: b, share: 0.125, targets: [bob]}, "
+      "{name: rest, targets: [cyd, dan]}]\n";
   const SmallCrowdFolder folder(crowd);
   run(folder);
   std::size_t ann = 0, bob = 0, n = 0;
@@ -287,16 +290,6 @@ TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
   const json groups = testing::read_json(folder / "large/casting.json").at("groups");
   EXPECT_GE(groups.at("few").at("faces"), 6);
   EXPECT_THAT(testing::read_text(folder / "large/crowd.csv"), ::testing::HasSubstr(",rest,"));
-}
-
-TEST(Casting, AQuotaThatTheSourcesContradictIsWarnedOf) {
-  SmallCrowd crowd = six_bowls();
-  crowd.sampling = "{sources: [cyd, dan], smoothness: [0.2, 0.9]}";
-  crowd.more = "diversity: {quotas: {ann: 0.5}}\n";
-  const SmallCrowdFolder folder(crowd);
-  run(folder);
-  const json warnings = testing::read_json(folder.out() / "report.json").at("warnings");
-  EXPECT_THAT(warnings.dump(), ::testing::HasSubstr("faces of the quota ann have"));
 }
 
 TEST(Casting, WhatCannotBeDoneIsToldAndLeavesNothing) {

@@ -8,7 +8,7 @@
 #include "crowdface/cast/band_order.h"
 #include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/cast/face_search.h"
-#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/shares.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/shares.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/random.h"
@@ -82,7 +82,7 @@ class AttachmentDrawing {
     }
     for (auto& [kind, quotas] : quotas_) {
       for (const auto& [group, faces] : sizes_) {
-        quotas.schedules[group] = scatter_quotas(quotas.shares, faces, draw.seed,
+        quotas.schedules[group] = scatter_shares(quotas.shares, faces, draw.seed,
                                                  concat("attachment quotas/", kind, '/', group));
       }
     }

@@ -6,7 +6,7 @@
 
 #include "crowdface/cast/apply_review.h"
 #include "crowdface/cast/face_search.h"
-#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/shares.h"
 #include "crowdface/cast/spread.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -73,7 +73,7 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJ
     result.families.push_back(std::move(*cast));
   }
   crowd.begin_sampled();
-  result.kinds = schedule_kinds(casting, casting.count);
+  result.kinds = schedule_groups(casting.groups, casting.count);
   const std::vector<FaceKind> kinds = face_kinds(casting);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
     cast_spread(casting, judge, kinds, kinship, crowd, joined, result);

@@ -18,7 +18,7 @@ namespace crowdface {
 struct Shortfall {
   std::uint64_t reached = 0;  ///< sampled faces that were found
   Rejections rejections;      ///< why the next one's candidates were thrown away
-  int kind = -1;              ///< which quota or group the next one counts for, or −1
+  int kind = -1;              ///< which group the next one counts for, or −1
   std::string family = {};    ///< that could not be cast, if it was one
   std::string reviewed = {};  ///< the id of a face that could not be drawn anew, if it was one
 };
@@ -27,7 +27,7 @@ struct Shortfall {
 struct CrowdCast {
   std::vector<CastFace> crowd;           ///< recipes, then families, then faces 1 … count
   std::vector<FaceSpace::Point> points;  ///< of each
-  std::vector<int> kinds;                ///< which quota or group each sampled face is of, or −1
+  std::vector<int> kinds;                ///< which group each sampled face is of, or −1
   std::vector<FamilyCast> families;
   std::vector<CastFace> rejected;  ///< by reviews, in their order; ids as in the crowd
   Rejections rejections;

@@ -14,14 +14,6 @@
 
 namespace crowdface {
 
-/// A share of the crowd whose target is one of these heads, or of whom they alone lend to a band.
-struct Quota {
-  std::string name;  ///< of a head or a tag
-  double share = 0;  ///< 0 … 1
-  std::vector<Eigen::Index> heads;
-  std::optional<std::size_t> band = {};  ///< none: it binds the target
-};
-
 /// How different the faces of a crowd must be.
 struct DiversityOptions {
   enum class Mode {
@@ -34,7 +26,6 @@ struct DiversityOptions {
   /// Between a face that a review rejected and the one in its place; none: half the crowd's median.
   std::optional<double> min_distance_to_rejected_mm;
   double max_weight = 1;      ///< of one head in one region
-  std::vector<Quota> quotas;  ///< no head in two of the same band, or of none
   /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept; but of 32
   /// at least for the first thousand faces and of 8 for all others, whatever else is asked for.
   std::optional<int> candidates;

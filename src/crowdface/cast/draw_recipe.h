@@ -36,7 +36,7 @@ struct Casting {
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< one after the other
-  std::vector<Group> groups = {};    ///< of sampled faces; none where there are quotas
+  std::vector<Group> groups = {};    ///< of sampled faces
   HeadTags tags = {};                ///< #heads, or none
 };
 

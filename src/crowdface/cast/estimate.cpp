@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/shares.h"
 #include "crowdface/cast/spread.h"
 #include "crowdface/core/interrupt.h"
 
@@ -30,9 +30,8 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
-  // Quotas and groups would need a pass for each; capacity is about the faces there are.
+  // Groups would need a pass for each; capacity is about the faces there are.
   Casting free = casting;
-  free.diversity.quotas.clear();
   free.groups.clear();
   const CandidatePool pool = draw_pool(free, judge, face_kinds(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());

@@ -46,7 +46,7 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
                         const std::vector<FaceKind>& kinds, std::uint64_t count,
                         std::uint64_t times) {
   const std::uint64_t size = count * times;
-  const std::vector<int> schedule = schedule_kinds(casting, size, times);
+  const std::vector<int> schedule = schedule_groups(casting.groups, size, times);
   std::vector<std::optional<std::pair<CastFace, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(size, [&](std::size_t at) {

@@ -9,7 +9,7 @@
 #include "crowdface/cast/crowd_so_far.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_judge.h"
-#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/shares.h"
 
 namespace crowdface {
 
@@ -17,12 +17,12 @@ namespace crowdface {
 struct CandidatePool {
   std::vector<CastFace> faces;
   std::vector<FaceSpace::Point> points;
-  std::vector<int> kinds;  ///< quota or group of each, or −1
+  std::vector<int> kinds;  ///< group of each, or −1
   Rejections rejections;
 };
 
-/// Draws a pool of `times` crowds of `count` faces. Quotas and groups are met by it as by a crowd.
-/// \param kinds  of faces of no quota or group, then of those of each.
+/// Draws a pool of `times` crowds of `count` faces. Groups are met by it as by a crowd.
+/// \param kinds  of faces of no group, then of those of each.
 CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
                         const std::vector<FaceKind>& kinds, std::uint64_t count,
                         std::uint64_t times = 1);
@@ -30,7 +30,7 @@ CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
 /// Picks one of a pool's candidates after the other, each the one that is farthest from those
 /// picked before and from the crowd it starts with (greedy farthest point). Whatever is picked, no
 /// set of as many candidates has a closest pair more than twice as far apart (Gonzalez 1985; Ravi,
-/// Rosenkrantz & Tayi 1994), as long as the distance is a metric: with every factor 1, no quotas and
+/// Rosenkrantz & Tayi 1994), as long as the distance is a metric: with every factor 1, no groups and
 /// an empty crowd to start with.
 class FarthestPoints {
  public:

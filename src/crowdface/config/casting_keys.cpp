@@ -2,6 +2,7 @@
 // The sections `distance`, `diversity` and `believability`: how faces are compared and what they
 // must keep.
 #include <algorithm>
+#include <functional>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
@@ -29,134 +30,96 @@ std::string write_mask(const Config::Distance& distance, const ConfigWriting& wr
   return distance.mask ? path("").write(*distance.mask, writing) : "";
 }
 
-bool is_target(Eigen::Index head, const ConfigDraft& draft) {
-  const auto& targets = draft.config.sampling.targets;
-  return std::ranges::find(targets, head, &WeightedHead::head) != targets.end();
-}
+/// What `diversity.quotas` of older versions asked for.
+struct Quota {
+  std::string name;  ///< of a head or a tag
+  double share = 0;
+  std::vector<Eigen::Index> heads;
+  std::optional<std::size_t> band;  ///< none: the quota binds the target
+};
 
-/// No head may count for two quotas of one kind: the shares of both could not be kept apart.
-void refuse_shared_heads(const YamlEntry& entry, const Quota& quota, ConfigDraft& draft) {
-  for (const Quota& other : draft.config.diversity.quotas) {
-    if (other.band != quota.band) continue;
-    for (const Eigen::Index head : quota.heads) {
-      if (!contains(other.heads, head)) continue;
-      const std::string& name = draft.config.faces.names[static_cast<std::size_t>(head)];
-      draft.complaints.add(entry.key_place,
-                           concat(entry.value.path, ": the head ", quoted(name), " counts for ",
-                                  quoted(other.name), " already; quotas share no heads"));
-      return;
-    }
+/// The heads of all quotas of a band, or of those that bind the target.
+std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
+                                   std::optional<std::size_t> band) {
+  std::vector<Eigen::Index> heads;
+  for (const Quota& quota : quotas) {
+    if (quota.band == band) heads.insert(heads.end(), quota.heads.begin(), quota.heads.end());
   }
+  return heads;
 }
 
-const Keys<Quota>& quota_keys() {
-  static const Keys<Quota> keys = {
-      key("share", &Quota::share, number(0, 1), "from 0 to 1"),
-      {"band",
-       [](const YamlNode& node, Quota& quota, ConfigDraft& draft) {
-         const auto name = read_name(node, draft.complaints);
-         const auto& bands = draft.config.sampling.bands;
-         const auto band = std::ranges::find(bands, name, &BandSampling::name);
-         if (band != bands.end()) {
-           quota.band = static_cast<std::size_t>(band - bands.begin());
-         } else if (name) {
-           draft.complaints.about(node,
-                                  concat("no band of sampling.bands is called ", quoted(*name)));
-         }
-       },
-       [](const Quota& quota, const ConfigWriting& writing) {
-         return quota.band ? write_scalar(writing.config.sampling.bands[*quota.band].name) : "";
-       }}};
-  return keys;
+/// The heads of a list that are among others or, if `own` is false, that are not.
+template <class Heads, class Head>
+Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, const Head& head) {
+  std::erase_if(heads, [&](const auto& item) { return contains(others, head(item)) != own; });
+  return heads;
 }
 
-/// Heads of a band's quotas, or of those of targets.
-bool counts_for_any(const std::vector<Quota>& quotas, std::optional<std::size_t> band,
-                    Eigen::Index head) {
-  return std::ranges::any_of(quotas, [&](const Quota& quota) {
-    return quota.band == band && contains(quota.heads, head);
-  });
-}
-
-double total_share(const std::vector<Quota>& quotas, std::optional<std::size_t> band) {
-  double total = 0;
-  for (const Quota& quota : quotas) total += quota.band == band ? quota.share : 0;
-  return total;
-}
-
-/// Faces that count for no quota need heads too.
-void refuse_nothing_left(const YamlNode& node, ConfigDraft& draft) {
-  const auto& quotas = draft.config.diversity.quotas;
-  const SamplingOptions& sampling = draft.config.sampling;
-  const auto& targets = sampling.targets;
-  const double total = total_share(quotas, std::nullopt);
-  const bool targets_left = std::ranges::any_of(targets, [&](const WeightedHead& target) {
-    return !counts_for_any(quotas, std::nullopt, target.head);
-  });
-  if (!targets.empty() && !targets_left && total < 1 - kShareRounding) {
-    draft.complaints.about(
-        node, concat("the shares sum to ", total,
-                     ", but every target counts for one of them; for whom is the rest?"));
+/// The group that takes the place of a quota or, without one, of all faces that count for no quota.
+std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
+                       const ConfigWriting& writing) {
+  const SamplingOptions& sampling = writing.config.sampling;
+  std::vector<std::string> entries = {
+      entry("name", quota ? write_scalar(quota->name) : "others")};
+  if (quota) entries.push_back(entry("share", format_number(quota->share)));
+  const auto part = [&](auto heads, std::optional<std::size_t> band, const auto& head) {
+    const bool own = quota && quota->band == band;
+    return part_of(std::move(heads), own ? quota->heads : heads_of(quotas, band), own, head);
+  };
+  if (!heads_of(quotas, std::nullopt).empty()) {
+    const auto targets = part(sampling.targets, std::nullopt, std::mem_fn(&WeightedHead::head));
+    entries.push_back(entry("targets", weighted_heads().write(targets, writing)));
   }
+  std::vector<std::string> bands;
   for (std::size_t b = 0; b < sampling.bands.size(); ++b) {
-    const auto& sources = sources_of(sampling, b);
-    const double of_band = total_share(quotas, b);
-    if (of_band == 0 || of_band > 1 - kShareRounding || sources.empty()) continue;
-    if (std::ranges::any_of(sources,
-                            [&](Eigen::Index head) { return !counts_for_any(quotas, b, head); })) {
-      continue;
-    }
-    draft.complaints.about(
-        node, concat("the shares of the band ", sampling.bands[b].name, " sum to ", of_band,
-                     ", but every source counts for one of them; for whom is the rest?"));
+    if (heads_of(quotas, b).empty()) continue;
+    const auto sources = part(sources_of(sampling, b), b, std::identity());
+    bands.push_back(entry(write_scalar(sampling.bands[b].name),
+                          flow_map({entry("sources", head_list().write(sources, writing))})));
   }
+  if (!bands.empty()) entries.push_back(entry("bands", flow_map(bands)));
+  return flow_map(entries);
 }
 
-/// Whether any of its heads may be what it binds.
-bool can_be_met(const Quota& quota, const ConfigDraft& draft) {
-  return std::ranges::any_of(quota.heads, [&](Eigen::Index head) {
-    if (!quota.band) return is_target(head, draft);
-    return contains(sources_of(draft.config.sampling, *quota.band), head);
-  });
+std::optional<Quota> read_quota(const YamlNode& node, const YamlEntry& entry, ConfigDraft& draft) {
+  const bool is_map = entry.value.kind == YamlNode::Kind::kMap;
+  const YamlEntry* share = is_map ? entry.value.find("share") : &entry;
+  const YamlEntry* band = is_map ? entry.value.find("band") : nullptr;
+  const auto value = share ? number(0, 1).read(share->value, draft) : std::nullopt;
+  Quota quota{entry.key, value.value_or(0), {}, {}};
+  quota.heads = find_heads(entry.key, entry.key_place, node.path, draft);
+  const auto& bands = draft.config.sampling.bands;
+  if (band) {
+    quota.band = static_cast<std::size_t>(
+        std::ranges::find(bands, band->value.text, &BandSampling::name) - bands.begin());
+  }
+  return value && !quota.heads.empty() && quota.band != bands.size() ? std::optional(quota)
+                                                                     : std::nullopt;
 }
 
-void read_quotas(const YamlNode& node, DiversityOptions& diversity, ConfigDraft& draft) {
-  draft.complaints.expect_map(node, "a mapping from heads or tags to shares, {old: 0.3}");
-  auto& quotas = diversity.quotas;
+/// Shows the groups that say what the quotas said. An empty mapping stands in the configs of older crowds.
+void refuse_quotas(const YamlNode& node, DiversityOptions& /*diversity*/, ConfigDraft& draft) {
+  if (node.entries.empty()) return;
+  std::vector<Quota> quotas;
   double total = 0;
   for (const YamlEntry& entry : node.entries) {
-    const std::size_t complaints_before = draft.complaints.size();
-    Quota quota;
-    quota.name = entry.key;
-    quota.heads = find_heads(entry.key, entry.key_place, node.path, draft);
-    if (entry.value.kind == YamlNode::Kind::kMap) {
-      read_keys(entry.value, quota_keys(), quota, draft);
-    } else {
-      quota_keys().front().read(entry.value, quota, draft);
-    }
-    if (quota.heads.empty() || draft.complaints.size() != complaints_before) continue;
-    total += quota.share;
-    refuse_shared_heads(entry, quota, draft);
-    if (quota.share > 0 && !can_be_met(quota, draft)) {
-      draft.complaints.add(
-          entry.key_place,
-          quota.band ? concat(entry.value.path, ": none of its heads is among the band's sources")
-                     : concat(entry.value.path, ": none of its heads is among sampling.targets"));
-    }
-    quotas.push_back(std::move(quota));
+    const auto quota = read_quota(node, entry, draft);
+    if (!quota) continue;
+    quotas.push_back(*quota);
+    total += quota->share;
   }
-  if (total > 1 + kShareRounding) {
-    draft.complaints.about(node, concat("the shares sum to ", total, "; at most 1 is possible"));
+  std::string message = "groups take the place of quotas";
+  if (quotas.size() == node.entries.size()) {
+    const ConfigWriting writing{draft.config, draft.folder};
+    message += "; leave quotas out and add to the config:\ngroups:";
+    for (const Quota& quota : quotas) {
+      message += concat("\n  - ", group_text(quotas, &quota, writing));
+    }
+    if (total < 1 - kShareRounding) {
+      message += concat("\n  - ", group_text(quotas, nullptr, writing));
+    }
   }
-  if (!quotas.empty()) refuse_nothing_left(node, draft);
-}
-
-std::string write_quotas(const DiversityOptions& diversity, const ConfigWriting& writing) {
-  return flow_map(texts_of(diversity.quotas, [&](const Quota& quota) {
-    return entry(write_scalar(quota.name), quota.band
-                                               ? flow_map(write_keys(quota_keys(), quota, writing))
-                                               : format_number(quota.share));
-  }));
+  draft.complaints.about(node, message);
 }
 
 const Keys<BelievabilityOptions>& believability_keys() {
@@ -204,7 +167,7 @@ const Keys<DiversityOptions>& diversity_keys() {
           length(kMaxDistance)),
       key("max_weight", &Diversity::max_weight,
           above_zero(number(0, 1), "a number above 0, up to 1")),
-      {"quotas", read_quotas, write_quotas},
+      {"quotas", refuse_quotas, [](const auto&...) { return ""; }},
       key("candidates", &Diversity::candidates, whole(1, kMostCandidates)),
       key("pool", &Diversity::pool, whole(1, kLargestPool)),
       key("max_attempts", &Diversity::max_attempts, whole(1, kMostAttempts))};

@@ -129,11 +129,6 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
     config.groups.push_back(std::move(group));
   }
   part_the_rest(node, draft);
-  if (!config.groups.empty() && !config.diversity.quotas.empty()) {
-    draft.complaints.about(node,
-                           "groups and diversity.quotas do not go together; a group with a "
-                           "share does what a quota does, and binds the sources too");
-  }
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {

@@ -232,10 +232,7 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   }
   if (shortfall.kind >= 0) {
     const auto kind = static_cast<std::size_t>(shortfall.kind);
-    message +=
-        config.groups.empty()
-            ? concat("; the next one counts for the quota ", config.diversity.quotas[kind].name)
-            : concat("; the next one is of the group ", config.groups[kind].name);
+    message += concat("; the next one is of the group ", config.groups[kind].name);
   }
   for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
   throw Unsatisfiable(message);

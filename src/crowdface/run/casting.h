@@ -49,7 +49,7 @@ struct FamilyReport {
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
   std::vector<CastFace> crowd;      ///< with their nearest neighbours
-  std::vector<int> kinds;           ///< quota or group of each sampled face, or −1
+  std::vector<int> kinds;           ///< group of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;

@@ -55,15 +55,6 @@ Json asked_to_json(const DiversityOptions& diversity) {
           {"max_weight", diversity.max_weight}};
 }
 
-Json quotas_to_json(const std::vector<Quota>& quotas, const Cast& cast) {
-  Json json = Json::object();
-  for (std::size_t q = 0; q < quotas.size(); ++q) {
-    json[quotas[q].name] = {{"share", quotas[q].share},
-                            {"faces", std::ranges::count(cast.kinds, static_cast<int>(q))}};
-  }
-  return json;
-}
-
 /// How many faces each group has, and how they lie among themselves.
 Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
   Json json = Json::object();
@@ -162,34 +153,6 @@ std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::str
                  "; diversity.min_distance_to_faces keeps faces away from them")};
 }
 
-std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast) {
-  constexpr double kLeastShare = 0.5;
-  std::vector<std::string> warnings;
-  const auto& quotas = config.diversity.quotas;
-  for (std::size_t q = 0; q < quotas.size(); ++q) {
-    if (quotas[q].band) continue;
-    const std::vector<Index>& heads = quotas[q].heads;
-    double own = 0, all = 0;
-    for (const CastFace& face : cast.crowd) {
-      if (!face.index || cast.kinds[*face.index - 1] != static_cast<int>(q)) continue;
-      for (const RegionRecipe& region : face.recipe.regions) {
-        for (std::size_t b = 0; b < band_count(region); ++b) {
-          for (const SourceWeight& source : band_of(region, b).weights) {
-            own += contains(heads, source.head) ? source.weight : 0;
-            all += source.weight;
-          }
-        }
-      }
-    }
-    if (all == 0 || own >= kLeastShare * all) continue;
-    warnings.push_back(concat("faces of the quota ", quotas[q].name, " have ",
-                              std::lround(100 * (1 - own / all)), " % of their detail from heads ",
-                              "that are not ", quotas[q].name, ", so they will hardly look it; a ",
-                              "group with sources: [", quotas[q].name, "] binds both"));
-  }
-  return warnings;
-}
-
 void log_casting(const Cast& cast, const std::vector<std::string>& heads) {
   const CrowdDistances& distances = cast.distances;
   const auto mm = [](double value) { return format_fixed(value, 2); };
@@ -213,7 +176,6 @@ Json casting_to_json(const Config& config, const Cast& cast) {
   json["asked"] = asked_to_json(config.diversity);
   json["faces"] = cast.crowd.size();
   json["distances"] = distances_to_json(config.region_names(), cast.distances);
-  json["quotas"] = quotas_to_json(config.diversity.quotas, cast);
   if (!config.groups.empty()) json["groups"] = groups_to_json(config.groups, cast);
   if (Json tags = tags_to_json(config, cast); !tags.empty()) json["tags"] = std::move(tags);
   if (!config.attachments.items.empty()) {

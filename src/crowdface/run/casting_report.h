@@ -15,8 +15,6 @@ namespace crowdface {
 /// A warning of faces that pass for one of the heads, if there are any that were drawn.
 std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads);
 
-/// A warning for each quota whose faces have most of their detail from heads that do not count for it.
-std::vector<std::string> contradicted_quotas(const Config& config, const Cast& cast);
 
 /// Logs what the crowd is like: distances, candidates thrown away, faces too near to heads.
 void log_casting(const Cast& cast, const std::vector<std::string>& heads);

@@ -136,7 +136,6 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
     return cast(job.config, job.inputs, crowd->prepared, defects, options.cache);
   });
   log_casting(crowd->cast, job.names.heads);
-  for (const std::string& text : contradicted_quotas(job.config, crowd->cast)) log_warning(text);
   check_compared_crowd(job.config, crowd->cast.crowd);
   crowd->casting = casting_to_json(job.config, crowd->cast);
   return crowd;
@@ -192,7 +191,7 @@ std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& d
                                          const Cast& cast, Ledger& ledger) {
   std::vector<std::string> warnings = job.inputs.warnings;
   for (const std::vector<std::string>& more :
-       {near_heads(cast, job.names.heads), contradicted_quotas(job.config, cast),
+       {near_heads(cast, job.names.heads),
         copy_materials(job.config, job.inputs, directory, cast.crowd, ledger)}) {
     warnings.insert(warnings.end(), more.begin(), more.end());
   }

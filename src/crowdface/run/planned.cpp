@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "crowdface/cast/quotas.h"
+#include "crowdface/cast/shares.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -132,7 +132,7 @@ Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prep
   Cast cast;
   cast.anchors = casting.anchors;
   cast.crowd = std::move(crowd);
-  cast.kinds = schedule_kinds(casting, casting.count);
+  cast.kinds = schedule_groups(casting.groups, casting.count);
   cast.founders = read_founders(job, directory);
   if (job.config.output.contact_sheet) {
     cast.points.resize(cast.crowd.size());
