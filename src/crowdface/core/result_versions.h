@@ -21,7 +21,7 @@ inline constexpr int kFaceSpaceVersion = 1;
 /// What the cache keeps besides: neighbours, masks at vertices, samples and their cells, the other side.
 inline constexpr int kSharedVersion = 1;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
-inline constexpr int kFaceFilesVersion = 20;
+inline constexpr int kFaceFilesVersion = 21;
 inline constexpr int kShapesVersion =
     9;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "crowdface/io/plain_png.h"
+#include "crowdface/io/image.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/rgb8_image.h"
@@ -43,7 +43,7 @@ std::string iris_png() {
       std::copy(colour.begin(), colour.end(), picture.at(x, y));
     }
   }
-  return plain_png(kSide, kSide, picture.pixels);
+  return encode_png(kSide, kSide, 3, picture.pixels);
 }
 
 /// Irises where the renders paint them. They lie on the eyes of the mean head, which parts follow.
