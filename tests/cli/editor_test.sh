@@ -34,10 +34,10 @@ node "$root/gallery/test/compare_points.mjs" "$folder/result.json" "$saved" 0.01
   --recipe "$folder/out/edited/edited.jsonl#made_by_hand" -o "$folder/again.obj" --quiet
 cmp "$saved" "$folder/again.obj"
 
-# What was put back: the recipe beside the one that was there, with its comment; the review takes effect.
-grep -q '# a comment' "$folder/config.yaml"
+# What was put back: the recipe beside the one that was there; the review takes effect.
+grep -q '^edits: config_edits.yaml' "$folder/config.yaml"
 "$program" check "$folder/config.yaml" --cache "$folder/cache" --quiet >/dev/null
-grep -q 'made_by_hand' "$folder/config.yaml"
+grep -q 'made_by_hand' "$folder/config_edits.yaml"
 cp "$folder/out/plan.jsonl" "$folder/before.jsonl"
 "$program" plan "$folder/as_it_was.yaml" --cache "$folder/cache" --quiet --review "$folder/out/edited/review.yaml"
 changed=$(diff "$folder/before.jsonl" "$folder/out/plan.jsonl" | grep -c '^<' || true)

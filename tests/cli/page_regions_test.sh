@@ -22,6 +22,6 @@ rm "$folder/out/edited/.address"
 serve edit "$folder/config.yaml" --cache "$folder/cache" --no-browser
 browse regions.mjs "$address" again "${PICTURES-}"
 stop_server
-grep -q 'names: \[brow, nose, mouth, ears\]' "$folder/config.yaml"
+grep -q 'names: \[brow, nose, mouth, ears\]' "$folder/config_edits.yaml"
 "$program" verify "$folder/out" --quiet
 "$program" check "$folder/config.yaml" --cache "$folder/cache" --quiet >/dev/null

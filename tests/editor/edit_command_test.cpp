@@ -52,6 +52,9 @@ class EditCommandTest : public ::testing::Test {
     all.insert(all.end(), more_.begin(), more_.end());
     return all;
   }
+  std::filesystem::path edits() const {
+    return folder_.config().parent_path() / "config_edits.yaml";
+  }
   std::filesystem::path edited(const std::string& name) const {
     return folder_.out() / "edited" / name;
   }
@@ -147,7 +150,7 @@ TEST_F(EditCommandTest, ASecondEditorIsToldOfTheFirst) {
   EXPECT_FALSE(std::filesystem::exists(edited(".address")));
 }
 
-TEST_F(EditCommandTest, PutsARecipeIntoTheConfig) {
+TEST_F(EditCommandTest, PutsARecipeIntoTheEditsOfTheConfig) {
   const std::string before = read_text(folder_.config());
   edit([&] {
     EXPECT_EQ(post("api/recipes", {{"recipe", start()}})->status, 200);
@@ -157,7 +160,8 @@ TEST_F(EditCommandTest, PutsARecipeIntoTheConfig) {
   });
   const std::string after = read_text(folder_.config());
   EXPECT_THAT(after, ::testing::StartsWith(before));
-  EXPECT_THAT(after.substr(before.size()), ::testing::HasSubstr("- id: eva"));
+  EXPECT_THAT(after.substr(before.size()), ::testing::HasSubstr("edits: "));
+  EXPECT_THAT(read_text(edits()), ::testing::HasSubstr("- {id: eva"));
   const Outcome check =
       run_program(CROWDFACE_PROGRAM, {"check", folder_.config(), "--cache", folder_.cache()});
   EXPECT_EQ(check.code, 0) << check.err;
@@ -244,19 +248,19 @@ TEST_F(EditCommandTest, RegionsComeAndGoInTheConfig) {
   edit([&] {
     EXPECT_EQ(post("api/regions", {{"add", "cheek"}})->status, 200);
     EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "region_2", "cheek"));
-    const std::string config = read_text(folder_.config());
-    EXPECT_THAT(config, ::testing::HasSubstr("names: [region_1, region_2, cheek]"));
-    EXPECT_THAT(config, ::testing::HasSubstr("edited/masks.png"));
+    const std::string saved = read_text(edits());
+    EXPECT_THAT(saved, ::testing::HasSubstr("names: [region_1, region_2, cheek]"));
+    EXPECT_THAT(saved, ::testing::HasSubstr("edited/masks.png"));
     EXPECT_EQ(post("api/save", {{"recipe", start()}, {"format", "ply"}})->status, 200);
 
     EXPECT_THAT(error(post("api/regions", {{"add", "a: b"}})), ::testing::HasSubstr("a: b"));
     EXPECT_THAT(error(post("api/regions", {{"add", "cheek"}})), ::testing::HasSubstr("twice"));
     EXPECT_THAT(error(post("api/regions", {{"remove", "chin"}})), ::testing::HasSubstr("remove"));
-    EXPECT_EQ(read_text(folder_.config()), config);
+    EXPECT_EQ(read_text(edits()), saved);
 
     EXPECT_EQ(post("api/regions", {{"remove", "region_2"}})->status, 200);
     EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "cheek"));
-    EXPECT_THAT(read_text(folder_.config()), ::testing::HasSubstr("edited/other_masks.png"));
+    EXPECT_THAT(read_text(edits()), ::testing::HasSubstr("edited/other_masks.png"));
     EXPECT_EQ(post("api/face", {{"recipe", start()}})->status, 200);
   });
   const Outcome check =

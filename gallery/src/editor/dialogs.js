@@ -18,7 +18,7 @@ export function showPutBack(editor) {
   });
   const dialog = openDialog('Put back',
     el('section', {}, el('h3', {}, 'Into the config'),
-      el('p', { class: 'muted' }, `As ${editor.document.recipe.id} under recipes, comments and order kept.`),
+      el('p', { class: 'muted' }, `As ${editor.document.recipe.id}, into the file that the config names as edits.`),
       el('button', {
         class: 'export', onclick: () => editor.attempt(async () => {
           const { file } = await post('recipes', { recipe: editor.wire() });

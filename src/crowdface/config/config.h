@@ -199,6 +199,7 @@ struct Config {
     std::vector<std::string> texts;  ///< of each
     std::vector<Review> reviews;     ///< what stands in each
   } review;
+  std::filesystem::path edits;  ///< what `crowdface edit` saved, merged already; empty: nothing
 
   /// What a face is compared with, point by point.
   struct Comparison {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/edits.h"
 
 namespace crowdface {
 namespace {
@@ -72,6 +73,7 @@ ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigO
   auto root = read_yaml(file.string(), complaints);
   if (root) {
     apply(overrides, *root, complaints);
+    read_edits(*root, draft);
     read_keys(*root, root_keys(), draft.config, draft);
   }
   auto& directory = draft.config.output.directory;

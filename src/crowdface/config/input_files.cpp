@@ -54,6 +54,7 @@ std::vector<fs::path> input_files(const Config& config) {
   for (const std::string& mask : config.regions.mask) add_image(mask, files);
   if (config.distance.mask) add_image(*config.distance.mask, files);
   std::ranges::for_each(config.review.files, add);
+  add(config.edits);
   if (const auto& sheet = config.output.contact_sheet) add(sheet->compare.file);
   return files;
 }

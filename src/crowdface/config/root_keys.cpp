@@ -220,6 +220,8 @@ const Keys<Config>& root_keys() {
       {"recipes", read_recipes, write_recipes},
       {"families", read_families, write_families},
       {"review", read_review, write_review},
+      // Merged before the keys are read.
+      {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
       section_key("output", &Config::output, output_keys(), {}, check_output)};
   return keys;
 }

@@ -6,7 +6,7 @@
 #include "crowdface/config/words.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
-#include "crowdface/editor/config_text.h"
+#include "crowdface/editor/config_edits.h"
 #include "crowdface/editor/edit_api.h"
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/io/shallow_json.h"
@@ -103,8 +103,7 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
       hand_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
   const std::lock_guard lock(building_);
   require_masks_of_config();
-  crowdface::put_recipe(recipe, config);
-  return json_answer(file_json(config.file));
+  return json_answer(file_json(crowdface::put_recipe(recipe, config)));
 }
 
 HttpAnswer EditApi::generate(const HttpRequest&, const std::string&) {

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/config/edits.h"
+
+#include <algorithm>
+
+#include "crowdface/config/codec.h"
+
+namespace crowdface {
+namespace {
+
+/// The text of a recipe's id, empty without one.
+std::string id_of(const YamlNode& recipe) {
+  const YamlEntry* id = recipe.find("id");
+  return id != nullptr ? id->value.text : std::string();
+}
+
+void merge_recipes(const YamlNode& recipes, YamlNode& own) {
+  if (own.kind == YamlNode::Kind::kNothing) own.kind = YamlNode::Kind::kList;
+  for (const YamlNode& recipe : recipes.items) {
+    const auto there = std::ranges::find(own.items, id_of(recipe), id_of);
+    if (there != own.items.end()) {
+      *there = recipe;
+    } else {
+      own.items.push_back(recipe);
+    }
+  }
+}
+
+}  // namespace
+
+void merge_edits(const YamlNode& edits, YamlNode& root) {
+  for (const YamlEntry& edit : edits.entries) {
+    const auto own = std::ranges::find(root.entries, edit.key, &YamlEntry::key);
+    if (own == root.entries.end()) {
+      root.entries.push_back(edit);
+    } else if (edit.key == "recipes") {
+      merge_recipes(edit.value, own->value);
+    } else {
+      own->value = edit.value;
+    }
+  }
+}
+
+void read_edits(YamlNode& root, ConfigDraft& draft) {
+  const YamlEntry* named = root.find("edits");
+  if (named == nullptr) return;
+  const auto file = path("a file that crowdface edit writes").read(named->value, draft);
+  if (!file || !expect_file(named->value, *file, draft)) return;
+  draft.config.edits = *file;
+  const auto edits = read_yaml(file->string(), draft.complaints);
+  if (!edits) return;
+  const MapReader known(*edits, {"regions", "recipes"}, draft.complaints);
+  merge_edits(*edits, root);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/config_edits.h"
+
+#include "crowdface/config/config_reader.h"
+#include "crowdface/config/config_values.h"
+#include "crowdface/config/edited_entries.h"
+#include "crowdface/config/edits.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+YamlNode parsed(const std::string& text, const std::string& source) {
+  Complaints complaints;
+  auto root = parse_yaml(text, source, complaints);
+  Problems problems;
+  complaints.tell(problems);
+  problems.throw_if_any();
+  return std::move(*root);
+}
+
+/// A value in one line.
+std::string in_flow(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::kList) return flow_list(texts_of(node.items, in_flow));
+  if (node.kind == YamlNode::Kind::kMap) {
+    return flow_map(texts_of(node.entries, [](const YamlEntry& child) {
+      return entry(write_scalar(child.key), in_flow(child.value));
+    }));
+  }
+  return node.quoted ? write_scalar(node.text) : node.text;
+}
+
+/// A line for each section, and for each item of a list.
+std::string text_of(const YamlNode& edits) {
+  std::string text = "# Written by crowdface edit; the config names this file as `edits`.\n";
+  for (const auto& [key, place, value] : edits.entries) {
+    const bool is_list = value.kind == YamlNode::Kind::kList;
+    text += entry(key, is_list ? block_list(texts_of(value.items, in_flow)) : in_flow(value));
+    text += '\n';
+  }
+  return text;
+}
+
+/// Saves sections, written as in a config.
+fs::path put_edit(const fs::path& config, const std::string& sections) {
+  std::string config_text = read_file(config);
+  const YamlNode root = parsed(config_text, config.string());
+  const YamlEntry* named = root.find("edits");
+  const std::string name =
+      named != nullptr ? named->value.text : concat(config.stem().string(), "_edits.yaml");
+  const fs::path file = config.parent_path() / name;
+
+  YamlNode edits;
+  if (named != nullptr) edits = parsed(read_file(file), file.string());
+  merge_edits(parsed(sections, "edits"), edits);
+  const std::string text = text_of(edits);
+
+  const fs::path trial = concat(file.string(), ".trial");
+  write_file(trial, text);
+  ConfigOverrides with_trial;
+  with_trial.set.push_back(concat("edits=", write_scalar(concat(name, ".trial"))));
+  Problems problems;
+  read_config(config, with_trial, problems);
+  remove_if_there(trial);
+  problems.throw_if_any();
+  write_file(file, text);
+  if (named != nullptr) return file;
+
+  const std::string line = entry("edits", write_scalar(name));
+  config_text += concat(config_text.ends_with('\n') ? "" : "\n", "\n", line,
+                        "  # what crowdface edit saved\n");
+  Complaints complaints;
+  const auto longer = parse_yaml(config_text, config.string(), complaints);
+  if (!longer || !complaints.empty() || longer->find("edits") == nullptr) {
+    throw UsageError(concat(config.string(), ": add \"", line, "\" to it: what was saved stands in ",
+                            file.string()));
+  }
+  write_file(config, config_text);
+  return file;
+}
+
+}  // namespace
+
+fs::path put_recipe(const HandRecipe& recipe, const Config& config) {
+  const YamlNode node = parsed(format_hand_recipe(recipe, config), "recipe");
+  return put_edit(config.file, concat("recipes: [", in_flow(node), "]\n"));
+}
+
+fs::path put_regions(const fs::path& config, const std::vector<std::string>& names,
+                     const std::vector<fs::path>& masks) {
+  const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
+  const auto from_config = texts_of(masks, [&](const fs::path& mask) {
+    return fs::absolute(mask).lexically_normal().lexically_proximate(folder).generic_string();
+  });
+  return put_edit(config, concat("regions: {names: ", flow_names(names),
+                                 ", mask: ", flow_names(from_config), "}\n"));
+}
+
+}  // namespace crowdface

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/config_edits.h"
+
+#include <gtest/gtest.h>
+
+#include "crowdface/config/config_reader.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+using testing::expect_error;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+HandRecipe recipe(const std::string& id, Eigen::Index target) {
+  HandRecipe recipe;
+  recipe.id = id;
+  recipe.target = target;
+  recipe.regions.resize(2);
+  recipe.regions[0].position = PlanePoint(0.5, 0);
+  return recipe;
+}
+
+class ConfigEdits : public ::testing::Test {
+ protected:
+  ConfigEdits() : folder_(two_regions()) {
+    write_file(folder_.config(),
+               concat(read_file(folder_.config()), "# mine\nrecipes:  # by hand\n",
+                      "- {id: ada, target: ", folder_.names()[0], "}\n"));
+  }
+  static SmallCrowd two_regions() {
+    SmallCrowd crowd;
+    crowd.regions = 2;
+    return crowd;
+  }
+  Config config() const {
+    Problems problems;
+    auto config = read_config(folder_.config(), {}, problems);
+    problems.throw_if_any();
+    return *config;
+  }
+  std::vector<std::string> recipes() const {
+    std::vector<std::string> found;
+    for (const HandRecipe& one : config().recipes)
+      found.push_back(concat(one.id, one.target.value()));
+    return found;
+  }
+
+  SmallCrowdFolder folder_;
+};
+
+using Recipes = std::vector<std::string>;
+
+TEST_F(ConfigEdits, RecipesStandInAFileThatTheConfigNames) {
+  const std::string before = read_file(folder_.config());
+  const auto file = put_recipe(recipe("eva", 1), config());
+  EXPECT_EQ(read_file(folder_.config()), concat(before, "\nedits: ", file.filename().string(),
+                                                "  # what crowdface edit saved\n"));
+  EXPECT_EQ(recipes(), (Recipes{"ada0", "eva1"}));
+  const std::string named = read_file(folder_.config());
+  EXPECT_EQ(put_recipe(recipe("zoe", 2), config()), file);
+  put_recipe(recipe("eva", 3), config());
+  put_recipe(recipe("ada", 1), config());
+  EXPECT_EQ(read_file(folder_.config()), named);
+  EXPECT_EQ(recipes(), (Recipes{"ada1", "eva3", "zoe2"}));
+  EXPECT_EQ(config().recipes[1].regions[0].position, PlanePoint(0.5, 0));
+  EXPECT_EQ(config().edits, file);
+}
+
+TEST_F(ConfigEdits, RegionsTakeThePlaceOfThoseOfTheConfig) {
+  const std::filesystem::path mask = folder_ / "mask_0.png";
+  put_regions(folder_.config(), {"brow", "jaw"}, {mask});
+  const auto file = put_recipe(recipe("eva", 1), config());
+  EXPECT_EQ(recipes(), (Recipes{"ada0", "eva1"}));
+  EXPECT_EQ(file, config().edits);
+  EXPECT_EQ(config().regions.names, (std::vector<std::string>{"brow", "jaw"}));
+}
+
+TEST_F(ConfigEdits, ThatTheConfigWouldRefuseChangeNothing) {
+  const auto file = put_recipe(recipe("eva", 1), config());
+  const std::string config_text = read_file(folder_.config()), edits = read_file(file);
+  expect_error(ExitCode::kUsage, {"belong to the sampled faces"},
+               [&] { put_recipe(recipe(config().crowd.name + "_0001", 1), config()); });
+  expect_error(ExitCode::kUsage, {"region_2"},
+               [&] { put_regions(folder_.config(), {"region_1"}, {folder_ / "mask_0.png"}); });
+  EXPECT_EQ(read_file(folder_.config()), config_text);
+  EXPECT_EQ(read_file(file), edits);
+}
+
+TEST_F(ConfigEdits, OfAConfigInBracesAreNamedByHand) {
+  const std::string text = concat("{schema: 1, crowd: {name: mob, count: 1}, faces: {directory: ",
+                                  (folder_ / "heads").string(), ", units: cm}}\n");
+  write_file(folder_.config(), text);
+  Config plain = config();
+  HandRecipe open = recipe("eva", 1);
+  open.regions.resize(1);
+  expect_error(ExitCode::kUsage, {"add \"edits: "}, [&] { put_recipe(open, plain); });
+  EXPECT_EQ(read_file(folder_.config()), text);
+}
+
+TEST_F(ConfigEdits, AreRefusedWhereTheFileIsMissingOrHoldsSomethingElse) {
+  const auto file = put_recipe(recipe("eva", 1), config());
+  write_file(file, "sampling: {max_sources: 1}\n");
+  expect_error(ExitCode::kUsage, {"sampling"}, [&] { config(); });
+  remove_if_there(file);
+  expect_error(ExitCode::kMissingInput, {file.filename().string()}, [&] { config(); });
+}
+
+}  // namespace
+}  // namespace crowdface
