@@ -56,11 +56,11 @@ crowdface 11'
 # as a module `crowdface`.
 includes() {
   find src -name '*.h' -o -name '*.cpp' -o -name '*.in' | sort |
-    xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](crowdface/[a-z_]+|cli)[/.][^">]*' |
+    xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<]((crowdface|head_models)/[a-z_]+|cli)[/.][^">]*' |
     awk '{
       split($0, at, ":")
-      from = at[1]; sub(/^src\//, "", from); sub(/^crowdface\//, "", from); sub(/[\/.].*/, "", from)
-      to = $0; sub(/.*["<]/, "", to); sub(/^crowdface\//, "", to); sub(/[\/.].*/, "", to)
+      from = at[1]; sub(/^src\//, "", from); sub(/^(crowdface|head_models)\//, "", from); sub(/[\/.].*/, "", from)
+      to = $0; sub(/.*["<]/, "", to); sub(/^(crowdface|head_models)\//, "", to); sub(/[\/.].*/, "", to)
       print at[1] ":" at[2], from, to
     }'
 }

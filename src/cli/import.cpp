@@ -10,10 +10,10 @@
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/subdivision.h"
-#include "crowdface/morph/ict_heads.h"
-#include "crowdface/morph/makehuman_heads.h"
 #include "crowdface/paint/bands.h"
 #include "crowdface/region/mask_painting.h"
+#include "head_models/morph/ict_heads.h"
+#include "head_models/morph/makehuman_heads.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

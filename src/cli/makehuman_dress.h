@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/morph/makehuman_heads.h"
-#include "crowdface/morph/makehuman_wardrobe.h"
+#include "head_models/morph/makehuman_heads.h"
+#include "head_models/morph/makehuman_wardrobe.h"
 
 #include "cli/head_files.h"
 

@@ -9,9 +9,9 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
-#include "crowdface/synth/identity.h"
-#include "crowdface/synth/synthetic_head.h"
-#include "crowdface/synth/synthetic_skin.h"
+#include "head_models/synth/identity.h"
+#include "head_models/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_skin.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"

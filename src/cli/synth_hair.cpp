@@ -8,11 +8,11 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
-#include "crowdface/synth/complexion.h"
-#include "crowdface/synth/hair.h"
-#include "crowdface/synth/hair_cards.h"
-#include "crowdface/synth/hair_picture.h"
-#include "crowdface/synth/identity.h"
+#include "head_models/synth/complexion.h"
+#include "head_models/synth/hair.h"
+#include "head_models/synth/hair_cards.h"
+#include "head_models/synth/hair_picture.h"
+#include "head_models/synth/identity.h"
 
 namespace crowdface::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crowdface/io/obj_writer.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "cli/head_files.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// What most programs need of crowdface::run and the modules below it. Synthetic heads, models of heads
-/// and wrapping have targets of their own: crowdface::synth, crowdface::morph, crowdface::wrap.
+/// What most programs need of crowdface::run and the modules below it. Wrapping has a target of its own,
+/// crowdface::wrap.
 #pragma once
 
 #include "crowdface/blend/blend.h"

@@ -12,7 +12,7 @@
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface {
 namespace {

@@ -17,7 +17,7 @@
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/level_basis.h"
 #include "crowdface/smooth/level_size.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "benchmarks/bench_size.h"
 #include "support/levels.h"

@@ -7,7 +7,7 @@
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/face_renderer.h"
 #include "crowdface/render/ray_scene.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "benchmarks/bench_size.h"
 

@@ -19,7 +19,7 @@
 #include "crowdface/smooth/chebyshev_series.h"
 #include "crowdface/smooth/iterate.h"
 #include "crowdface/smooth/level_basis.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "benchmarks/bench_size.h"
 

@@ -18,7 +18,7 @@
 #include "crowdface/editor/region_painting.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/expect_error.h"
 #include "support/small_crowd.h"

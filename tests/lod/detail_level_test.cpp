@@ -12,7 +12,7 @@
 #include "crowdface/core/require.h"
 #include "crowdface/lod/level_error.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/meshes.h"
 

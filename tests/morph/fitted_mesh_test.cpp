@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/morph/fitted_mesh.h"
+#include "head_models/morph/fitted_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/morph/makehuman_wardrobe.h"
+#include "head_models/morph/makehuman_wardrobe.h"
 
 #include "support/expect_error.h"
 #include "support/model_files.h"

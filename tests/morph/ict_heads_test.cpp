@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/morph/ict_heads.h"
+#include "head_models/morph/ict_heads.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/morph/makehuman_heads.h"
+#include "head_models/morph/makehuman_heads.h"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/morph/makehuman_controls.h"
+#include "head_models/morph/makehuman_controls.h"
 
 #include "support/expect_error.h"
 #include "support/model_files.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/morph/morph_targets.h"
+#include "head_models/morph/morph_targets.h"
 
 #include <gtest/gtest.h>
 

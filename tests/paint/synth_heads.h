@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface::testing {
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/parts/facing_skin.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "parts/scene.h"
 #include "parts/slotted_roller.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/synth/synthetic_head.h"
 #include "crowdface/wrap/wrap_template.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface::testing {
 

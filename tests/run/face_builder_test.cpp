@@ -14,7 +14,7 @@
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/pipeline.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/temporary_folder.h"
 

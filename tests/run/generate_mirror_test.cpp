@@ -16,7 +16,7 @@
 #include "crowdface/mesh/mirror_map.h"
 #include "crowdface/run/generate.h"
 #include "crowdface/run/pipeline.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

@@ -11,7 +11,7 @@
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/shape_transfer.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface::testing {
 

@@ -28,4 +28,5 @@ cmake -G Ninja -S "$source/tests/structure/consumer" -B "$place/build" \
   exit 1
 }
 cmake --build "$place/build" || exit 1
-"$place/build/consumer"
+"$place/build/consumer" "$place/heads/synth_01.obj"
+[ ! -e "$place/prefix/include/head_models" ] || { echo "head models are installed"; exit 1; }

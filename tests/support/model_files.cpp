@@ -10,7 +10,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
-#include "crowdface/morph/makehuman_controls.h"
+#include "head_models/morph/makehuman_controls.h"
 
 namespace crowdface::testing {
 namespace {

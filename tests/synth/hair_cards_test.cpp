@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/hair_cards.h"
+#include "head_models/synth/hair_cards.h"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/hash.h"
-#include "crowdface/synth/hair_form.h"
-#include "crowdface/synth/hair_picture.h"
-#include "crowdface/synth/sculpture.h"
+#include "head_models/synth/hair_form.h"
+#include "head_models/synth/hair_picture.h"
+#include "head_models/synth/sculpture.h"
 
 namespace crowdface::synth {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/hair.h"
+#include "head_models/synth/hair.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/parallel.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/self_crossing.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/layout.h"
+#include "head_models/synth/layout.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/mesh/adjacency.h"
-#include "crowdface/synth/quad_counts.h"
+#include "head_models/synth/quad_counts.h"
 
 namespace crowdface::synth {
 namespace {

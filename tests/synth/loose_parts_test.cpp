@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/mesh/adjacency.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface {
 namespace {

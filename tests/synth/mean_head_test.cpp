@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/mean_head.h"
+#include "head_models/synth/mean_head.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "crowdface/synth/layout.h"
-#include "crowdface/synth/sculpture.h"
+#include "head_models/synth/layout.h"
+#include "head_models/synth/sculpture.h"
 
 namespace crowdface::synth {
 namespace {

@@ -13,9 +13,9 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/normals.h"
-#include "crowdface/synth/layout.h"
-#include "crowdface/synth/mean_head.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/layout.h"
+#include "head_models/synth/mean_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/meshes.h"
 #include "support/self_crossing.h"

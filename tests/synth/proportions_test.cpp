@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/synth/identity.h"
-#include "crowdface/synth/mean_head.h"
-#include "crowdface/synth/measures.h"
-#include "crowdface/synth/sculpture.h"
+#include "head_models/synth/identity.h"
+#include "head_models/synth/mean_head.h"
+#include "head_models/synth/measures.h"
+#include "head_models/synth/sculpture.h"
 
 namespace crowdface::synth {
 namespace {

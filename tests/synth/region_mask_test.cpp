@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/require.h"
-#include "crowdface/synth/layout.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/layout.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/relief.h"
+#include "head_models/synth/relief.h"
 
 #include <algorithm>
 #include <vector>

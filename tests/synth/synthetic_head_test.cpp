@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
-#include "crowdface/synth/layout.h"
+#include "head_models/synth/layout.h"
 
 namespace crowdface {
 namespace {

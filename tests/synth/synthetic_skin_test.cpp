@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/synth/synthetic_skin.h"
+#include "head_models/synth/synthetic_skin.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 
 #include "crowdface/core/hash.h"
 #include "crowdface/core/require.h"
-#include "crowdface/synth/complexion.h"
-#include "crowdface/synth/skin_atlas.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/complexion.h"
+#include "head_models/synth/skin_atlas.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface {
 namespace {

@@ -10,7 +10,7 @@
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/skin_contacts.h"
-#include "crowdface/synth/synthetic_head.h"
+#include "head_models/synth/synthetic_head.h"
 
 namespace crowdface::testing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/synth/synthetic_head.h"
 #include "crowdface/wrap/wrap_template.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/expect_error.h"
 #include "support/meshes.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/synth/synthetic_head.h"
 #include "crowdface/wrap/scan.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/meshes.h"
 

@@ -8,9 +8,9 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/synth/synthetic_head.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/unfold.h"
+#include "head_models/synth/synthetic_head.h"
 
 #include "support/expect_error.h"
 #include "wrap/truth_scan.h"

@@ -3,15 +3,13 @@
 
 #include <crowdface/crowdface.h>
 #include <crowdface/io/image.h>
-#include <crowdface/synth/synthetic_head.h>
 
-int main() {
+int main(int /*argc*/, char** argv) {
   using namespace crowdface;
-  const SyntheticHeads heads(5000);
-  const SmoothingOperator smoothing(build_adjacency(heads.topology()), Boundary::kFixed,
+  const ObjFile mesh = read_obj(argv[1]);
+  const SmoothingOperator smoothing(build_adjacency(mesh.topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
-  const Positions head = heads.positions(1, 1);
-  const Positions smoothed = smooth(ChebyshevFilter(smoothing, head), head, 100);
+  const Positions smoothed = smooth(ChebyshevFilter(smoothing, mesh.positions), mesh.positions, 100);
   const std::uint8_t grey[] = {0, 128, 255, 7};
   const bool encoded = encode_png(2, 2, 1, grey).starts_with("\x89PNG");
   Problems problems;

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/morph/makehuman_heads.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "head_models/morph/makehuman_controls.h"
+#include "head_models/morph/three_mesh.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kCentimetresPerUnit = 10;
+
+// The plane of the cut, in decimetres: it keeps to one loop of 42 edges round the lower neck.
+constexpr double kCutHeight = 5.84, kCutSlope = 0.4;
+
+struct Part {
+  std::string_view in_file, name;
+};
+constexpr std::array<Part, 3> kParts = {
+    {{"body", "skin"}, {"helper-r-eye", "eyeball_r"}, {"helper-l-eye", "eyeball_l"}}};
+
+/// Mean height of the corners of these helpers' faces.
+double mean_height(const ThreeMesh& mesh, const std::array<std::string_view, 2>& helpers,
+                   const std::filesystem::path& file) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const ThreeMesh::Face& face : mesh.faces) {
+    if (!contains(helpers, mesh.material_of(face))) continue;
+    for (const std::uint32_t v : face.vertices) sum += mesh.positions(v, 1);
+    count += 4;
+  }
+  if (count == 0) refuse_file(file, concat("expected faces of ", helpers[0], ", found none"));
+  return sum / static_cast<double>(count);
+}
+
+std::vector<std::string> read_target_names(const std::filesystem::path& file) {
+  std::vector<std::string> names;
+  try {
+    const auto root = nlohmann::json::parse(read_file(file));
+    for (const auto& [name, groups] : root.at("targets").items()) names.push_back(name);
+  } catch (const nlohmann::json::exception& error) {
+    refuse_file(file, concat("expected MakeHuman's list of targets: ", error.what()));
+  }
+  return names;
+}
+
+}  // namespace
+
+MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
+  ThreeMesh all = read_three_mesh(file, "MakeHuman's base mesh");
+  const auto above_cut = [&](std::uint32_t v) {
+    return all.positions(v, 1) + kCutSlope * all.positions(v, 2) > kCutHeight;
+  };
+  MakeHumanMesh out;
+  Topology& topology = out.head.topology;
+  for (const Part& part : kParts) {
+    out.materials.push_back({std::string(part.name), topology.face_count()});
+    for (const ThreeMesh::Face& face : all.faces) {
+      if (all.material_of(face) != part.in_file || !std::ranges::all_of(face.vertices, above_cut))
+        continue;
+      topology.add_face(face.vertices, face.uvs);
+    }
+    if (out.materials.back().first_face == topology.face_count()) {
+      refuse_file(file, concat("expected a head of material ", part.in_file,
+                               " above the neck's cut, ", "found none"));
+    }
+  }
+  out.rows = renumber(topology.corner_vertices, all.positions.rows());
+  topology.vertex_count = static_cast<Index>(out.rows.size());
+  const auto uv_rows = renumber(topology.corner_uvs, all.uvs.rows());
+  out.head.positions = all.positions(out.rows, Eigen::all);
+  out.head.uvs = all.uvs(uv_rows, Eigen::all);
+  out.heights = {mean_height(all, {"helper-r-eye", "helper-l-eye"}, file),
+                 mean_height(all, {"helper-upper-teeth", "helper-lower-teeth"}, file)};
+  out.file_positions = std::move(all.positions);
+  return out;
+}
+
+MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
+    : mesh_(read_makehuman_mesh(package / "public/data/models/human_full_size.json")),
+      targets_(package / "public/data/targets/targets.bin",
+               read_target_names(package / "src/json/targets/target-list.json"),
+               mesh_.file_positions.rows()),
+      materials_(mesh_.materials) {
+  for (const std::string& name : makehuman_target_names()) {
+    if (!targets_.has(name)) {
+      refuse_file(package / "src/json/targets/target-list.json",
+                  concat("expected a target ", quoted(name), ", found none"));
+    }
+  }
+  for (const std::uint32_t row :
+       vertices_of_material(mesh_.head.topology, mesh_.materials, {"eyeball"})) {
+    eyes_.push_back(mesh_.rows[row]);
+  }
+  neutral_ = {mesh_.head.topology, in_frame(mesh_.head.positions, mesh_.file_positions),
+              mesh_.head.uvs};
+  const double origin = mean_of(mesh_.file_positions, eyes_).y();
+  heights_ = {kCentimetresPerUnit * (mesh_.heights.eyes - origin),
+              kCentimetresPerUnit * (mesh_.heights.mouth - origin)};
+}
+
+/// Bodies differ in height: heads are brought together at the eyes.
+/// \param base  all vertices of the same body.
+Positions MakeHumanHeads::in_frame(const Positions& decimetres, const Positions& base) const {
+  const Eigen::RowVector3d origin = mean_of(base, eyes_);
+  return kCentimetresPerUnit * (decimetres.rowwise() - origin);
+}
+
+std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
+  std::vector<std::uint32_t> rows =
+      vertices_of_material(mesh_.head.topology, mesh_.materials, {"skin"});
+  for (std::uint32_t& row : rows) row = mesh_.rows[row];
+  return rows;
+}
+
+void MakeHumanHeads::wear(std::vector<WornPart> parts) {
+  const Topology& naked = mesh_.head.topology;
+  Topology topology;
+  for (Index f = 0; f < mesh_.materials[1].first_face; ++f) {
+    topology.add_face(naked.face(f), naked.face_uvs(f));
+  }
+  skin_ = renumber(topology.corner_vertices, naked.vertex_count);
+  for (std::uint32_t& row : skin_) row = mesh_.rows[row];
+  const auto uv_rows = renumber(topology.corner_uvs, mesh_.head.uvs.rows());
+  TextureCoordinates uvs = mesh_.head.uvs(uv_rows, Eigen::all);
+  materials_ = {mesh_.materials[0]};
+  auto vertices = static_cast<std::uint32_t>(skin_.size());
+  for (const auto& [material, mesh] : parts) {
+    materials_.push_back({material, topology.face_count()});
+    const auto first_uv = static_cast<std::uint32_t>(uvs.rows());
+    for (Index f = 0; f < mesh.topology.face_count(); ++f) {
+      std::vector<std::uint32_t> corners(mesh.topology.face(f).begin(),
+                                         mesh.topology.face(f).end());
+      std::vector<std::uint32_t> of_uvs(mesh.topology.face_uvs(f).begin(),
+                                        mesh.topology.face_uvs(f).end());
+      for (std::uint32_t& corner : corners) corner += vertices;
+      for (std::uint32_t& uv : of_uvs) uv += first_uv;
+      topology.add_face(corners, of_uvs);
+    }
+    vertices += static_cast<std::uint32_t>(mesh.topology.vertex_count);
+    uvs.conservativeResize(uvs.rows() + mesh.uvs.rows(), Eigen::NoChange);
+    uvs.bottomRows(mesh.uvs.rows()) = mesh.uvs;
+  }
+  topology.vertex_count = vertices;
+  worn_ = std::move(parts);
+  neutral_ = {std::move(topology), dressed(mesh_.file_positions), std::move(uvs)};
+}
+
+Positions MakeHumanHeads::dressed(const Positions& base) const {
+  Positions head = base(skin_, Eigen::all);
+  for (const WornPart& part : worn_) {
+    const Positions more = part.mesh.on(base);
+    head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
+    head.bottomRows(more.rows()) = more;
+  }
+  return in_frame(head, base);
+}
+
+Positions MakeHumanHeads::on_neutral(const FittedMesh& mesh) const {
+  return in_frame(mesh.on(mesh_.file_positions), mesh_.file_positions);
+}
+
+Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) const {
+  std::vector<std::uint32_t> rows(static_cast<std::size_t>(mesh_.file_positions.rows()));
+  std::iota(rows.begin(), rows.end(), 0U);
+  Positions base = mesh_.file_positions;
+  const MakeHumanPerson person = draw_makehuman_person(seed, index);
+  for (const TargetWeight& target : makehuman_targets(person, seed, index)) {
+    targets_.add(target, rows, base);
+  }
+  if (!worn_.empty()) return dressed(base);
+  return in_frame(base(mesh_.rows, Eigen::all), base);
+}
+
+std::optional<HeadPerson> MakeHumanHeads::person(std::uint64_t seed, std::uint64_t index) const {
+  const MakeHumanPerson person = draw_makehuman_person(seed, index);
+  return HeadPerson{person.male, person.years};
+}
+
+}  // namespace crowdface

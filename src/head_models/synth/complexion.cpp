@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/complexion.h"
+
+#include <algorithm>
+#include <array>
+
+#include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
+
+namespace crowdface::synth {
+namespace {
+
+/// At t in [0, 1] along evenly spaced colours.
+template <std::size_t N>
+ScreenColour along(const std::array<ScreenColour, N>& colours, double t) {
+  const double place = std::clamp(t, 0.0, 1.0) * (N - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), N - 2);
+  const double part = place - static_cast<double>(i);
+  return (1 - part) * colours[i] + part * colours[i + 1];
+}
+
+/// Faces' skin from very light to dark, about along the line that measured skin follows in CIELAB (Chardon and
+/// others 1991, "Skin colour typology and suntanning pathways"): L* from 72 to 29, yellowness and
+/// redness largest in the middle.
+const auto& skin_tones() {
+  static const std::array<ScreenColour, 8> tones = {
+      from_bytes(201, 171, 151), from_bytes(192, 156, 135), from_bytes(181, 141, 120),
+      from_bytes(167, 125, 102), from_bytes(149, 107, 84),  from_bytes(129, 91, 71),
+      from_bytes(107, 75, 61),   from_bytes(87, 63, 55)};
+  return tones;
+}
+
+/// From blond to black.
+const auto& natural_hair() {
+  static const std::array<ScreenColour, 5> colours = {
+      from_bytes(176, 146, 104), from_bytes(124, 96, 70), from_bytes(82, 62, 49),
+      from_bytes(50, 40, 34), from_bytes(30, 26, 25)};
+  return colours;
+}
+
+/// Light eyes go with light skin.
+ScreenColour draw_iris(double tone, double kind, double light) {
+  static const std::array<ScreenColour, 6> colours = {
+      from_bytes(98, 122, 142), from_bytes(112, 126, 120), from_bytes(100, 104, 72),
+      from_bytes(112, 82, 48),  from_bytes(84, 54, 34),    from_bytes(54, 35, 25)};
+  const double brown = smooth_step(0.1, 0.5, tone);
+  return (0.85 + 0.3 * light) * along(colours, brown + (1 - brown) * kind * 0.9);
+}
+
+/// Two fifths are shaven, a quarter stubbly; the others wear a moustache, a chin beard or all of it.
+void grow_beard(double kind, Complexion& look) {
+  const double everywhere = kind < 0.42 ? 0.12 : kind < 0.67 ? 0.45 : kind < 0.85 ? 0.2 : 1;
+  look.beard = look.moustache = look.chin_beard = everywhere;
+  if (kind >= 0.67 && kind < 0.85) look.moustache = 1;
+  if (kind >= 0.75 && kind < 0.85) look.chin_beard = 1;
+}
+
+}  // namespace
+
+Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
+  const Person person = draw_person(seed, index);
+  const bool male = person.male > 0;
+  const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
+  Complexion look;
+  look.tone =
+      random_stratified({seed, index / 2, male ? "synth/tone_of_men" : "synth/tone_of_women"}, 5);
+  look.skin = along(skin_tones(), look.tone);
+  // Light hair goes with light skin only.
+  const double darkest = smooth_step(0.15, 0.65, look.tone);
+  const double hair = darkest + (1 - darkest) * unit("synth/hair");
+  const double grey = smooth_step(38, 74, person.age + 12 * (unit("synth/grey") - 0.5));
+  look.hair = along(natural_hair(), hair);
+  look.brow_hair = 0.85 * (look.hair + 0.45 * grey * (from_bytes(150, 143, 137) - look.hair));
+  look.hair += grey * (from_bytes(168, 166, 164) - look.hair);
+  look.ruddy = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.tone);
+  look.freckles = look.tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
+  look.age_spots = smooth_step(48, 75, person.age) * unit("synth/spots");
+  look.brows = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
+  look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
+  look.iris = draw_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
+  if (male) {
+    // Of five successive men two are shaven.
+    grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
+    look.receding = smooth_step(28, 80, person.age + 45 * (unit("synth/receding") - 0.5));
+  } else {
+    look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
+    const double fond = unit("synth/made_up");
+    look.made_up = 0.1 + 0.7 * fond * fond;
+  }
+  return look;
+}
+
+}  // namespace crowdface::synth

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/hair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/knots.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Around the head: 0 ahead, 1 at the side, 2 behind.
+double around_head(const Vector3d& p) {
+  const double x = std::abs(p.x()), z = std::abs(p.z());
+  const double quarter = x / std::max(x + z, 1e-9);
+  return p.z() >= 0 ? quarter : 2 - quarter;
+}
+
+/// 0 on the ears and close around them, 1 from `away` ears' sizes on.
+double off_ears(const Vector3d& p, double away) {
+  const double y = (p.y() + 2.6) / 4.6, z = (p.z() + 1.6) / 3.4;
+  const double beside = smooth_step(4.5, 6, std::abs(p.x()));
+  return 1 - beside * smooth_step(away, 0.95, std::sqrt(y * y + z * z));
+}
+
+HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index) {
+  const Person person = draw_person(seed, index);
+  const Complexion look = draw_complexion(seed, index);
+  const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
+  const double kind = random_stratified({seed, index / 2, "synth/hair_style"}, 4);
+  HairStyle style;
+  style.curls = smooth_step(0.35, 0.9, 0.75 * look.tone + 0.5 * unit("synth/curls"));
+  style.lean = (unit("synth/hair_lean") < 0.5 ? -1 : 1) * 0.6 * unit("synth/hair_part");
+  if (person.male > 0) {
+    style.top = kind < 0.3 ? 0.35 : kind < 0.75 ? 1.3 : 2.0;
+    style.sides = kind < 0.75 ? 0.3 : 0.7;
+    return style;
+  }
+  style.low_edge = true;
+  style.top = 1.0;
+  style.sides = 0.8;
+  if (kind < 0.5 && person.age < 60) {
+    style.nape = 3;
+  } else if (kind < 0.75) {
+    style.bun = 2.0;
+    style.top = style.sides = 0.5;
+  } else {
+    style.top = 2.2;
+    style.sides = 1.5;
+  }
+  return style;
+}
+
+}  // namespace
+
+bool has_curls(std::uint64_t seed, std::uint64_t index) {
+  return draw_hair_style(seed, index).curls > 0.5;
+}
+
+Hair::Hair(std::uint64_t seed, std::uint64_t index)
+    : style_(draw_hair_style(seed, index)),
+      receding_(draw_complexion(seed, index).receding),
+      hairs_(mix(seed, index, 106), 0.045),
+      tufts_(mix(seed, index, 107), 0.3),
+      edge_(mix(seed, index, 108), 0.5),
+      locks_(mix(seed, index, 109), 0.55) {}
+
+double Hair::strand(const Vector3d& p) const {
+  // Straight hair is drawn out away from the face, curls are not.
+  const double across = p.x() / (p - Vector3d(0, -4, -4)).norm();
+  const double straight = hairs_.at({9 * across, 0.05 * p.y(), 0.05 * p.z()}) +
+                          0.6 * tufts_.at({13 * across, 0.04 * p.y(), 0.04 * p.z()});
+  const double curled = 0.6 * hairs_.at(p) + 0.6 * tufts_.at(p);
+  return straight + style_.curls * (curled - straight);
+}
+
+/// Hair that falls down the neck begins behind the ears.
+double Hair::falling(const Vector3d& p) const {
+  if (style_.nape <= 0) return 0;
+  return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
+}
+
+double above_hairline(const Vector3d& p, bool low_edge, double receding) {
+  // clang-format off
+  const std::array<Vector2d, 9> high = {{
+      {0.0, 7.6 + 3.2 * receding}, {0.25, 7.5 + 4.2 * receding}, {0.42, 6.6 + 3.0 * receding},
+      {0.55, 5.0 + 0.6 * receding}, {0.68, 1.6}, {0.80, 0.6}, {0.92, 2.4}, {1.15, 2.0}, {1.35, -6.0}}};
+  static const std::array<Vector2d, 8> low = {{
+      {0.0, 7.4}, {0.25, 7.0}, {0.42, 5.8}, {0.55, 3.6}, {0.68, 1.0}, {0.80, 0.2}, {0.92, 2.4}, {1.35, -7.5}}};
+  // clang-format on
+  const double around = around_head(p);
+  return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
+}
+
+/// Bald heads thin out from the crown.
+double Hair::thinned(const Vector3d& p) const {
+  const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
+  return 1 - smooth_step(0.45, 0.9, receding_) * crown;
+}
+
+bool Hair::reaches(const Vector3d& p) const {
+  return above_edge(p) > -1 || falling(p) > 0;
+}
+
+double Hair::cover(const Vector3d& p, double strand) const {
+  const double frayed =
+      above_edge(p) + 0.25 * edge_.at(p) + (style_.low_edge ? 0.15 : 0.25) * strand;
+  const double edge = smooth_step(-0.2, style_.low_edge ? 0.6 : 1.0, frayed);
+  return std::max(edge * thinned(p), smooth_step(0.02, 0.2, falling(p)));
+}
+
+double Hair::thickness(const Vector3d& p) const {
+  const double rise = smooth_step(-0.2, 2.4, above_edge(p)) * thinned(p) * (1 - 0.6 * receding_);
+  const double top = smooth_step(5.5, 10.5, p.y());
+  const double fuller = 1 + style_.lean * p.x() / (3 + std::abs(p.x()));
+  const double curl = 1 + style_.curls * 0.22 * locks_.at(p);
+  double thick =
+      rise * curl * (top * fuller * style_.top + (1 - top) * off_ears(p, 1.6) * style_.sides);
+  const double knot = (p - Vector3d(0, 11.5, -3.5)).norm();
+  thick += style_.bun * smooth_step(3.2, 1.2, knot);
+  // Locks hang down.
+  const double wave = 1 + 0.12 * locks_.at({p.x(), 0.1 * p.y(), p.z()});
+  return thick + style_.nape * falling(p) * off_ears(p, 1.6) * wave;
+}
+
+}  // namespace crowdface::synth

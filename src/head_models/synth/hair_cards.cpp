@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/hair_cards.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/hair_form.h"
+#include "head_models/synth/hair_picture.h"
+#include "head_models/synth/layout.h"
+#include "head_models/synth/mean_head.h"
+#include "head_models/synth/noise.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kPieces = 9, kPiecesOfShort = 6, kPiecesOfCurl = 6;  // quads along a card
+constexpr double kShort = 10;                                      // centimetres
+constexpr double kBetween = 0.78;                                  // centimetres from root to root
+constexpr double kCardWidth = 1.1;                                 // centimetres
+
+struct Root {
+  Vector3d place, normal;
+};
+
+/// Evenly over the scalp, none nearer to another than kBetween.
+std::vector<Root> roots_on_scalp(const HairCut& cut) {
+  const double least = cut.has_fringe() ? 0.5 : 0.3;
+  std::vector<Root> roots;
+  for (const Address& address : make_layout(24'000).addresses) {
+    const SkinPoint skin = mean_skin_with_sockets(address);
+    const Vector3d& p = skin.position;
+    const bool at_nape = cut.layers > 1 && p.y() < 0;  // curls would stand off the neck
+    if (skin.relief < 0.5 || hair_within(cut, p) < (at_nape ? 0.6 : least)) continue;
+    const bool near = std::ranges::any_of(roots, [&](const Root& other) {
+      return (other.place - p).squaredNorm() < kBetween * kBetween;
+    });
+    if (!near) roots.push_back({p, skin.normal});
+  }
+  return roots;
+}
+
+/// One card's middle line, and where across it is widest.
+struct Card {
+  std::vector<Vector3d> middle, across;
+};
+
+class Grower {
+ public:
+  explicit Grower(const HairCut& cut)
+      : cut_(cut),
+        locks_(mix(7, 1, 5), 1.6),
+        pieces_(std::max(cut.length, cut.sides) > kShort ? kPieces : kPiecesOfShort) {}
+
+  Card grow(const Root& root, std::uint64_t number, int layer) const {
+    return cut_.layers > 1 ? tangle(root, number, layer) : comb(root, number);
+  }
+
+ private:
+  /// A lock that lies on the head, or hangs from it.
+  Card comb(const Root& root, std::uint64_t number) const {
+    const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
+    const double top = smooth_step(3, 8, root.place.y()), level = unit("level");
+    const double length =
+        (cut_.sides + top * (cut_.length - cut_.sides)) * (0.85 + 0.3 * unit("length"));
+    const double hem = cut_.hem - 1.2 * unit("hem");
+    const double fringe = cut_.fringe + 0.5 * (unit("hem") - 0.5),
+                 twist = 0.35 * (unit("twist") - 0.5);
+    const Vector3d way = combed_way(cut_, root.place);
+    Vector3d p = root.place - 0.2 * way;
+    double rest = hair_stand_off(cut_, p);
+    p += (rest + 0.02 - head_distance(p)) * away_from_head(p);
+    Vector3d direction = (0.1 * root.normal + way).normalized();
+    Card card;
+    for (int i = 0;; ++i) {
+      const Vector3d normal = away_from_head(p);
+      card.middle.push_back(p);
+      card.across.push_back((direction.cross(normal) + twist * normal).normalized());
+      if (i == pieces_ || (i > 1 && cut_off(p, hem, fringe))) return evened(card);
+      // Short pieces where it leaves the head, whose curve they follow.
+      const double t = static_cast<double>(i + 1) / pieces_, grown = along(t) * length;
+      const double step = grown - along(static_cast<double>(i) / pieces_) * length;
+      const double held = cut_.tied ? smooth_step(-3, -6, p.z()) : 1;
+      const double falls = held * smooth_step(0.5, 5, grown);
+      const double combed = (0.95 - 0.7 * falls) * (1 - falls * smooth_step(1, -3, p.y()));
+      direction += combed * combed_way(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
+      Vector3d next = p + step * direction.normalized();
+      const double swing = cut_.wave * smooth_step(0, 0.4, t);
+      next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
+      next = beside_face(next, fringe);
+      // Hair lies on what grows below it, wherever it has come from.
+      rest = std::max(rest, hair_stand_off(cut_, next));
+      next = laid(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
+      const double limit = over_face(next) ? fringe : hem;
+      if (i > 0 && next.y() < limit && p.y() > limit)
+        next = p + (p.y() - limit + 1e-3) / (p.y() - next.y()) * (next - p);
+      direction = (next - p).normalized();
+      p = next;
+    }
+  }
+
+  /// At this distance from the head; what hangs only leans towards it.
+  Vector3d laid(Vector3d p, double off) const {
+    for (int k = 0; k < 2; ++k) {
+      const double missing = off + 0.05 - head_distance(p);
+      const double hangs = cut_.tied ? smooth_step(-4, -9, p.y()) : smooth_step(2.5, -1, p.y());
+      const double held = missing > 0 ? 1 : 1 - hangs * (1 - 0.5 * smooth_step(-7, 1, p.y()));
+      p += held * std::max(missing, -2.0) * away_from_head(p);
+    }
+    return p;
+  }
+
+  bool over_face(const Vector3d& p) const {
+    return cut_.has_fringe() && p.z() > 2.5 && std::abs(p.x()) < 6.3;
+  }
+  bool cut_off(const Vector3d& p, double hem, double fringe) const {
+    return p.y() < (over_face(p) ? fringe : hem);
+  }
+
+  /// A short curl in any direction, at one of the heights above the scalp.
+  Card tangle(const Root& root, std::uint64_t number, int layer) const {
+    const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
+    const double top = smooth_step(1, 7, root.place.y());
+    const double level = 0.3 + 0.7 * (layer + 0.2 + 0.8 * unit("level")) / cut_.layers;
+    const double length =
+        (cut_.sides + top * (cut_.length - cut_.sides)) * (0.8 + 0.4 * unit("length"));
+    const Vector3d any(unit("x") - 0.5, unit("y") - 0.5, unit("z") - 0.5);
+    const Vector3d axis = Vector3d(unit("a") - 0.5, unit("b") - 0.5, unit("c") - 0.5).normalized();
+    Vector3d p = root.place + level * (0.45 + 0.35 * top) * cut_.volume * root.normal;
+    Vector3d direction = (any.normalized() + 0.2 * root.normal).normalized();
+    Card card;
+    for (int i = 0; i <= kPiecesOfCurl; ++i) {
+      card.middle.push_back(p);
+      card.across.push_back((axis + 0.3 * any).normalized());
+      // Some fifty degrees a piece around the axis.
+      direction = (0.64 * direction + 0.77 * axis.cross(direction) + 0.1 * axis).normalized();
+      p += length / kPiecesOfCurl * direction;
+      const double missing = 0.15 - head_distance(p);
+      if (missing > 0) p += missing * away_from_head(p);
+    }
+    return card;
+  }
+
+  /// How much of its length a lock has at piece t of all.
+  static double along(double t) { return t * (0.3 + 0.7 * t); }
+
+  /// No lock hangs over the face.
+  static Vector3d beside_face(Vector3d p, double fringe) {
+    const double wide = 5.5 * smooth_step(0.5, 4, p.z()) * smooth_step(6.2, 1.5, p.y());
+    if (fringe < 99 && p.y() > fringe) return p;
+    if (std::abs(p.x()) < wide) p.x() = p.x() < 0 ? -wide : wide;
+    return p;
+  }
+
+  /// The same line in pieces of one length.
+  Card evened(const Card& card) const {
+    Card even;
+    const auto last = static_cast<double>(card.middle.size() - 1);
+    for (int i = 0; i <= pieces_; ++i) {
+      const double place = i * last / pieces_;
+      const auto k = static_cast<std::size_t>(std::min(std::floor(place), last - 1));
+      const double t = place - static_cast<double>(k);
+      even.middle.emplace_back((1 - t) * card.middle[k] + t * card.middle[k + 1]);
+      even.across.emplace_back(((1 - t) * card.across[k] + t * card.across[k + 1]).normalized());
+    }
+    return even;
+  }
+
+  const HairCut& cut_;
+  SmoothNoise locks_;
+  int pieces_;
+};
+
+void add_card(const Card& card, double width, int strip, bool turned, HairMesh& hair) {
+  const auto first = static_cast<std::uint32_t>(hair.points.size());
+  const auto pieces = static_cast<std::uint32_t>(card.middle.size() - 1);
+  for (std::size_t i = 0; i <= pieces; ++i) {
+    const double t = static_cast<double>(i) / pieces;
+    const double half = width / 2 * (0.7 + 0.3 * smooth_step(0, 0.3, t)) * (1 - 0.35 * t * t);
+    for (const double side : {-1.0, 1.0}) {
+      hair.points.emplace_back(card.middle[i] + side * half * card.across[i]);
+      hair.uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kHairStrips,
+                            0.998 - 0.996 * t);
+    }
+  }
+  for (std::uint32_t i = 0; i < pieces; ++i) {
+    const std::uint32_t a = first + 2 * i;
+    const std::array<std::uint32_t, 4> quad = {a, a + 1, a + 3, a + 2};
+    hair.topology.add_face(quad, quad);
+  }
+}
+
+}  // namespace
+
+void add_hair_cards(const HairCut& cut, HairMesh& hair) {
+  const std::vector<Root> roots = roots_on_scalp(cut);
+  const double width = cut.layers > 1 ? 0.55 * kCardWidth : kCardWidth;
+  const Grower grower(cut);
+  for (std::size_t r = 0; r < roots.size(); ++r) {
+    for (int layer = 0; layer < cut.layers; ++layer) {
+      const std::uint64_t number = r * 16 + static_cast<std::uint64_t>(layer);
+      const double strip = kCardStrips * random_unit({17, number, "strip"});
+      const bool turned = random_unit({17, number, "turned"}) < 0.5;
+      add_card(grower.grow(roots[r], number, layer), width, static_cast<int>(strip), turned, hair);
+    }
+  }
+}
+
+Mesh head_of_hair(const HairCut& cut) {
+  HairMesh hair;
+  add_hair_cap(cut, hair);
+  add_hair_cards(cut, hair);
+  return std::move(hair).finished();
+}
+
+}  // namespace crowdface::synth

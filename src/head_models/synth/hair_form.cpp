@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/hair_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/ear.h"
+#include "head_models/synth/hair.h"
+#include "head_models/synth/hair_picture.h"
+#include "head_models/synth/layout.h"
+#include "head_models/synth/mean_head.h"
+#include "head_models/synth/sculpture.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Index kCapLayout = 12'000;
+constexpr double kCapEdge = 0.45;    // centimetres, about its quads' size
+constexpr double kRim = 0.55;        // centimetres by which thin hair runs beyond the edge
+constexpr double kStripWidth = 1.5;  // centimetres of the cap that a strip is laid over
+
+/// To and fro between 0 and 1, so that a strip meets itself.
+double to_and_fro(double x) {
+  const double whole = std::floor(x), part = x - whole;
+  return std::fmod(std::abs(whole), 2.0) < 0.5 ? part : 1 - part;
+}
+
+/// Centimetres across the hair, as it is mostly combed.
+double across_hair(const HairCut& cut, const Vector3d& p) {
+  if (cut.back >= 0.8)
+    return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
+  return p.z() - std::abs(p.x()) * smooth_step(-3, -7, p.z());
+}
+
+}  // namespace
+
+double head_distance(const Vector3d& p) {
+  const Vector3d radii(1.0, 3.0, 2.0);
+  const Vector3d q = (Vector3d(std::abs(p.x()), p.y(), p.z()) - ear_centre()).cwiseQuotient(radii);
+  return std::min(skin_distance(p), (q.norm() - 1) * radii.x());
+}
+
+Vector3d away_from_head(const Vector3d& p) {
+  return rise(head_distance, p, 1e-3).normalized();
+}
+
+double hair_within(const HairCut& cut, const Vector3d& p) {
+  const double above = above_hairline(p, cut.female), height = p.y() + 0.25 * std::max(0.0, p.z());
+  if (cut.crown_bald) return std::min(above, 6.2 - height);
+  return cut.sides > 0 ? above : std::min(above, height - 4.3);
+}
+
+double hair_stand_off(const HairCut& cut, const Vector3d& p) {
+  const double rises = smooth_step(0, 2.6, hair_within(cut, p)), top = smooth_step(3, 8, p.y());
+  if (cut.layers > 1) return 0.5 * cut.volume * rises * (0.45 + 0.35 * smooth_step(1, 7, p.y()));
+  const bool parted = cut.back < 0.8 && !cut.has_fringe();
+  const double parting =
+      smooth_step(2.2, 0, std::abs(p.x() - cut.parting)) * smooth_step(-6, -2, p.z());
+  return 0.7 * cut.volume * rises * (0.55 + 0.45 * top) * (parted ? 1 - 0.55 * parting : 1);
+}
+
+Vector3d combed_way(const HairCut& cut, const Vector3d& p) {
+  // A parting ends at the crown; behind it hair falls as it grows.
+  const double wide = cut.back >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
+  const double side = std::clamp((p.x() - cut.parting) / wide, -1.0, 1.0);
+  Vector3d way(cut.sideways * side, -0.15, -cut.back);
+  if (cut.has_fringe()) {
+    const double ahead = smooth_step(0, 2.5, p.z()) * smooth_step(6.0, 4.6, std::abs(p.x()));
+    way += ahead * (Vector3d(0.1 * p.x() / 5, -0.3, 1.2) - way);
+  }
+  const Vector3d normal = away_from_head(p);
+  way -= way.dot(normal) * normal;
+  return way.norm() > 1e-6 ? Vector3d(way.normalized()) : way;
+}
+
+Mesh HairMesh::finished() && {
+  const auto count = static_cast<Index>(points.size());
+  topology.vertex_count = count;
+  return {std::move(topology), Eigen::Map<const Positions>(points.front().data(), count, 3),
+          Eigen::Map<const TextureCoordinates>(uvs.front().data(), count, 2)};
+}
+
+void add_hair_cap(const HairCut& cut, HairMesh& hair) {
+  const Layout layout = make_layout(kCapLayout);
+  std::vector<std::uint32_t> place(layout.addresses.size(), kNoIndex);
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    const SkinPoint skin = mean_skin_with_sockets(layout.addresses[v]);
+    const double within = hair_within(cut, skin.position);
+    if (skin.relief < 0.5 || within < -kRim - kCapEdge) continue;
+    place[v] = static_cast<std::uint32_t>(hair.points.size());
+    hair.points.emplace_back(skin.position +
+                             (0.03 + hair_stand_off(cut, skin.position)) * skin.normal);
+    const double u = 0.03 + 0.94 * to_and_fro(across_hair(cut, skin.position) / kStripWidth);
+    const double v_of_tips = 0.02, inner = 0.75;
+    hair.uvs.emplace_back((kCardStrips + u) / kHairStrips,
+                          v_of_tips + inner * std::clamp((within + kRim) / 1.7, 0.0, 1.0));
+  }
+  for (Index f = 0; f < layout.topology.face_count(); ++f) {
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : layout.topology.face(f)) corners.push_back(place[v]);
+    if (!contains(corners, kNoIndex)) hair.topology.add_face(corners, corners);
+  }
+}
+
+}  // namespace crowdface::synth

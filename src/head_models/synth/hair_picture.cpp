@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/hair_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/noise.h"
+
+namespace crowdface::synth {
+namespace {
+
+constexpr std::size_t kStrands = 13;          // a strip
+constexpr double kAcross = 4.5, kDown = 2.3;  // of short curls on the strip below the cards
+
+struct Strand {
+  double place = 0;  ///< across all strips, a strip is 1
+  double half = 0;   ///< of its width
+  double start = 0;  ///< of the card's length …
+  double end = 1;
+  double light = 1;  ///< against the hair's colour
+};
+
+std::vector<Strand> draw_strands() {
+  std::vector<Strand> strands;
+  for (std::uint64_t s = 0; s < kHairStrips * kStrands; ++s) {
+    const auto unit = [&](const char* purpose) { return random_unit({29, s, purpose}); };
+    const std::uint64_t strip = s / kStrands;
+    const auto within = static_cast<double>(s % kStrands);
+    strands.push_back(
+        {static_cast<double>(strip) + 0.07 + 0.86 * (within + 0.2 + 0.6 * unit("place")) / kStrands,
+         0.062 * (0.7 + 0.6 * unit("half")), 0.07 * unit("start"), 0.76 + 0.24 * unit("end"),
+         0.74 + 0.56 * unit("light")});
+  }
+  return strands;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, bool curly) {
+  const std::vector<Strand> strands = draw_strands();
+  const SmoothNoise bends(mix(3, curly ? 1 : 0, 8), curly ? 0.09 : 0.3);
+  const double swing = curly ? 0.1 : 0.05;
+  const SmoothNoise clumps(mix(3, 1, 9), 0.11);
+  const auto side = static_cast<std::size_t>(size);
+  std::vector<std::uint8_t> bytes(4 * side * side);
+  for (std::size_t y = 0; y < side; ++y) {
+    const double t = (static_cast<double>(y) + 0.5) / size;
+    std::array<double, kHairStrips * kStrands> middles{};
+    for (std::size_t s = 0; s < middles.size(); ++s)
+      middles[s] = strands[s].place + swing * bends.at({0.6 * static_cast<double>(s), t, 0});
+    for (std::size_t x = 0; x < side; ++x) {
+      const double u = (static_cast<double>(x) + 0.5) / size * kHairStrips;
+      const auto strip = static_cast<std::size_t>(u);
+      const bool below = strip >= kCardStrips;
+      double cover = below ? smooth_step(0.9, 0.72, t) : 0, light = below ? 0.8 : 0.7;
+      if (below && curly) {  // short curls in the shade of the rest
+        const double clump = clumps.at({kAcross * u, kDown * t, 0});
+        light = 0.6 + 0.3 * clump;
+        cover = smooth_step(0.95, 0.7, t + 0.12 * clump);
+      } else {
+        for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {
+          const Strand& strand = strands[s];
+          const double half = strand.half * (1 - 0.8 * smooth_step(0.5, 1, t / strand.end));
+          const double across = (u - middles[s]) / half;
+          const bool there = t < strand.end && (below || t >= strand.start);
+          const double inside = there ? smooth_step(1.2, 0.7, std::abs(across)) : 0.0;
+          if (inside <= 0) continue;
+          light += inside * (strand.light * (1 - 0.25 * std::min(1.0, across * across)) - light);
+          cover = std::max(cover, inside);
+        }
+      }
+      if (!below)
+        light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // roots lie in the shade of the rest
+      std::uint8_t* texel = &bytes[4 * (y * side + x)];
+      for (Eigen::Index c = 0; c < 3; ++c)
+        texel[c] = to_byte(std::clamp(colour[c] * light, 0.0, 1.0));
+      texel[3] = to_byte(cover);
+    }
+  }
+  return bytes;
+}
+
+}  // namespace crowdface::synth

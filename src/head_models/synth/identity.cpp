@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/identity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/random.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector3d;
+
+double cut_normal(const RandomKey& key) {
+  return std::clamp(random_normal(key), -2.2, 2.2);
+}
+
+Vector3d displacement(const Pull& pull, const Vector3d& p) {
+  const Vector3d from = p - pull.centre;
+  const double r2 = from.cwiseQuotient(pull.radii).squaredNorm();
+  if (r2 >= 1) return Vector3d::Zero();
+  const double kernel = (1 - r2) * (1 - r2) * (1 - r2);
+  return kernel * (pull.shift + pull.stretch.cwiseProduct(from));
+}
+
+Pull mirrored(Pull pull) {
+  pull.centre.x() = -pull.centre.x();
+  pull.shift.x() = -pull.shift.x();
+  return pull;
+}
+
+}  // namespace
+
+Person draw_person(std::uint64_t seed, std::uint64_t index) {
+  Person person;
+  // Evenly spread, so that a handful of heads has both sexes and several ages.
+  person.male = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
+  person.age = std::floor(18 + 60 * random_stratified({seed, index, "synth/age"}, 5));
+  person.build = std::clamp(random_normal({seed, index, "synth/build"}), -2.0, 2.0);
+  return person;
+}
+
+Identity::Identity(std::uint64_t seed, std::uint64_t index)
+    : seed_(seed),
+      index_(index),
+      person_(draw_person(seed, index)),
+      lopsided_(mix(seed, index, 1), 5.5) {
+  const auto normal = [&](std::string_view name) {
+    const std::string purpose = concat("synth/", name);
+    return cut_normal({seed, index, purpose});
+  };
+  const double aged = person_.aged();
+  for (const Measure& measure : measures()) {
+    double value = measure.male * person_.male + measure.aged * aged +
+                   measure.build * person_.build + measure.spread * normal(measure.name);
+    // Even extreme people stay people.
+    value = std::clamp(value, -2.4, 2.4);
+    Pull pull = measure.pull;
+    pull.shift *= value;
+    pull.stretch *= value;
+    pulls_.push_back(pull);
+    if (pull.centre.x() != 0) pulls_.push_back(mirrored(pull));
+  }
+  const double size = 0.018 * person_.male + 0.02 * normal("size");
+  scale_ =
+      Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
+               1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
+  // Faces grow less even with the years (Skomina et al. 2020).
+  unevenness_ = 0.05 * (1 + 0.25 * aged);
+  face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
+  pulls_.push_back(
+      {{0, -2.5, 11}, {2.5, 4, 3}, {0.07 * normal("nose_lean"), 0, 0}, Vector3d::Zero()});
+  pulls_.push_back({{0, -9, 8}, {7, 6, 8}, {0.08 * normal("jaw_lean"), 0, 0}, Vector3d::Zero()});
+}
+
+Vector3d Identity::deform(const Vector3d& point) const {
+  Vector3d moved = point;
+  for (const Pull& pull : pulls_) moved += displacement(pull, point);
+  // Everything below the eyes longer or shorter, without a kink at the eyes.
+  moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
+  const double uneven = lopsided_.at(point), other = lopsided_.at(point + Vector3d(40, 0, 0));
+  moved += unevenness_ * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
+  return moved.cwiseProduct(scale_);
+}
+
+}  // namespace crowdface::synth

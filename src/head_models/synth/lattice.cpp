@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/lattice.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace crowdface::synth {
+namespace {
+
+// How many units each lattice interval is wide: about its quads in the smallest layout.
+constexpr std::array<double, kColumns - 1> kColumnWeights = {2, 3, 4, 5, 4, 5, 6, 5, 4, 5, 4, 3, 2};
+constexpr std::array<double, kRows - 1> kRowWeights = {4, 4, 7, 3, 3, 2, 5, 3, 3, 5, 5};
+
+constexpr std::array<Window, 4> kWindows = {{{Sheet::kEye, 2, 4, 2, 3},
+                                             {Sheet::kNostril, 1, 2, 4, 5},
+                                             {Sheet::kMouth, -3, 3, 6, 7},
+                                             {Sheet::kEar, 6, 7, 2, 5}}};
+
+}  // namespace
+
+double column_unit(int column) {
+  const auto first = kColumnWeights.begin();
+  const double sum = std::accumulate(first, first + std::abs(column), 0.0);
+  return column < 0 ? -sum : sum;
+}
+
+double row_unit(int row) {
+  return std::accumulate(kRowWeights.begin(), kRowWeights.begin() + row, 0.0);
+}
+
+const Window& window_of(Sheet sheet) {
+  for (const Window& window : kWindows) {
+    if (window.sheet == sheet) return window;
+  }
+  return kWindows.back();
+}
+
+std::span<const Window> windows() {
+  return kWindows;
+}
+
+}  // namespace crowdface::synth

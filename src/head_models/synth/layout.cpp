@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "head_models/synth/quad_counts.h"
+#include "head_models/synth/unwrap.h"
+
+namespace crowdface::synth {
+namespace {
+
+/// Sews the pieces together.
+class Sewing {
+ public:
+  explicit Sewing(const QuadCounts& counts)
+      : counts_(counts),
+        front_(counts.column(kFrontColumn)),
+        deep_(counts.column(kBackColumn) - front_),
+        half_(counts.column(kColumns - 1)),
+        rows_(counts.row(kRows - 1)) {}
+
+  Layout sew() {
+    for (int k = 0; k + 1 < kColumns; ++k) spread(counts_.columns, k, column_unit, column_units_);
+    column_units_.push_back(column_unit(kColumns - 1));
+    for (int k = 0; k + 1 < kRows; ++k) spread(counts_.rows, k, row_unit, row_units_);
+    row_units_.push_back(row_unit(kRows - 1));
+    add_strip();
+    add_cap();
+    for (const Window& window : windows()) {
+      add_rings(window, 1);
+      if (window.sheet != Sheet::kMouth) add_rings(window, -1);
+    }
+    layout_.topology.vertex_count = static_cast<Index>(layout_.addresses.size());
+    layout_.uvs.resize(static_cast<Index>(uvs_.size()), 2);
+    for (std::size_t i = 0; i < uvs_.size(); ++i) layout_.uvs.row(static_cast<Index>(i)) = uvs_[i];
+    return std::move(layout_);
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t vertex, uv;
+  };
+
+  template <class Quads>
+  static void spread(const Quads& quads_of, int k, double (*unit)(int), std::vector<double>& out) {
+    const int n = quads_of[static_cast<std::size_t>(k)];
+    for (int i = 0; i < n; ++i) out.push_back(unit(k) + (unit(k + 1) - unit(k)) * i / n);
+  }
+  double column_at(int i) const {
+    const double unit = column_units_[static_cast<std::size_t>(std::abs(i))];
+    return i < 0 ? -unit : unit;
+  }
+  double row_at(int j) const { return row_units_[static_cast<std::size_t>(j)]; }
+
+  std::uint32_t add_vertex(const Address& address) {
+    layout_.addresses.push_back(address);
+    return static_cast<std::uint32_t>(layout_.addresses.size() - 1);
+  }
+  std::uint32_t add_uv(const Address& address) {
+    uvs_.push_back(unwrap(address));
+    return static_cast<std::uint32_t>(uvs_.size() - 1);
+  }
+  Corner add(const Address& address) { return {add_vertex(address), add_uv(address)}; }
+  void add_quad(Corner a, Corner b, Corner c, Corner d) {
+    layout_.topology.add_face(std::array{a.vertex, b.vertex, c.vertex, d.vertex},
+                              std::array{a.uv, b.uv, c.uv, d.uv});
+  }
+
+  struct Span {
+    int i0, i1, j0, j1;
+  };
+  Span span_of(const Window& w, int side) const {
+    const int i0 = counts_.column(w.column0), i1 = counts_.column(w.column1);
+    return {side > 0 ? i0 : -i1, side > 0 ? i1 : -i0, counts_.row(w.row0), counts_.row(w.row1)};
+  }
+
+  std::size_t strip_index(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(2 * half_ + 1) +
+           static_cast<std::size_t>(i + half_);
+  }
+  Corner& strip(int i, int j) { return strip_[strip_index(i, j)]; }
+
+  void add_strip() {
+    std::vector<Span> holes;
+    for (const Window& w : windows()) {
+      holes.push_back(span_of(w, 1));
+      if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
+    }
+    strip_.resize(strip_index(half_, rows_) + 1);
+    const auto inside = [&](int i, int j) {
+      return std::ranges::any_of(
+          holes, [&](const Span& s) { return i > s.i0 && i < s.i1 && j > s.j0 && j < s.j1; });
+    };
+    const auto cut = [&](int i, int j) {
+      return std::ranges::any_of(
+          holes, [&](const Span& s) { return i >= s.i0 && i < s.i1 && j >= s.j0 && j < s.j1; });
+    };
+    for (int j = 0; j <= rows_; ++j) {
+      for (int i = -half_; i <= half_; ++i) {
+        if (inside(i, j)) continue;
+        const Address address{Sheet::kStrip, 1, column_at(i), row_at(j)};
+        // The seam down the back: one vertex, two texture coordinates.
+        if (i == half_)
+          strip(i, j) = {strip(-half_, j).vertex, add_uv(address)};
+        else
+          strip(i, j) = add(address);
+      }
+    }
+    for (int j = 0; j < rows_; ++j) {
+      for (int i = -half_; i < half_; ++i) {
+        if (cut(i, j)) continue;
+        add_quad(strip(i, j + 1), strip(i + 1, j + 1), strip(i + 1, j), strip(i, j));
+      }
+    }
+  }
+
+  /// The strip's vertex at a place of the cap's rim.
+  std::uint32_t rim(int i, int k) {
+    if (k == 0) return strip(i, 0).vertex;
+    if (i == front_) return strip(front_ + k, 0).vertex;
+    if (i == -front_) return strip(-front_ - k, 0).vertex;
+    return i >= 0 ? strip(2 * front_ + deep_ - i, 0).vertex
+                  : strip(-(2 * front_ + deep_ + i), 0).vertex;
+  }
+
+  void add_cap() {
+    std::vector<Corner> cap;
+    const int width = 2 * front_ + 1;
+    for (int k = 0; k <= deep_; ++k) {
+      for (int i = -front_; i <= front_; ++i) {
+        const double b = column_at(front_ + k) - column_at(front_);
+        const Address address{Sheet::kCap, 1, column_at(i), b};
+        const bool on_rim = k == 0 || k == deep_ || i == front_ || i == -front_;
+        if (k == 0)
+          cap.push_back(strip(i, 0));
+        else if (on_rim)
+          cap.push_back({rim(i, k), add_uv(address)});
+        else
+          cap.push_back(add(address));
+      }
+    }
+    const auto at = [&](int i, int k) {
+      return cap[static_cast<std::size_t>(k) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(i + front_)];
+    };
+    for (int k = 0; k < deep_; ++k) {
+      for (int i = -front_; i < front_; ++i) {
+        add_quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1));
+      }
+    }
+  }
+
+  /// The window's outline counter-clockwise from its upper left corner, as seen from outside, with
+  /// the ring coordinate of each place.
+  struct Stitch {
+    Corner corner;
+    double a;
+    int i, j;
+  };
+  /// The ring coordinate of a place on the outline, the same for a place and its mirror image.
+  double around(const Span& s, int side, int i, int j) const {
+    const double x0 = column_at(side > 0 ? s.i0 : -s.i1), x1 = column_at(side > 0 ? s.i1 : -s.i0);
+    const double y0 = row_at(s.j0), y1 = row_at(s.j1);
+    const double x = (column_at(side > 0 ? i : -i) - x0) / (x1 - x0);
+    const double y = (row_at(j) - y0) / (y1 - y0);
+    if (x <= 0 && y < 1) return y;
+    if (y >= 1 && x < 1) return 1 + x;
+    if (x >= 1 && y > 0) return 3 - y;
+    return 4 - x;
+  }
+
+  std::vector<Stitch> outline(const Span& s, int side) {
+    std::vector<Stitch> out;
+    const auto put = [&](int i, int j) {
+      out.push_back({strip(i, j), around(s, side, i, j), i, j});
+    };
+    for (int j = s.j0; j < s.j1; ++j) put(s.i0, j);
+    for (int i = s.i0; i < s.i1; ++i) put(i, s.j1);
+    for (int j = s.j1; j > s.j0; --j) put(s.i1, j);
+    for (int i = s.i1; i > s.i0; --i) put(i, s.j0);
+    return out;
+  }
+
+  void add_rings(const Window& window, int side) {
+    const Span span = span_of(window, side);
+    const std::vector<Stitch> first = outline(span, side);
+    const std::size_t n = first.size();
+    std::vector<Corner> ring, next(n);
+    for (const Stitch& s : first) ring.push_back(s.corner);
+    for (const double b : counts_.rings(window.sheet)) {
+      for (std::size_t p = 0; p < n; ++p) {
+        next[p] = add({window.sheet, static_cast<double>(side), first[p].a, b});
+      }
+      for (std::size_t p = 0; p < n; ++p) {
+        const std::size_t q = (p + 1) % n;
+        add_quad(ring[p], ring[q], next[q], next[p]);
+      }
+      ring = next;
+    }
+    if (window.sheet == Sheet::kEar) add_core(span, side, first, ring);
+  }
+
+  void add_core(const Span& s, int side, const std::vector<Stitch>& first,
+                const std::vector<Corner>& ring) {
+    std::map<std::pair<int, int>, Corner> core;
+    for (std::size_t p = 0; p < first.size(); ++p) core[{first[p].i, first[p].j}] = ring[p];
+    const double x0 = column_at(s.i0), x1 = column_at(s.i1), y0 = row_at(s.j0), y1 = row_at(s.j1);
+    for (int j = s.j0 + 1; j < s.j1; ++j) {
+      for (int i = s.i0 + 1; i < s.i1; ++i) {
+        const double across = (column_at(i) - x0) / (x1 - x0);
+        core[{i, j}] = add({Sheet::kEarCore, static_cast<double>(side),
+                            side > 0 ? across : 1 - across, (row_at(j) - y0) / (y1 - y0)});
+      }
+    }
+    for (int j = s.j0; j < s.j1; ++j) {
+      for (int i = s.i0; i < s.i1; ++i) {
+        add_quad(core[{i, j + 1}], core[{i + 1, j + 1}], core[{i + 1, j}], core[{i, j}]);
+      }
+    }
+  }
+
+  QuadCounts counts_;
+  int front_, deep_, half_, rows_;  // quads: half the face, the side, half the head, rows
+  std::vector<double> column_units_, row_units_;
+  std::vector<Corner> strip_;
+  std::vector<Eigen::RowVector2d> uvs_;
+  Layout layout_;
+};
+
+}  // namespace
+
+Layout make_layout(Index vertices) {
+  return Sewing(nearest_counts(vertices)).sew();
+}
+
+}  // namespace crowdface::synth

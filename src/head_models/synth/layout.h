@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/mesh/topology.h"
+#include "head_models/synth/lattice.h"
+
+namespace crowdface::synth {
+
+struct Layout {
+  Topology topology;
+  TextureCoordinates uvs;          ///< #T by 2, in [0, 1]²
+  std::vector<Address> addresses;  ///< #V
+};
+
+/// The quads of a head with nearly this number of vertices. Left and right have the same count.
+Layout make_layout(Index vertices);
+
+}  // namespace crowdface::synth

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/mean_head.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/ear.h"
+#include "head_models/synth/guide.h"
+#include "head_models/synth/sculpture.h"
+#include "head_models/synth/unwrap.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// The edge of an opening as a ray, for a direction on the unit circle (x outward, y up).
+GuideRay eye_edge(const Vector2d& c) {
+  // Almond: pointed at the corners, the upper lid highest towards the nose, the outer corner
+  // a little above the inner one.
+  const double s = c.y() * (0.72 + 0.28 * c.y() * c.y());
+  const double x = 1.52 * c.x() - 0.1 * s;
+  const double y = (c.y() > 0 ? 0.62 : 0.48) * s + 0.07 * c.x() - 0.03;
+  const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
+  // The ray runs nearly straight ahead: at the corners the skin lies before the ball.
+  return {eye_centre() + 0.95 * Vector3d(x, y, 0), eye_centre() + Vector3d(x, y, z + 0.12)};
+}
+
+GuideRay mouth_edge(const Vector2d& c) {
+  // The window's short sides gather near the corners.
+  const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
+  // The line between the lips: a dip in the middle, corners a little lower than the bows.
+  const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
+  const double gap = 0.03 * c.y() * (1 + 2.2 * q);
+  return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};
+}
+
+GuideRay nostril_edge(const Vector2d& c) {
+  const Vector3d centre(0.80, -4.35, 10.35), inside(0.80, -3.45, 10.05);
+  const Vector3d lateral(0.33, 0.03, -0.14), forward(-0.13, 0.16, 0.48);
+  return {inside, centre + c.x() * lateral + c.y() * forward};
+}
+
+GuideRay edge_of(Sheet sheet, const Vector2d& circle) {
+  if (sheet == Sheet::kEye) return eye_edge(circle);
+  return sheet == Sheet::kNostril ? nostril_edge(circle) : mouth_edge(circle);
+}
+
+/// From the lid's edge inward, over the lid's thickness, along the ball to the pupil.
+Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
+  const Vector3d spoke = edge - eye_centre();
+  const Vector3d foot = eye_centre() + kEyeRadius / spoke.norm() *
+                                           Vector3d(0.985 * spoke.x(), 0.97 * spoke.y(), spoke.z());
+  if (b <= 1.2) return edge + (foot - edge) * ((b - 1) / 0.2);
+  const double t = (b - 1.2) / 0.8;
+  const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
+  const Vector2d flat = rim + t * (0.26 * c - rim);
+  const double r2 = kEyeRadius * kEyeRadius;
+  // The iris is a shallow dish, as sculptors cut it.
+  const double dish = 0.10 * smooth_step(0.62, 0.42, flat.norm());
+  return eye_centre() +
+         Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
+}
+
+/// From the lid's edge over the lid's thickness, then back between lid and ball.
+Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
+  const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
+  if (b <= 1.2) return eye_centre() + foot;
+  const double t = (b - 1.2) / 0.8, radius = foot.norm();
+  // Outward along the ball: across the spoke, away from the gaze.
+  const Vector3d spoke = foot / radius, gaze(0, 0, 1);
+  const Vector3d back = (spoke * spoke.z() - gaze).normalized();
+  return eye_centre() + (radius + 0.02 * t) * (spoke + 0.2 * t * back).normalized();
+}
+
+Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, double b) {
+  const double t = b - 1;
+  if (sheet == Sheet::kEye) return into_eye(edge, c, b);
+  if (sheet == Sheet::kNostril) {
+    const Vector3d centre(0.80, -4.2, 10.35);
+    const Vector3d goal = centre + 0.35 * (edge - centre) + Vector3d(-0.1, 1.15, -0.35);
+    return edge + t * (goal - edge);
+  }
+  return edge + t * Vector3d(-0.2 * edge.x(), 0.35 * c.y(), -0.9);
+}
+
+SkinPoint on_skin(const GuideRay& ray) {
+  const Vector3d position = onto_skin(ray.origin, ray.guide);
+  return {position, skin_normal(position), 1};
+}
+
+SkinPoint ring_skin(const Address& address) {
+  const Vector2d circle = on_circle(address.a);
+  const GuideRay inner = edge_of(address.sheet, circle);
+  if (address.b >= 1) {
+    SkinPoint edge = on_skin(inner);
+    if (address.b == 1) return edge;
+    return {into_opening(address.sheet, edge.position, circle, address.b), edge.normal, 0};
+  }
+  const GuideRay outer = window_ray(window_of(address.sheet), address.a);
+  const Vector3d inner_guide = onto_skin(inner.origin, inner.guide);
+  return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
+                  outer.guide + address.b * (inner_guide - outer.guide)});
+}
+
+SkinPoint ear_skin(const Address& address) {
+  const Vector3d position = ear_point(address);
+  const double relief = address.sheet == Sheet::kEar ? smooth_step(0.2, 0, address.b) : 0;
+  return {position, skin_normal(position), relief};
+}
+
+SkinPoint right_side(const Address& address) {
+  switch (address.sheet) {
+    case Sheet::kStrip:
+      return on_skin(strip_ray(address.a, address.b));
+    case Sheet::kCap:
+      return on_skin(cap_ray(address.a, address.b));
+    case Sheet::kEar:
+    case Sheet::kEarCore:
+      return ear_skin(address);
+    default:
+      return ring_skin(address);
+  }
+}
+
+SkinPoint on_its_side(SkinPoint point, const Address& address) {
+  if (address.side < 0) {
+    point.position.x() = -point.position.x();
+    point.normal.x() = -point.normal.x();
+  }
+  return point;
+}
+
+}  // namespace
+
+SkinPoint mean_skin(const Address& address) {
+  return on_its_side(right_side(address), address);
+}
+
+SkinPoint mean_skin_with_sockets(const Address& address) {
+  if (address.sheet != Sheet::kEye || address.b <= 1) return mean_skin(address);
+  const Vector2d circle = on_circle(address.a);
+  const SkinPoint edge = on_skin(eye_edge(circle));
+  return on_its_side({into_socket(edge.position, circle, address.b), edge.normal, 0}, address);
+}
+
+}  // namespace crowdface::synth

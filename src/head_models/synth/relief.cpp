@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+double bump(double x) {
+  return biweight(std::min(1.0, std::abs(x)));
+}
+
+/// A fold as a quadratic Bézier curve in the front view (x, y), side x > 0.
+struct Fold {
+  std::string_view name;
+  Vector2d start, control, end;
+  double width, depth;        ///< centimetres
+  double base, aged, spread;  ///< depth's factor at 40, its change to 60, what is drawn around it
+  double bulge;               ///< ridge beside it, away from the curve's left, as part of the depth
+  bool paired = true;
+  double wander = 0;  ///< centimetres by which somebody's line lies elsewhere; it is broken, too
+};
+
+// clang-format off
+const auto& fold_list() {
+  static const std::array list = {
+    Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
+    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.3, 0.5, 0.2, 0},
+    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.5}, 0.48, 0.13, 0.35, 0.5, 0.2, 0.6},
+    Fold{"marionette", {2.65, -7.4}, {2.95, -8.2}, {2.8, -9.4}, 0.36, 0.08, 0.1, 0.6, 0.2, 0.4},
+    Fold{"frown", {0.42, 1.2}, {0.6, 2.0}, {0.5, 3.0}, 0.16, 0.05, 0.1, 0.5, 0.3, 0, true, 0.12},
+    Fold{"crow_upper", {4.95, 0.3}, {5.4, 0.5}, {5.9, 1.0}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
+    Fold{"crow_middle", {5.05, 0.0}, {5.5, -0.05}, {6.1, 0.0}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
+    Fold{"crow_lower", {4.95, -0.3}, {5.3, -0.7}, {5.7, -1.3}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
+    Fold{"cheek_line", {4.2, -3.6}, {4.9, -5.0}, {4.6, -6.8}, 0.55, 0.05, 0, 0.5, 0.3, 0.3},
+    Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.045, 1, -0.3, 0.3, 0},
+    Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.05, 0.8, 0.2, 0.2, 0},
+    Fold{"lip_edge", {0.4, -6.08}, {1.0, -6.15}, {2.3, -6.85}, 0.14, -0.035, 1, -0.3, 0.2, 0},
+    Fold{"brow_one", {-4.2, 3.4}, {0, 4.1}, {4.2, 3.4}, 0.17, 0.03, 0.1, 0.5, 0.25, 0, false, 0.16},
+    Fold{"brow_two", {-4.2, 4.2}, {0, 4.9}, {4.2, 4.2}, 0.17, 0.03, 0.1, 0.5, 0.25, 0, false, 0.16},
+    Fold{"brow_three", {-3.8, 5.1}, {0, 5.7}, {3.8, 5.1}, 0.17, 0.03, 0, 0.5, 0.25, 0, false, 0.2},
+    Fold{"brow_four", {-3.3, 6.0}, {0, 6.5}, {3.3, 6.0}, 0.17, 0.025, -0.2, 0.5, 0.3, 0, false, 0.2},
+    Fold{"chin_crease", {-1.8, -8.9}, {0, -8.35}, {1.8, -8.9}, 0.5, 0.07, 0.6, 0.1, 0.4, 0, false},
+    Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
+    Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
+  };
+  return list;
+}
+// clang-format on
+
+/// How coarse the skin is at a place: nose, cheeks and chin most, scalp least.
+double coarseness(const Vector3d& p) {
+  const double face = smooth_step(2, 6, p.z());
+  const double middle = bump(Vector2d(p.x() / 5.5, (p.y() + 4.2) / 6).norm());
+  const double scalp = smooth_step(6, 8.5, p.y() + 0.5 * std::max(0.0, 4 - p.z()));
+  return (0.5 + 0.5 * face + 0.8 * face * middle) * (1 - 0.6 * scalp);
+}
+
+/// How much of an octave of this wavelength edges of this length can carry.
+double carried(double wavelength, double edge) {
+  return smooth_step(2, 4, wavelength / edge);
+}
+
+}  // namespace
+
+Relief::Relief(const Identity& identity, double edge_cm)
+    : waver_x_(mix(identity.seed(), identity.index(), 11), 1.4),
+      waver_y_(mix(identity.seed(), identity.index(), 12), 1.4),
+      wander_(mix(identity.seed(), identity.index(), 14), 1.1),
+      breaks_(mix(identity.seed(), identity.index(), 15), 0.9),
+      lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
+  const std::uint64_t seed = identity.seed(), index = identity.index();
+  const double aged = identity.person().aged();
+  for (std::size_t i = 0; i < fold_list().size(); ++i) {
+    const Fold& fold = fold_list()[i];
+    for (const double side : {1.0, -1.0}) {
+      if (side < 0 && !fold.paired) continue;
+      const std::string purpose = concat("synth/fold/", fold.name);
+      const std::string lean = concat(purpose, side > 0 ? "/left" : "/right");
+      const double factor =
+          fold.base + 1.25 * fold.aged * aged +
+          fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
+      const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
+      // Narrow lines on a coarse mesh would be rows of steps.
+      const double drawn = fold.wander > 0 ? carried(4 * fold.width, edge_cm) : 1;
+      const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
+      if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
+    }
+  }
+  const double rough = 1 + 0.25 * aged + 0.15 * identity.person().male;
+  const auto octave = [&](std::uint64_t lane, double spacing, double amplitude) {
+    return Octave{{mix(seed, index, lane), spacing}, amplitude};
+  };
+  broad_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
+  // A spline's hills are about three spacings from one to the next.
+  for (const auto& [lane, spacing, amplitude] :
+       {std::tuple{23U, 0.22, 0.0035}, std::tuple{24U, 0.1, 0.003}, std::tuple{25U, 0.05, 0.002}}) {
+    const double part = carried(2.5 * spacing, edge_cm);
+    if (part > 0) fine_.push_back(octave(lane, spacing, amplitude * rough * part));
+  }
+  lip_depth_ = 0.012 * carried(0.45, edge_cm) * (1 + 0.4 * aged);
+}
+
+void Relief::add_stroke(std::size_t which, double side, double depth) {
+  const Fold& fold = fold_list()[which];
+  const double lane = 20 * static_cast<double>(which) + 10 * side;
+  const double length = fold.wander > 0 ? (fold.end - fold.start).norm() : 0;
+  Stroke stroke{{}, fold.width, depth, fold.bulge * side, lane, length, {}};
+  for (int i = 0; i <= Stroke::kPieces; ++i) {
+    const double t = static_cast<double>(i) / Stroke::kPieces;
+    Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
+    p += fold.wander * Vector2d(0.5 * wander_.at({stroke.lane, 0.5 * p.y(), 5}),
+                                wander_.at({0.5 * p.x(), stroke.lane, 0}));
+    p.x() *= side;
+    stroke.points[static_cast<std::size_t>(i)] = p;
+  }
+  for (const Vector2d& p : stroke.points) stroke.reach.extend(p);
+  stroke.reach.min().array() -= 3 * fold.width;
+  stroke.reach.max().array() += 3 * fold.width;
+  strokes_.push_back(stroke);
+}
+
+double Relief::press(const Stroke& stroke, const Vector2d& place) const {
+  if (!stroke.reach.contains(place)) return 0;
+  double nearest = 1e30, along = 0, side = 1;
+  for (std::size_t i = 0; i < Stroke::kPieces; ++i) {
+    const Vector2d a = stroke.points[i], ab = stroke.points[i + 1] - a, ap = place - a;
+    const double t = std::clamp(ap.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    const double d2 = (ap - t * ab).squaredNorm();
+    if (d2 >= nearest) continue;
+    nearest = d2;
+    along = (static_cast<double>(i) + t) / Stroke::kPieces;
+    side = ab.x() * ap.y() - ab.y() * ap.x() > 0 ? 1 : -1;
+  }
+  const double distance = std::sqrt(nearest);
+  double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
+  if (stroke.length > 0)
+    taper *= smooth_step(-0.7, 0.3, breaks_.at({along * stroke.length, stroke.lane, 0}));
+  double height = -bump(distance / stroke.width);
+  const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
+  height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));
+  return stroke.depth * taper * height;
+}
+
+double Relief::folds(const Vector3d& p) const {
+  const double front = smooth_step(0.5, 2.5, p.z());
+  if (front <= 0) return 0;
+  const Vector2d place(p.x() + 0.08 * waver_x_.at(p), p.y() + 0.08 * waver_y_.at(p));
+  double sum = 0;
+  for (const Stroke& stroke : strokes_) sum += press(stroke, place);
+  return front * sum;
+}
+
+double Relief::grain(const Vector3d& p) const {
+  double sum = 0;
+  for (const Octave& octave : broad_) sum += octave.amplitude * octave.noise.at(p);
+  const double coarse = coarseness(p);
+  for (const Octave& octave : fine_) sum += coarse * octave.amplitude * octave.noise.at(p);
+  if (lip_depth_ <= 0) return sum;
+  const double lips =
+      bump(Vector2d(p.x() / 2.5, (p.y() + 7.05) / 0.95).norm()) * smooth_step(7, 8.5, p.z());
+  if (lips > 0) {
+    // Creases run from the lips' edge to the slit: drawn out in y.
+    sum += lips * lip_depth_ * lip_creases_.at({p.x(), 0.2 * p.y(), 0.2 * p.z()});
+  }
+  return sum;
+}
+
+double Relief::height(const SkinPoint& mean) const {
+  if (mean.relief <= 0) return 0;
+  return mean.relief * (folds(mean.position) + grain(mean.position));
+}
+
+}  // namespace crowdface::synth

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/skin_paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/knots.h"
+#include "head_models/synth/skin_surface.h"
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kFinest = 0.02;  // centimetres: all folds and lines
+
+/// 1 in the middle of an ellipse seen from the front, 0 from its edge on. On both sides of the face.
+double patch(const Vector3d& p, const Vector2d& centre, const Vector2d& radii) {
+  const Vector2d from = (Vector2d(std::abs(p.x()), p.y()) - centre).cwiseQuotient(radii);
+  const double q = 1 - from.squaredNorm();
+  return q > 0 ? q * q * smooth_step(0, 2, p.z()) : 0;
+}
+
+void tint(ScreenColour& colour, const ScreenColour& factor, double amount) {
+  colour *= 1 + amount * (factor - 1);
+}
+
+void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
+  colour += amount * (with - colour);
+}
+
+/// How far below the line between the lips a mouth reaches at |x|, and how far above.
+constexpr double kMouthHalf = 2.45;
+double lip_line(double x) {
+  const double q = std::min(1.0, x * x / (kMouthHalf * kMouthHalf));
+  return -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
+}
+double upper_lip(double x) {
+  const double t = std::min(1.0, x / kMouthHalf);
+  return 0.86 * (1 - t * t) * (1 - 0.10 * smooth_step(0.25, 0, t));  // Cupid's bow
+}
+double lower_lip(double x) {
+  const double t = std::min(1.0, x / kMouthHalf);
+  return 0.98 * (1 - t * t * (0.35 + 0.65 * t));
+}
+
+/// 1 on the lips, 0 off them, soft by a millimetre.
+double on_lips(const Vector3d& p) {
+  const double x = std::abs(p.x());
+  if (p.z() < 6 || x > kMouthHalf) return 0;
+  const double up = p.y() - lip_line(x);
+  const double beyond = up > 0 ? up - upper_lip(x) : -up - lower_lip(x);
+  return smooth_step(0.07, -0.09, beyond);
+}
+
+}  // namespace
+
+SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
+    : person_(draw_person(seed, index)),
+      look_(draw_complexion(seed, index)),
+      relief_(Identity(seed, index), kFinest),
+      mottle_(mix(seed, index, 101), 1.1),
+      blotch_(mix(seed, index, 102), 0.35),
+      pores_(mix(seed, index, 103), 0.06),
+      freckles_(mix(seed, index, 104), 0.11),
+      spots_(mix(seed, index, 105), 0.34),
+      hairs_(mix(seed, index, 106), 0.045),
+      tufts_(mix(seed, index, 107), 0.3),
+      hairline_(mix(seed, index, 108), 0.5),
+      hair_(seed, index),
+      scalp_hair_(scalp_hair) {}
+
+ScreenColour SkinPaint::bare_skin(const Vector& p) const {
+  ScreenColour colour = look_.skin;
+  const double mottle = mottle_.at(p);
+  const double uneven = 0.022 * mottle + 0.016 * blotch_.at(p) + 0.022 * pores_.at(p);
+  colour *= 1 + uneven;
+  // Blood shows where skin is thin and well supplied.
+  const double ears = smooth_step(6.6, 7.6, std::abs(p.x())) * smooth_step(-5, -3, p.y()) *
+                      smooth_step(4, 3, p.y()) * smooth_step(2.5, 1.5, p.z());
+  const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
+                     0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
+                     0.25 * patch(p, {0, 3.5}, {4, 2.5});
+  const double blood = std::min(1.0, look_.ruddy + 0.2 * look_.made_up);
+  tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
+  // Lines and hollows keep their colour from the sun and hold shade.
+  const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
+  tint(colour, {0.88, 0.81, 0.79}, hollow);
+  return colour;
+}
+
+void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
+  if (look_.freckles > 0) {
+    const double where = patch(p, {2.6, -2.6}, {5.2, 3.6}) + 0.5 * patch(p, {0, 4}, {6, 4});
+    const double spot = smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p));
+    tint(colour, {0.80, 0.68, 0.58}, 0.5 * look_.freckles * std::min(1.0, 1.6 * where) * spot);
+  }
+  if (look_.age_spots > 0) {
+    const double where = smooth_step(2.5, 6, p.y()) + 0.8 * patch(p, {6, -2}, {4, 5});
+    const double spot = smooth_step(0.7, 1.0, spots_.at(p));
+    tint(colour, {0.80, 0.70, 0.62}, 0.6 * look_.age_spots * std::min(1.0, where) * spot);
+  }
+}
+
+void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
+  const Vector& p = place.skin.position;
+  const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
+  if (amount <= 0) return;
+  ScreenColour lips = colour;
+  const double pale = 0.25 * std::max(0.0, person_.aged()) + (person_.male > 0 ? 0.35 : 0.0);
+  tint(lips, {0.95, 0.76, 0.77}, 1 - pale);
+  tint(lips, {0.93, 0.62, 0.68}, look_.made_up);
+  tint(lips, ScreenColour::Constant(0.86), look_.tone);
+  // Upper lips lie in their own shade.
+  if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
+  cover(colour, lips, amount);
+}
+
+void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const {
+  const Vector& p = place.skin.position;
+  const double tired = 0.45 + 0.25 * std::max(0.0, person_.aged());
+  tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
+  const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
+  tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
+  tint(colour, {0.76, 0.68, 0.70}, 0.7 * look_.made_up * lids);
+  if (place.eye <= 0) return;
+  // Lashes stand so close that from afar they are a line; the lid's inner edge is moist.
+  const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
+  const double lashes =
+      smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
+  const ScreenColour dark = (0.45 - 0.25 * look_.made_up) * look_.hair + 0.02;
+  cover(colour, dark, lashes * (upper ? 0.75 + 0.25 * look_.made_up : 0.3 + 0.4 * look_.made_up));
+  cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * look_.tone),
+        0.8 * smooth_step(1.05, 1.15, place.eye));
+}
+
+void SkinPaint::paint_openings(const SkinPlace& place, ScreenColour& colour) const {
+  cover(colour, ScreenColour(0.40, 0.17, 0.16), smooth_step(1.02, 1.5, place.mouth));
+  cover(colour, ScreenColour(0.22, 0.09, 0.07), smooth_step(0.98, 1.35, place.nostril));
+}
+
+double SkinPaint::brow_cover(const Vector& p) const {
+  if (p.z() < 3) return 0;
+  // An arch over each eye, thickest towards the nose.
+  const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
+  if (t < -0.1 || t > 1.1) return 0;
+  const double arch = 1.75 + 1.05 * t * (1 - t) * 2.2 * (0.7 + 0.6 * t) +
+                      look_.brow_arch * (0.4 + 3.2 * t * t * (1 - t));
+  const double half = look_.brow_width * (0.40 - 0.22 * t * t);
+  const double off = std::abs(p.y() - arch) / half;
+  const double ends = smooth_step(-0.08, 0.14, t) * smooth_step(1.06, 0.72, t);
+  const double body = smooth_step(1.25, 0.45, off) * ends;
+  if (body <= 0) return 0;
+  // Hairs lean outward: the noise is drawn out along them.
+  const double along = x - 0.9 * (p.y() - arch), across = (p.y() - arch) + 0.55 * x;
+  const double strands = hairs_.at({0.22 * along, across, 7 * (p.x() > 0 ? 1.0 : -1.0)});
+  return look_.brows * body * smooth_step(-0.75, 0.45, strands + 0.9 * (body - 0.5));
+}
+
+double SkinPaint::beard_cover(const Vector& p, double strand) const {
+  const double x = std::abs(p.x());
+  // Down from the sideburn, along the cheek, to the corner of the moustache.
+  static const std::array<Vector2d, 5> edge = {
+      {{0, -5.0}, {1.6, -5.15}, {3.1, -6.6}, {5.2, -5.0}, {6.6, -1.2}}};
+  const double over = p.y() - between_knots(edge, x);
+  if (over > 1.5 || p.y() < -15) return 0;
+  const double wander = 0.35 * hairline_.at(p);
+  const double below = smooth_step(0.6, -1.1, over + wander + 0.3 * strand);
+  const double neck = smooth_step(-14.2, -12.2, p.y() + wander);
+  const double back = smooth_step(-0.5, 0.8, p.z());
+  // Bare patches under the lower lip and beside the chin's tuft.
+  const double bare = 0.5 * patch(p, {1.3, -8.4}, {0.9, 0.55});
+  return below * neck * back * (1 - on_lips(p)) * (1 - bare);
+}
+
+/// How much of a beard somebody wears here: 0 … 1.
+double SkinPaint::beard_length(const Vector& p) const {
+  const double x = std::abs(p.x());
+  const double lip =
+      smooth_step(3.0, 2.3, x) * smooth_step(-7.3, -6.6, p.y()) * smooth_step(6, 8, p.z());
+  const double chin = smooth_step(2.9, 1.9, x) * smooth_step(-7.4, -8.2, p.y());
+  double length = look_.beard;
+  length += lip * (look_.moustache - length);
+  return length + chin * (look_.chin_beard - length);
+}
+
+void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
+  if (look_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
+  // Short hair: light and dark, drawn out downwards.
+  const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
+  const double beard = beard_cover(p, strand);
+  if (beard <= 0) return;
+  const double length = beard_length(p);
+  // Hair in the skin lends it a cool shade before it shows.
+  tint(colour, {0.82, 0.80, 0.80}, 0.8 * beard * std::min(1.0, 1.4 * length));
+  const double grown = smooth_step(0.3, 1.0, length);
+  const double dense = grown * (0.75 + 0.10 * tufts_.at(p) + 0.30 * strand);
+  cover(colour, look_.brow_hair * (1 + 0.25 * strand), beard * std::clamp(dense, 0.0, 0.95));
+}
+
+/// White with a little blood towards the corners, an iris of spokes with a dark rim, a pupil.
+ScreenColour SkinPaint::eyeball(const Vector& ball) const {
+  const double flat = std::sqrt(ball.x() * ball.x() + ball.y() * ball.y());
+  ScreenColour colour(0.83, 0.815, 0.79);
+  tint(colour, {0.93, 0.80, 0.76},
+       smooth_step(0.45, 0.95, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
+  tint(colour, {0.93, 0.87, 0.76}, 0.5 * look_.tone + 0.25 * std::max(0.0, person_.aged()));
+  if (ball.z() < 0) return colour;
+  constexpr double kIris = 0.43, kPupil = 0.165;
+  const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
+  ScreenColour iris =
+      look_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
+  // Lighter around the pupil, and where the light that enters opposite leaves it.
+  iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
+  iris *= 1 - 0.62 * smooth_step(0.34, kIris, flat);
+  cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));
+  cover(colour, iris, smooth_step(kIris + 0.03, kIris - 0.02, flat));
+  return colour;
+}
+
+ScreenColour SkinPaint::at(const SkinPlace& place) const {
+  if (place.ball > 0.5) return eyeball(place.on_ball.normalized()).max(0.0).min(1.0);
+  const Vector& p = place.skin.position;
+  ScreenColour colour = bare_skin(p);
+  paint_spots(p, colour);
+  paint_around_eyes(place, colour);
+  paint_lips(place, colour);
+  paint_openings(place, colour);
+  paint_beard(p, colour);
+  const bool ear = place.skin.relief < 0.5;
+  if (!ear && hair_.reaches(p)) {
+    const double lock = hair_.strand(p);
+    cover(colour, look_.hair * (1 + (0.24 - 0.16 * look_.hair.mean()) * lock),
+          scalp_hair_ * hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
+  }
+  cover(colour, look_.brow_hair, brow_cover(p));
+  return colour.max(0.0).min(1.0);
+}
+
+double SkinPaint::roughness_at(const SkinPlace& place) const {
+  const Vector& p = place.skin.position;
+  double hair = brow_cover(p);
+  if (look_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
+    hair = std::max(hair, beard_length(p) * beard_cover(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
+  }
+  if (place.skin.relief >= 0.5 && hair_.reaches(p)) {
+    hair = std::max(hair, scalp_hair_ * hair_.cover(p, hair_.strand(p)));
+  }
+  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
+  return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.aged());
+}
+
+}  // namespace crowdface::synth

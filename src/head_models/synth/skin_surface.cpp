@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/skin_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/core/smooth_step.h"
+#include "head_models/synth/complexion.h"
+
+namespace crowdface::synth {
+namespace {
+
+bool is_skin(const SkinPlace& place) {
+  return place.covered && place.ball <= 0.5;
+}
+
+/// How steeply heights rise from one texel to another, or 0 where no skin joins them.
+class Slopes {
+ public:
+  Slopes(const std::vector<SkinPlace>& atlas, const std::vector<double>& heights, double texel)
+      : atlas_(atlas), heights_(heights), farthest_(4 * texel) {}
+
+  /// From `a` over `middle` to `b`; at a border of the surface one of its halves.
+  double across(std::size_t a, std::size_t middle, std::size_t b) const {
+    const std::size_t from = joined(a, middle) ? a : middle;
+    const std::size_t to = joined(middle, b) ? b : middle;
+    if (from == to) return 0;
+    const double length = distance(from, to);
+    return length > 0 ? (heights_[to] - heights_[from]) / length : 0;
+  }
+
+ private:
+  double distance(std::size_t a, std::size_t b) const {
+    return (atlas_[a].skin.position - atlas_[b].skin.position).norm();
+  }
+  bool joined(std::size_t a, std::size_t b) const {
+    return is_skin(atlas_[a]) && is_skin(atlas_[b]) && distance(a, b) < farthest_;
+  }
+
+  const std::vector<SkinPlace>& atlas_;
+  const std::vector<double>& heights_;
+  double farthest_;
+};
+
+}  // namespace
+
+double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < atlas.size(); ++i) {
+    if (i % static_cast<std::size_t>(size) == 0 || !is_skin(atlas[i]) || !is_skin(atlas[i - 1])) {
+      continue;
+    }
+    steps.push_back((atlas[i].skin.position - atlas[i - 1].skin.position).norm());
+  }
+  if (steps.empty()) return 1;
+  const std::size_t middle = steps.size() / 2;
+  return value_of_rank(std::move(steps), middle);
+}
+
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,
+                                       const Relief& fine, const Relief& coarse) {
+  std::vector<double> heights(atlas.size());
+  parallel_for_each(atlas.size(), kTexelsPerBlock, [&](std::size_t i) {
+    if (!is_skin(atlas[i])) return;
+    heights[i] = fine.height(atlas[i].skin) - coarse.height(atlas[i].skin);
+  });
+  const Slopes slopes(atlas, heights, texel_cm(size, atlas));
+  const auto side = static_cast<std::size_t>(size);
+  std::vector<std::uint8_t> bytes(3 * atlas.size());
+  parallel_for_each(atlas.size(), kTexelsPerBlock, [&](std::size_t i) {
+    const std::size_t x = i % side, y = i / side;
+    const std::size_t left = x > 0 ? i - 1 : i, right = x + 1 < side ? i + 1 : i;
+    const std::size_t above = y > 0 ? i - side : i, below = y + 1 < side ? i + side : i;
+    const Eigen::Vector3d normal =
+        Eigen::Vector3d(-slopes.across(left, i, right), -slopes.across(below, i, above), 1)
+            .normalized();
+    for (std::size_t c = 0; c < 3; ++c) {
+      bytes[3 * i + c] = to_byte((normal[static_cast<Eigen::Index>(c)] + 1) / 2);
+    }
+  });
+  return bytes;
+}
+
+double skin_roughness(const SkinPlace& place, double on_lips, double hair, double aged) {
+  if (place.ball > 0.5) return 0.08;
+  const Eigen::Vector3d& p = place.skin.position;
+  const double front = smooth_step(4, 7, p.z());
+  const double nose = smooth_step(2.2, 0.8, std::abs(p.x())) * smooth_step(-5.5, -4, p.y()) *
+                      smooth_step(2, 0.5, p.y());
+  const double forehead =
+      smooth_step(5, 2, std::abs(p.x())) * smooth_step(2.5, 4, p.y()) * smooth_step(7.5, 6, p.y());
+  double roughness = 0.52 + 0.04 * std::clamp(aged, 0.0, 1.0);
+  roughness -= front * (0.12 * nose + 0.08 * forehead);
+  roughness += on_lips * (0.34 - roughness);
+  roughness += smooth_step(1.05, 1.15, place.eye) * (0.15 - roughness);  // the lid's moist edge
+  return roughness + hair * (0.8 - roughness);
+}
+
+}  // namespace crowdface::synth

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/synthetic_skin.h"
+
+#include <algorithm>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
+#include "head_models/synth/skin_paint.h"
+#include "head_models/synth/skin_surface.h"
+
+namespace crowdface {
+namespace {
+
+/// Under hair in cards only its roots are in the skin. More of them would be seen on the bald crowns of faces
+/// that are mixed from haired heads.
+constexpr double kRoots = 0.3;
+
+}  // namespace
+
+SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp)
+    : size_(size), scalp_hair_(scalp == SyntheticHeads::Scalp::kShorn ? kRoots : 1) {
+  require(size >= 64 && size <= 8192, "textures of ", size, " texels");
+  atlas_ = synth::skin_atlas(size);
+  texel_cm_ = synth::texel_cm(size, atlas_);
+}
+
+std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
+  const synth::SkinPaint paint(seed, index, scalp_hair_);
+  std::vector<std::uint8_t> bytes(3 * atlas_.size());
+  parallel_for_each(atlas_.size(), synth::kTexelsPerBlock, [&](std::size_t i) {
+    const synth::ScreenColour colour = paint.at(atlas_[i]);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      bytes[3 * i + static_cast<std::size_t>(c)] = synth::to_byte(colour[c]);
+    }
+  });
+  return bytes;
+}
+
+std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
+                                                  double edge_cm) const {
+  const synth::Identity identity(seed, index);
+  // A texture holds waves of two texels, a mesh those of four edges and more.
+  const double finest = texel_cm_ / 2;
+  return synth::skin_normals(size_, atlas_, synth::Relief(identity, finest),
+                             synth::Relief(identity, std::max(finest, edge_cm)));
+}
+
+std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
+  const synth::SkinPaint paint(seed, index, scalp_hair_);
+  std::vector<std::uint8_t> bytes(atlas_.size());
+  parallel_for_each(bytes.size(), synth::kTexelsPerBlock, [&](std::size_t i) {
+    bytes[i] = synth::to_byte(paint.roughness_at(atlas_[i]));
+  });
+  return bytes;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/unwrap.h"
+
+#include <array>
+#include <cmath>
+
+namespace crowdface::synth {
+namespace {
+
+// Widths and heights of the lattice's intervals in the texture, about as in centimetres on the
+// head, the face a little larger than life.
+constexpr std::array<double, kColumns - 1> kWidths = {0.5, 1.3, 1.9, 2.2, 1.9, 2.4, 3.6,
+                                                      2.4, 1.9, 1.9, 1.9, 1.3, 0.8};
+constexpr std::array<double, kRows - 1> kHeights = {3.6, 3.0, 4.4, 2.0, 1.8, 1.2,
+                                                    3.4, 1.8, 2.2, 2.6, 3.6};
+constexpr double kCapHeight = 11, kMargin = 0.004;
+
+double piecewise(double unit, double (*knot)(int), const double* sizes, int intervals) {
+  double sum = 0;
+  for (int k = 0; k < intervals; ++k) {
+    const double from = knot(k), to = knot(k + 1);
+    if (unit <= to || k == intervals - 1) return sum + sizes[k] * (unit - from) / (to - from);
+    sum += sizes[k];
+  }
+  return sum;
+}
+
+/// Distance from the midline in texture centimetres, signed.
+double across(double unit) {
+  const double x = piecewise(std::abs(unit), column_unit, kWidths.data(), kColumns - 1);
+  return unit < 0 ? -x : x;
+}
+
+double down(double unit) {
+  return piecewise(unit, row_unit, kHeights.data(), kRows - 1);
+}
+
+Eigen::RowVector2d scaled(double x, double y) {
+  const double half = across(column_unit(kColumns - 1)), height = down(row_unit(kRows - 1));
+  return {kMargin + (1 - 2 * kMargin) * (x + half) / (2 * half),
+          kMargin + (1 - 2 * kMargin) * (height - y) / (height + kCapHeight)};
+}
+
+/// Half-axes of the opening's edge and of the hole, as parts of the window's.
+struct Opening {
+  Eigen::Vector2d edge, hole;
+};
+Opening opening_of(Sheet sheet) {
+  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};  // room for the eyeball's picture
+  if (sheet == Sheet::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
+  if (sheet == Sheet::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
+  return {{0.4, 0.4}, {0.4, 0.4}};
+}
+
+Eigen::Vector2d in_window(const Address& address) {
+  const Opening opening = opening_of(address.sheet);
+  if (address.sheet == Sheet::kEarCore) {
+    return {opening.edge.x() * (2 * address.a - 1), opening.edge.y() * (1 - 2 * address.b)};
+  }
+  const Eigen::Vector2d start = on_square(address.a);
+  const Eigen::Vector2d round = address.sheet == Sheet::kEar ? start : start / start.norm();
+  const Eigen::Vector2d edge = round.cwiseProduct(opening.edge);
+  if (address.b <= 1) return start + (edge - start) * address.b;
+  return edge + (round.cwiseProduct(opening.hole) - edge) * (address.b - 1);
+}
+
+/// A place in a window's square, −1 … 1 each way.
+Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
+  const Window& w = window_of(sheet);
+  const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
+  const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
+  return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
+                (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
+}
+
+}  // namespace
+
+Eigen::Vector2d on_square(double around) {
+  if (around < 1) return {-1, 1 - 2 * around};
+  if (around < 2) return {2 * (around - 1) - 1, -1};
+  if (around < 3) return {1, 2 * (around - 2) - 1};
+  return {1 - 2 * (around - 3), 1};
+}
+
+double strip_v(double unit) {
+  return scaled(0, down(unit)).y();
+}
+
+Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place) {
+  return unwrap_window(sheet, side, place.cwiseProduct(opening_of(sheet).hole));
+}
+
+Eigen::RowVector2d unwrap(const Address& address) {
+  if (address.sheet == Sheet::kStrip) return scaled(across(address.a), down(address.b));
+  if (address.sheet == Sheet::kCap) {
+    const double deep = column_unit(kBackColumn) - column_unit(kFrontColumn);
+    return scaled(across(address.a), -kCapHeight * address.b / deep);
+  }
+  const Sheet sheet = address.sheet == Sheet::kEarCore ? Sheet::kEar : address.sheet;
+  return unwrap_window(sheet, address.side, in_window(address));
+}
+
+}  // namespace crowdface::synth
