@@ -174,8 +174,7 @@ void submit(const SubmitOptions& options) {
 }  // namespace
 
 Run add_submit(CLI::App& program) {
-  return add_command(program, "submit",
-                     "The whole job as tasks for a farm: Slurm or GNU parallel",
+  return add_command(program, "submit", "The whole job as tasks for a farm: Slurm or GNU parallel",
                      declare_submit, submit);
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "crowdface/cast/shares.h"
 #include "crowdface/cast/sampling.h"
+#include "crowdface/cast/shares.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"

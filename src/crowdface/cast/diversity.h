@@ -25,7 +25,7 @@ struct DiversityOptions {
   double min_distance_to_faces_mm = 0;  ///< from every input head
   /// Between a face that a review rejected and the one in its place; none: half the crowd's median.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;      ///< of one head in one region
+  double max_weight = 1;  ///< of one head in one region
   /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept; but of 32
   /// at least for the first thousand faces and of 8 for all others, whatever else is asked for.
   std::optional<int> candidates;

@@ -59,8 +59,7 @@ Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, co
 std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
                        const ConfigWriting& writing) {
   const SamplingOptions& sampling = writing.config.sampling;
-  std::vector<std::string> entries = {
-      entry("name", quota ? write_scalar(quota->name) : "others")};
+  std::vector<std::string> entries = {entry("name", quota ? write_scalar(quota->name) : "others")};
   if (quota) entries.push_back(entry("share", format_number(quota->share)));
   const auto part = [&](auto heads, std::optional<std::size_t> band, const auto& head) {
     const bool own = quota && quota->band == band;

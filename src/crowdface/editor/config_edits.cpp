@@ -76,8 +76,8 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   Complaints complaints;
   const auto longer = parse_yaml(config_text, config.string(), complaints);
   if (!longer || !complaints.empty() || longer->find("edits") == nullptr) {
-    throw UsageError(concat(config.string(), ": add \"", line, "\" to it: what was saved stands in ",
-                            file.string()));
+    throw UsageError(concat(config.string(), ": add \"", line,
+                            "\" to it: what was saved stands in ", file.string()));
   }
   write_file(config, config_text);
   return file;

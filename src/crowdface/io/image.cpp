@@ -253,6 +253,11 @@ std::string encode_png(int width, int height, int channels, std::span<const std:
                 pixels.size());
 }
 
+std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels) {
+  return encode("png", {PictureToEncode::Form::kStoredPng, width, height, 3, pixels.data()},
+                pixels.size());
+}
+
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
   return encode("jpeg", {PictureToEncode::Form::kJpeg, width, height, 3, pixels.data()},
                 pixels.size());

@@ -92,6 +92,9 @@ ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& 
 /// \throws BrokenPrecondition if sizes do not fit.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
+/// A PNG that is not packed: its bytes depend on the pixels alone, and not on the zlib of the machine.
+std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels);
+
 /// Of 16 bits.
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels);

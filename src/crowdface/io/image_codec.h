@@ -21,7 +21,7 @@ struct PictureFacts {
 
 /// Pixels of ours that become a file.
 struct PictureToEncode {
-  enum class Form { kPng, kWordPng, kJpeg, kExr };
+  enum class Form { kPng, kStoredPng, kWordPng, kJpeg, kExr };
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
   const void* pixels =

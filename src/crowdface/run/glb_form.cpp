@@ -43,7 +43,7 @@ std::string iris_png() {
       std::copy(colour.begin(), colour.end(), picture.at(x, y));
     }
   }
-  return encode_png(kSide, kSide, 3, picture.pixels);
+  return encode_stored_png(kSide, kSide, picture.pixels);
 }
 
 /// Irises where the renders paint them. They lie on the eyes of the mean head, which parts follow.

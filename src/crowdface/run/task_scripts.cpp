@@ -254,9 +254,9 @@ std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
   make_directories(folder / "log");
   write_file(script_of(job), task_script(job));
   const nlohmann::ordered_json notes = {{"engine", name_of(engine)},
-                      {"prepares", job.prepares},
-                      {"shards", job.shards},
-                      {"processors", job.processors}};
+                                        {"prepares", job.prepares},
+                                        {"shards", job.shards},
+                                        {"processors", job.processors}};
   write_file(folder / "job.json", notes.dump() + "\n");
   write_file(folder / "submit.sh",
              engine == Engine::kSlurm ? slurm_script(job, options) : parallel_script(job, options));

@@ -9,7 +9,8 @@ int main(int /*argc*/, char** argv) {
   const ObjFile mesh = read_obj(argv[1]);
   const SmoothingOperator smoothing(build_adjacency(mesh.topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
-  const Positions smoothed = smooth(ChebyshevFilter(smoothing, mesh.positions), mesh.positions, 100);
+  const Positions smoothed =
+      smooth(ChebyshevFilter(smoothing, mesh.positions), mesh.positions, 100);
   const std::uint8_t grey[] = {0, 128, 255, 7};
   const bool encoded = encode_png(2, 2, 1, grey).starts_with("\x89PNG");
   Problems problems;
