@@ -20,19 +20,21 @@ endif()
 find_package(meshoptimizer REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
-# From cpp-httplib 0.15 on, Debian's header calls OpenSSL's libcrypto by itself.
-pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib libcrypto)
-pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
-# Kernels are compiled for the baseline (SSE2, NEON or Highway's emulation), AVX2 and AVX-512. Each further target would
-# lengthen the build and speed up nothing; vectors of SVE have no fixed size, which the kernels need.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-  set(hwy_disabled "HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128")
-else()
-  set(hwy_disabled "HWY_SSSE3|HWY_SSE4")
-  if(hwy_VERSION VERSION_GREATER_EQUAL 1.0.6)  # earlier versions lack these names
-    string(APPEND hwy_disabled "|HWY_AVX3_ZEN4|HWY_AVX3_SPR")
-  endif()
+find_package(httplib QUIET)  # Fedora's package is for CMake, Debian's for pkg-config
+if(NOT TARGET httplib::httplib)
+  # From cpp-httplib 0.15 on, Debian's header calls OpenSSL's libcrypto by itself.
+  pkg_check_modules(httplib REQUIRED IMPORTED_TARGET GLOBAL cpp-httplib libcrypto)
+  add_library(httplib::httplib ALIAS PkgConfig::httplib)
 endif()
-set_property(TARGET PkgConfig::hwy APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS
-  "HWY_DISABLED_TARGETS=(${hwy_disabled})")
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
+# On ARM kernels are compiled for NEON alone; the others that Highway knows differ in AES and bfloat16, or have vectors of no
+# fixed size (SVE). On x86 they are compiled for the baseline, AVX2 and AVX-512; the rest would only lengthen the build.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  set(hwy_choice HWY_COMPILE_ONLY_STATIC)
+elseif(hwy_VERSION VERSION_GREATER_EQUAL 1.0.6)
+  set(hwy_choice "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_ZEN4|HWY_AVX3_SPR)")
+else()  # which lacks two of the names
+  set(hwy_choice "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4)")
+endif()
+set_property(TARGET PkgConfig::hwy APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS "${hwy_choice}")
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -21,10 +21,10 @@ for build in "${builds[@]}"; do
   {
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_CXX_COMPILER="${build%-O*}" -DCMAKE_CXX_FLAGS_RELEASE="-O${build##*-O}" \
-      "${launcher[@]}" && cmake --build "$folder" --target crowdface_crowd_test
+      "${launcher[@]}" && cmake --build "$folder" --target crowdface_run_test
   } >"$folder/build.log" 2>&1 || { tail -n 40 "$folder/build.log" >&2; exit 1; }
   result=equal
-  "$folder/bin/crowdface_crowd_test" --gtest_filter='*Golden*' >"$folder/test.log" 2>&1 ||
+  "$folder/bin/crowdface_run_test" --gtest_filter='*Golden*' >"$folder/test.log" 2>&1 ||
     result=DIFFERENT
   passed=$(grep -c '^\[       OK' "$folder/test.log" || true)
   [ "$result" != equal ] || [ "$passed" -eq 3 ] || result="INCOMPLETE, expected 3 tests"

@@ -77,14 +77,14 @@ coverage() {
   names=$(cd src/crowdface && printf '/%s ' ${sources[$parser]})
   LLVM_PROFILE_FILE=$out/$parser.profraw "$program" "$out/corpus/$parser" \
     "tests/fuzz/corpus/$parser" $(more_seeds "$parser") -runs=0 >"$out/$parser.replay.log" 2>&1
-  llvm-profdata-14 merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
+  llvm-profdata merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
     "$(test_profile io)" "$(test_profile config)" "$(test_profile crowd)" \
     "$(test_profile heads '*Cache*:*MadeAnew*')" "$(test_profile wrap 'ScanFile*')" \
     "$(test_profile pick '*Landmark*')"
   local seen=("$program" -instr-profile="$out/$parser.profdata") module
   for module in "${tested[@]}"; do seen+=(-object "$out/bin/crowdface_${module}_test"); done
-  llvm-cov-14 show "${seen[@]}" >"$out/$parser.lines.txt"
-  llvm-cov-14 report "${seen[@]}" >"$out/$parser.files.txt"
+  llvm-cov show "${seen[@]}" >"$out/$parser.lines.txt"
+  llvm-cov report "${seen[@]}" >"$out/$parser.files.txt"
   # Columns 8 and 9: lines of a file, and those that were missed.
   awk -v names="$names" '
     BEGIN {count = split(names, name, " ")}

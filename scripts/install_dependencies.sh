@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian 12 packages that crowdface needs and that are not there yet. Silent and quick
-# when none is missing. Works as root and with sudo; where it may not install, it says what is
-# missing and exits with 69.
+# Installs the Debian packages that crowdface needs and that are missing; prints nothing if all are there. Works as root and
+# with sudo. Where it may not install, it lists what is missing and exits with 69. Tested on Debian 12 (bookworm) and
+# Debian 13 (trixie); Ubuntu 24.04 has the same package names.
 #
 #   scripts/install_dependencies.sh          what building needs, and most tests
 #   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, and Doxygen
@@ -10,7 +10,10 @@
 #   scripts/install_dependencies.sh --docs   and what scripts/docs.sh needs
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
 #   scripts/install_dependencies.sh --fuzz   and what scripts/fuzz.sh and scripts/bits.sh need
+#   scripts/install_dependencies.sh --releases  only what scripts/releases.sh needs
+#   scripts/install_dependencies.sh --list   prints the packages of the first line and installs nothing
 set -euo pipefail
+cd "$(dirname "$0")/.."
 
 packages=(
   # compiler and build
@@ -34,23 +37,39 @@ case "${1-}" in
   --docs) packages+=(doxygen) ;;
   --check) packages+=(clang-format clang-tidy) ;;
   --farm) packages=(slurmctld slurmd slurm-client munge parallel openssh-server openssh-client) ;;
-  --fuzz) packages+=(clang llvm-14 libclang-rt-14-dev) ;;
-  *) echo "usage: scripts/install_dependencies.sh [--test | --farm | --docs | --check | --fuzz]" >&2; exit 64 ;;
+  --fuzz) packages+=(clang llvm libclang-rt-dev) ;;
+  --releases) packages=(mmdebstrap debian-archive-keyring) ;;
+  --list) printf '%s\n' "${packages[@]}"; exit 0 ;;
+  *) echo "usage: scripts/install_dependencies.sh [--test | --farm | --docs | --check | --fuzz | --releases | --list]" >&2; exit 64 ;;
 esac
 
+# Says what crowdface needs in words that hold on every system.
+by_cmake_names() {
+  local found='cmake/CrowdfaceDependencies.cmake'
+  echo "On this system ($system) nobody has tested crowdface. It needs g++ or clang++ with C++20, CMake 3.25, Ninja and"
+  echo "pkg-config; CMake looks for these packages:"
+  echo "  $(sed -n 's/^find_package(\([^ )]*\).*/\1/p' $found | grep -v PkgConfig | paste -sd' ')"
+  echo "and pkg-config for these:"
+  echo "  $(sed -n 's/^pkg_check_modules([^ ]* REQUIRED IMPORTED_TARGET \(.*\))/\1/p' $found | paste -sd' ')"
+  echo "and the headers of Random123; the tests need GTest, benchmark, OpenMesh and TinyGLTF, and the labels the font DejaVu Sans."
+}
+
+# shellcheck source=/dev/null
+system=$(. /etc/os-release 2>/dev/null && echo "${ID-} ${VERSION_ID-}") || system=unknown
 cannot() {
   {
-    echo "crowdface needs Debian packages that are not installed:"
+    echo "crowdface needs packages that are not installed:"
     echo "  ${missing[*]}"
-    echo "$1 Install them with:"
+    echo "$1 With Debian's names:"
     echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+    case "$system" in "debian 12" | "debian 13") ;; *) by_cmake_names ;; esac
   } >&2
   exit 69
 }
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   missing=("${packages[@]}")
-  cannot "This system has no apt-get; the packages have other names here."
+  cannot "This system has no apt-get; its packages may have other names."
 fi
 
 installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/ray_scene.h"
 
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "render/shapes.h"
 
 namespace crowdface {
 namespace {
@@ -41,6 +44,37 @@ TEST(RayScene, AnyNumberOfRaysMeetsASquare) {
         EXPECT_FLOAT_EQ(hits[r]->distance, 2);
       }
     }
+  }
+}
+
+// Embree 4.3 refits trees over quads so that rays pass through what has moved.
+TEST(RayScene, MovedPointsKeepOutTheLightAsPointsOfANewSceneDo) {
+  const RayDevice device;
+  const Mesh sphere = make_sphere(1, 40, 80);
+  std::vector<Quad> quads;
+  for (Index f = 0; f < sphere.topology.face_count(); ++f) {
+    const auto corners = sphere.topology.face(f);
+    quads.push_back({corners[0], corners[1], corners[2], corners.back()});
+  }
+  const auto points = [&](float size, float right) {
+    std::vector<float> all;
+    for (Index v = 0; v < sphere.positions.rows(); ++v) {
+      for (Index c = 0; c < 3; ++c) {
+        all.push_back(size * static_cast<float>(sphere.positions(v, c)) + (c == 0 ? right : 0));
+      }
+    }
+    return all;
+  };
+  std::vector<Ray> rays;
+  for (float x = -2.03F; x < 5; x += 0.11F) {
+    for (float y = -2.03F; y < 2.2F; y += 0.11F) rays.push_back({{x, y, 10}, {0, 0, -1}});
+  }
+  RayScene moving(device, points(1, 0), quads, RayScene::Tree::kForMoves);
+  for (const auto& [size, right] : {std::pair{1.0F, 3.0F}, {2.0F, 0.0F}, {1.0F, 0.0F}}) {
+    const RayScene anew(device, points(size, right), quads);
+    auto moved = points(size, right);
+    moving.move_points(moved);
+    EXPECT_EQ(moving.occluded(rays), anew.occluded(rays)) << size << ' ' << right;
   }
 }
 

@@ -99,8 +99,8 @@ TEST(LevelFields, OfATileAreTheFirstFew) {
 
 /// Against the plain sum, for every number of fields kept.
 TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
-  constexpr std::size_t kFields = 5, kLevels = 7;
-  std::vector<float> values(kFields * kTileValues), functions(kFields * kLevels);
+  constexpr std::size_t kFields = 5, kLevelCount = 7;
+  std::vector<float> values(kFields * kTileValues), functions(kFields * kLevelCount);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double size = std::pow(0.2, static_cast<double>(i / kTileValues));
     values[i] = static_cast<float>(size * random_between({1, i, "value", 0}, -1, 1));
@@ -113,7 +113,7 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
   for (std::size_t kept = 0; kept <= kFields; ++kept) {
     missed.push_back(0);
     where.push_back(0);
-    for (std::size_t l = 0; l < kLevels; ++l) {
+    for (std::size_t l = 0; l < kLevelCount; ++l) {
       for (std::size_t v = 0; v < kFieldTile; ++v) {
         double squared = 0;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -136,7 +136,7 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
     use_instruction_set(name);
     for (std::size_t kept = 0; kept <= kFields; ++kept) {
       const MissedLevel found = keep_fewest(values.data(), kFields, functions.data(), kFields,
-                                            kLevels, static_cast<float>(missed[kept] * 1.001));
+                                            kLevelCount, static_cast<float>(missed[kept] * 1.001));
       EXPECT_EQ(found.kept, kept);
       EXPECT_NEAR(static_cast<double>(found.squared), missed[kept], 1e-5 * missed[kept]);
       EXPECT_EQ(found.level, where[kept]);

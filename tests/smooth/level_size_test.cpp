@@ -16,18 +16,18 @@ namespace {
 TEST(LevelSize, HalvesWavesOfThatLength) {
   // A wave along a long strip, free at its ends; its amplitude in the middle after the level.
   for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
-    constexpr std::uint32_t kColumns = 400;
-    const Topology topology = testing::grid_topology(kColumns, 40);
+    constexpr std::uint32_t kWidth = 400;
+    const Topology topology = testing::grid_topology(kWidth, 40);
     const SmoothingOperator smoothing(build_adjacency(topology), Boundary::kFree, kind);
     constexpr double kEdge = 0.7, kWavelength = 40 * kEdge;
     const std::uint64_t level = iterations_of_size(kind, kWavelength, kEdge);
     Positions wave = Positions::Zero(topology.vertex_count, 3);
     for (Index i = 0; i < wave.rows(); ++i) {
       wave(i, 2) = std::cos(2 * 3.14159265358979 * kEdge *
-                            (static_cast<double>(i % (kColumns + 1)) - kColumns / 2) / kWavelength);
+                            (static_cast<double>(i % (kWidth + 1)) - kWidth / 2) / kWavelength);
     }
     const Columns smoothed = iterate(smoothing, wave, level);
-    const Index middle = 20 * (kColumns + 1) + kColumns / 2;
+    const Index middle = 20 * (kWidth + 1) + kWidth / 2;
     EXPECT_NEAR(smoothed(middle, 2), 0.5, 0.01);
   }
 }

@@ -9,7 +9,7 @@ cd "$1"
 if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
   mapfile -t files < <(git ls-files --cached --others --exclude-standard)
 else
-  mapfile -t files < <(find . -type f -not -path './build/*' -not -path './out/*' |
+  mapfile -t files < <(find . -type f -not -path './.git' -not -path './.git/*' -not -path './build/*' -not -path './out/*' |
     sed 's,^\./,,' | sort)
 fi
 

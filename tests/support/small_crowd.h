@@ -17,7 +17,7 @@ namespace crowdface::testing {
 
 /// What the config of a small crowd says; all else is fixed.
 struct SmallCrowd {
-  Bowl bowl;
+  Bowl bowl = {};
   std::size_t heads = 4;
   std::size_t regions = 0;  ///< 0: none; more than three take two images
   bool udim = false;        ///< the masks are sets of tiles
@@ -28,7 +28,7 @@ struct SmallCrowd {
   std::string sampling = "{smoothness: [0, 1], extrapolation: [0.8, 1.3], max_sources: 3}";
   std::string contact_sheet = "none";
   std::string parts = "none";  ///< the plain computation blends all as skin
-  std::string more;            ///< further keys at the root
+  std::string more = {};       ///< further keys at the root
   int count = 4;
   int seed = 11;
 

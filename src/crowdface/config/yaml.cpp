@@ -237,7 +237,7 @@ std::string explain(const std::string& message) {
             "aliases (*) are not supported; put text that starts with '*' between quotes"},
   };
   for (const Entry& entry : kEntries) {
-    if (message == entry.theirs) return std::string(entry.ours);
+    if (message.starts_with(entry.theirs)) return std::string(entry.ours);
   }
   return concat("this is not valid YAML: ", message);
 }

@@ -40,8 +40,7 @@ struct Grouped {
 /// \param visit  visit(put) calls put(group, item) for each item; it is called twice.
 template <class T, class Visit>
 Grouped<T> grouped(std::size_t groups, const Visit& visit) {
-  Grouped<T> result;
-  result.offsets.assign(groups + 1, 0);
+  Grouped<T> result{.offsets = std::vector<std::uint32_t>(groups + 1, 0), .items = {}};
   visit([&](std::size_t group, const T&) { ++result.offsets[group + 1]; });
   for (std::size_t g = 0; g < groups; ++g) result.offsets[g + 1] += result.offsets[g];
   result.items.resize(result.offsets.back());

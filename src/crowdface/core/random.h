@@ -13,9 +13,9 @@ namespace crowdface {
 /// easy as 1, 2, 3").
 struct RandomKey {
   std::uint64_t seed = 0;
-  std::uint64_t index = 0;    ///< which face or head
-  std::string_view purpose;   ///< what for, such as "position/top"
-  std::uint32_t attempt = 0;  ///< how many draws of this face were thrown away before
+  std::uint64_t index = 0;        ///< which face or head
+  std::string_view purpose = {};  ///< what for, such as "position/top"
+  std::uint32_t attempt = 0;      ///< how many draws of this face were thrown away before
 };
 
 /// Two independent numbers in [0, 1), multiples of 2⁻⁵³. `lane` (< 2¹⁶) numbers the pairs of one

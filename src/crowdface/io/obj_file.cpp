@@ -44,7 +44,7 @@ void clear_if_all_none(std::vector<std::uint32_t>& indices) {
 void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
   Topology& topology = result.topology;
   for (const tinyobj::shape_t& shape : shapes) {
-    for (const unsigned char corners : shape.mesh.num_face_vertices) {
+    for (const std::uint32_t corners : shape.mesh.num_face_vertices) {
       topology.face_offsets.push_back(topology.face_offsets.back() + corners);
     }
     for (const tinyobj::index_t& corner : shape.mesh.indices) {

@@ -58,6 +58,19 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
   }
 }
 
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Quads as the two triangles that Embree makes of each; a triangle stays one.
+std::vector<Triangle> split(const std::vector<Quad>& quads) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(2 * quads.size());
+  for (const Quad& quad : quads) {
+    triangles.push_back({quad[0], quad[1], quad[3]});
+    if (quad[2] != quad[3]) triangles.push_back({quad[2], quad[3], quad[1]});
+  }
+  return triangles;
+}
+
 /// Lets rays through where there is nothing: of all lots as many as a surface lacks. Surfaces behind
 /// each other let other lots through.
 void pass_holes(const RTCFilterFunctionNArguments* met) {
@@ -136,6 +149,7 @@ struct RayScene::State {
   RTCDevice device;
   bool takes_sixteen;
   std::vector<float> points;
+  std::vector<Triangle> triangles;  ///< of a scene that moves
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;  ///< none if there are no quads
   Opacity opacity;                 ///< none: all is there
@@ -175,10 +189,19 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   // joins the trees of several geometries; there is one.
   if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
   if (!quads.empty()) {
-    state.geometry = rtcNewGeometry(state.device, RTC_GEOMETRY_TYPE_QUAD);
-    if (moves) rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
-    rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
-                               quads.data(), 0, sizeof(Quad), quads.size());
+    state.geometry =
+        rtcNewGeometry(state.device, moves ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_QUAD);
+    if (moves) {
+      // Embree 4.3 refits the tree over quads wrongly, so that rays pass through; the one over triangles rightly.
+      state.triangles = split(quads);
+      rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
+      rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                 state.triangles.data(), 0, sizeof(Triangle),
+                                 state.triangles.size());
+    } else {
+      rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                 quads.data(), 0, sizeof(Quad), quads.size());
+    }
     rtcAttachGeometry(state.scene, state.geometry);
   }
   state.commit_points();
@@ -206,6 +229,7 @@ void RayScene::move_points(std::vector<float>& points) {
 }
 
 std::vector<std::optional<RayHit>> RayScene::nearest_hits(std::span<const Ray> rays) const {
+  require(state_->triangles.empty(), "ray scene: a scene that moves only knows what is occluded");
   return state_->takes_sixteen ? nearest_hits_of<SixteenRays>(rays, state_->scene)
                                : nearest_hits_of<EightRays>(rays, state_->scene);
 }

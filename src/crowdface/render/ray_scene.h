@@ -53,7 +53,8 @@ using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 /// Quads that rays can be shot at, from any thread.
 class RayScene {
  public:
-  /// How the tree over the quads is built: well, or so that move_points is quick. Rays may then slip between quads.
+  /// How the tree over the quads is built: well, or so that move_points is quick. Then a ray may slip between quads, and
+  /// only `occluded` answers.
   enum class Tree { kForOnce, kForMoves };
 
   /// \param points  x, y, z of each vertex. Kept by the scene.

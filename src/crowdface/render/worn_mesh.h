@@ -15,10 +15,10 @@ namespace crowdface {
 
 /// What a mesh beside a face is made of.
 struct WornMaterial {
-  Light colour = Light::Constant(0.5F);    ///< linear, where there is no texture
-  std::shared_ptr<const Texture> texture;  ///< or null
-  std::shared_ptr<const Texture> opacity;  ///< how much of the surface there is, or null: all
-  float share = 1;                         ///< of that
+  Light colour = Light::Constant(0.5F);         ///< linear, where there is no texture
+  std::shared_ptr<const Texture> texture = {};  ///< or null
+  std::shared_ptr<const Texture> opacity = {};  ///< how much of the surface there is, or null: all
+  float share = 1;                              ///< of that
 };
 
 /// A mesh that is drawn beside a face, from both sides alike: hair, glasses. What is there in part lets

@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Runs the two commands of the README on fresh Debian systems: for each release a minimal root is made with
+# mmdebstrap, the working tree is copied into it, and scripts/demo.sh and scripts/test.sh run there.
+#
+#   scripts/releases.sh [--short] [RELEASE …]     default: bookworm trixie
+#   scripts/releases.sh arm64                     64-bit ARM: cross-built on trixie, run under qemu-user
+#
+# --short replaces the whole test suite by the tests that depend on compilers and libraries (minutes instead of an hour);
+# on arm64 always. This system runs the demo first; plans and meshes must have its bytes. Logs and hashes are left in
+# build/releases/RELEASE. Works as root, or as a user who may make user namespaces.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+short=
+if [ "${1-}" = --short ]; then
+  short=1
+  shift
+fi
+releases=("$@")
+[ ${#releases[@]} -gt 0 ] || releases=(bookworm trixie)
+
+# Modules whose results depend on compilers and libraries most: kernels, pictures, YAML, and whole crowds with golden hashes.
+first_tests='smooth blend cast validity texture render config run'
+
+# hashes DIRECTORY: of the plan and the meshes in it, which must not depend on the system.
+hashes() { (cd "$1" && sha256sum plan.jsonl meshes/*.*); }
+
+# The two commands, in a fresh root.
+native() {
+  scripts/demo.sh
+  if [ -n "$short" ]; then
+    scripts/build.sh release $(printf 'crowdface_%s_test ' $first_tests)
+    for test in $first_tests; do "build/release/bin/crowdface_${test}_test" --gtest_brief=1; done
+  else
+    scripts/test.sh | tail -n 40
+  fi
+}
+
+# The same for arm64, without pictures, which take long under emulation.
+cross() {
+  export DEBIAN_FRONTEND=noninteractive
+  apt-get update
+  local package packages=(g++-aarch64-linux-gnu qemu-user-static)
+  for package in $(scripts/install_dependencies.sh --list); do
+    case $package in
+      g++ | nodejs | npm) continue ;;
+      lib* | openimageio-tools)  # libraries of arm64; tools and headers alone are of any processor
+        [ -z "$(apt-cache show "$package:arm64" 2>/dev/null)" ] || package+=:arm64
+        ;;
+    esac
+    packages+=("$package")
+  done
+  apt-get install -y --no-install-recommends "${packages[@]}"
+  cmake --preset arm64
+  cmake --build --preset arm64 --target crowdface $(printf 'crowdface_%s_test ' $first_tests)
+  local test
+  for test in $first_tests; do
+    [ $test != run ] || export GTEST_FILTER='*Golden*'
+    qemu-aarch64-static "build/arm64/bin/crowdface_${test}_test" --gtest_brief=1
+  done
+  local crowdface='qemu-aarch64-static build/arm64/bin/crowdface'
+  $crowdface synth -o out/demo_heads --count 16 --vertices 20000 --seed 1 --textures 1024 --hair
+  $crowdface generate configs/demo.yaml
+}
+
+scripts/install_dependencies.sh --releases
+inside=$(mktemp)
+tree=$(mktemp)
+trap 'rm -f "$inside" "$tree"' EXIT
+git ls-files -z --cached --others --exclude-standard |
+  tar --create --file "$tree" --null --ignore-failed-read --files-from - 2>/dev/null
+
+# in_fresh_root RELEASE ARCHITECTURES COMMAND RESULT: mmdebstrap mounts what a system needs, runs the hooks, and removes the root at
+# the end. The certificates are those of this system, for networks that have their own.
+in_fresh_root() {
+  {
+    echo 'set -euo pipefail; cd /crowdface; export LANG=C.UTF-8'
+    declare -p short first_tests
+    declare -f hashes native cross
+    echo "$3"
+    echo 'hashes out/demo >result/demo.sha256'
+  } >"$inside"
+  mmdebstrap --quiet --variant=minbase --architectures="$2" --include=ca-certificates --format=null \
+    --customize-hook='mkdir -p "$1/crowdface/result"' \
+    --customize-hook="tar-in $tree /crowdface" \
+    --customize-hook="upload $inside /inside" \
+    --customize-hook="upload /etc/ssl/certs/ca-certificates.crt /etc/ssl/certs/ca-certificates.crt" \
+    --chrooted-customize-hook="bash /inside" \
+    --customize-hook="sync-out /crowdface/result $4" \
+    "$1" /dev/null
+}
+
+mkdir -p build/releases
+scripts/demo.sh >build/releases/demo.log 2>&1 || { tail -n 40 build/releases/demo.log >&2; exit 1; }
+hashes out/demo >build/releases/demo.sha256
+processor=$(dpkg --print-architecture)
+
+status=0
+for release in "${releases[@]}"; do
+  result=build/releases/$release
+  mkdir -p "$result"
+  start=$SECONDS
+  echo "$release: a fresh root, then the two commands (log: $result/log)"
+  case $release in
+    arm64) root=(trixie "$processor,arm64" cross "$result") ;;
+    *) root=("$release" "$processor" native "$result") ;;
+  esac
+  outcome=passed
+  in_fresh_root "${root[@]}" >"$result/log" 2>&1 || outcome=FAILED
+  grep -E 'tests passed|Total Test time|new faces from|PASSED' "$result/log" || true
+  if [ "$outcome" = passed ] && ! diff build/releases/demo.sha256 "$result/demo.sha256" >>"$result/log" 2>&1; then
+    outcome='FAILED: the plan and the meshes of the demo differ from those of this system'
+  fi
+  if [ "$outcome" != passed ]; then
+    tail -n 40 "$result/log" >&2
+    status=1
+  fi
+  echo "$release: $outcome ($((SECONDS - start)) s)"
+done
+exit $status
