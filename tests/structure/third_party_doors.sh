@@ -32,7 +32,7 @@ door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/openimageio_codec\.cpp'
 door 'png\.h' 'crowdface/io/png_codec\.cpp'
 door 'ft2build|freetype' 'crowdface/render/text_label\.cpp'
-door 'embree' 'crowdface/render/[a-z_]*\.cpp' 'crowdface/render/embree\.h'
+door 'embree' 'crowdface/render/embree\.h'
 door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp'
 door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
 door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/(face_json|ledger)|run/(casting_report|planned|report))\.h' \
