@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ten new faces from a folder of heads, with pictures, contact sheet and report.
-#include <fstream>
 #include <iostream>
 
 #include "crowdface/crowdface.h"
@@ -9,15 +8,17 @@ using namespace crowdface;
 
 int main(int argc, char** argv) try {
   if (argc != 3) throw UsageError("usage: crowd_of_ten HEADS_DIR CROWD_DIR");
-  const auto path = [](const char* name) {
-    return write_scalar(std::filesystem::absolute(name).string());
-  };
-  const std::filesystem::path config = std::string(argv[2]) + ".yaml";
-  std::ofstream(config) << "schema: 1\n"
-                        << "crowd: {name: ten, count: 10}\n"
-                        << "faces: {directory: " << path(argv[1]) << ", units: cm}\n"
-                        << "output: {directory: " << path(argv[2]) << "}\n";
-  generate(config, {}, {.cache = cache_directory()});
+  // Paths in the text are relative to the folder of the file that it might be from.
+  Problems problems;
+  Config config = read_config_text(
+                      "schema: 1\n"
+                      "crowd: {name: ten, count: 10}\n"
+                      "faces: {directory: ., units: cm}\n",
+                      std::filesystem::path(argv[1]) / "ten.yaml", {}, problems)
+                      .config;
+  problems.throw_if_any();
+  config.output.directory = argv[2];
+  generate(config, {.cache = cache_directory()});
 
   const CrowdCheck check = verify_crowd(argv[2]);
   std::cout << argv[2] << ": " << check.files << " files, "

@@ -396,5 +396,30 @@ TEST(Generate, SheetsAreRemadeFromTheMeshes) {
   EXPECT_THAT(differing_files(before, crowd_files(folder.out())), ::testing::IsEmpty());
 }
 
+// A host that has a config in memory had to write it to a file first.
+TEST(Generate, TakesAConfigAtHandAsItTakesAFile) {
+  const SmallCrowdFolder folder(SmallCrowd{});
+  run(folder, {"crowd.count=3", "sampling.max_sources=2"});
+  const auto expected = testing::crowd_files(folder.out());
+  std::filesystem::remove_all(folder.out());
+  Problems problems;
+  std::optional<Config> config = read_config(folder.config(), {}, problems);
+  ASSERT_TRUE(config);
+  config->crowd.count = 3;
+  config->sampling.max_sources = 2;
+  generate(*config, {.cache = folder.cache()});
+  EXPECT_THAT(testing::differing_files(expected, testing::crowd_files(folder.out())),
+              ::testing::IsEmpty());
+
+  config->file.clear();
+  config->output.directory = folder / "planned";
+  plan(*config, {.cache = folder.cache()});
+  EXPECT_EQ(testing::read_text(folder / "planned/plan.jsonl"), expected.at("plan.jsonl"));
+
+  config->sampling.max_sources = -2;
+  testing::expect_error(ExitCode::kUsage, {"sampling.max_sources"},
+                        [&] { generate(*config, {.cache = folder.cache()}); });
+}
+
 }  // namespace
 }  // namespace crowdface

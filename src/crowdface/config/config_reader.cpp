@@ -62,15 +62,15 @@ void read_path_options(const ConfigOverrides& overrides, ConfigDraft& draft) {
   if (folder) draft.config.output.directory = *folder;
 }
 
-}  // namespace
-
-ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
-                                Problems& problems) {
+/// \param parse  gives the YAML tree, or complains.
+template <class Parse>
+ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrides& overrides,
+                          Problems& problems, const Parse& parse) {
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.config.file = file;
   draft.folder = file.parent_path();
-  auto root = read_yaml(file.string(), complaints);
+  std::optional<YamlNode> root = parse(complaints);
   if (root) {
     apply(overrides, *root, complaints);
     read_edits(*root, draft);
@@ -82,6 +82,20 @@ ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigO
   complaints.tell(problems);
   const bool complete = complaints.empty();
   return {std::move(draft.config), complete, draft.heads_known, root && draft.regions_known};
+}
+
+}  // namespace
+
+ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
+                                Problems& problems) {
+  return read_parsed(file, overrides, problems,
+                     [&](Complaints& out) { return read_yaml(file.string(), out); });
+}
+
+ConfigReading read_config_text(std::string_view text, const std::filesystem::path& file,
+                               const ConfigOverrides& overrides, Problems& problems) {
+  return read_parsed(file, overrides, problems,
+                     [&](Complaints& out) { return parse_yaml(text, file.string(), out); });
 }
 
 std::optional<Config> read_config(const std::filesystem::path& file,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/config/config.h"
@@ -36,7 +37,12 @@ struct ConfigReading {
 ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
                                 Problems& problems);
 
-/// The same, for those who need all of it. \return nothing if there is any problem.
+/// The same of a text, wherever it is from.
+/// \param file  its name in messages, which need not be there; relative paths start at its folder.
+ConfigReading read_config_text(std::string_view text, const std::filesystem::path& file,
+                               const ConfigOverrides& overrides, Problems& problems);
+
+/// A file's, for those who need all of it. \return nothing if there is any problem.
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems);
 

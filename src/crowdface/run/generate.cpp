@@ -339,10 +339,9 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   }
 }
 
-}  // namespace
-
-void generate(const fs::path& config_file, const ConfigOverrides& overrides,
-              const GenerateOptions& options) {
+/// \param load  reads the job.
+template <class Load>
+void generate_loaded(const Load& load, const GenerateOptions& options) {
   if (!options.shard.whole() && options.replace == Replace::kForce) {
     throw UsageError(
         "--force does not go with --shard, as one shard would remove what another made; replace "
@@ -350,8 +349,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   }
   const LogMemory memory;  // the crowd's log is opened once there is a crowd
   StageSeconds stages;
-  const Job job =
-      timed(stages, "read", [&] { return load_job(config_file, overrides, options.cache); });
+  const Job job = timed(stages, "read", load);
   if (options.dry_run) {
     check_output(job, options.replace);
     if (makes_faces(job.config, options)) {
@@ -362,19 +360,7 @@ void generate(const fs::path& config_file, const ConfigOverrides& overrides,
   going_on_if_cut([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
 }
 
-void gather(const fs::path& crowd_directory, const fs::path& cache) {
-  const CrowdDirectory directory{crowd_directory};
-  const LogMemory memory;
-  StageSeconds stages;
-  const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}, cache); });
-  GenerateOptions options;
-  options.cache = cache;
-  going_on_if_cut([&] { run_job(job, options, Purpose::kGather, memory, stages); });
-}
-
-void plan(const fs::path& config_file, const ConfigOverrides& overrides,
-          const GenerateOptions& options) {
-  const Job job = load_job(config_file, overrides, options.cache);
+void plan_job(const Job& job, const GenerateOptions& options) {
   if (options.dry_run) {
     check_output(job, options.replace);
     return tell_dry_run(job.config, nullptr);
@@ -392,6 +378,36 @@ void plan(const fs::path& config_file, const ConfigOverrides& overrides,
     lock.require_still_there();
     log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));
   });
+}
+
+}  // namespace
+
+void generate(const fs::path& config_file, const ConfigOverrides& overrides,
+              const GenerateOptions& options) {
+  generate_loaded([&] { return load_job(config_file, overrides, options.cache); }, options);
+}
+
+void generate(const Config& config, const GenerateOptions& options) {
+  generate_loaded([&] { return load_job(config, options.cache); }, options);
+}
+
+void gather(const fs::path& crowd_directory, const fs::path& cache) {
+  const CrowdDirectory directory{crowd_directory};
+  const LogMemory memory;
+  StageSeconds stages;
+  const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}, cache); });
+  GenerateOptions options;
+  options.cache = cache;
+  going_on_if_cut([&] { run_job(job, options, Purpose::kGather, memory, stages); });
+}
+
+void plan(const fs::path& config_file, const ConfigOverrides& overrides,
+          const GenerateOptions& options) {
+  plan_job(load_job(config_file, overrides, options.cache), options);
+}
+
+void plan(const Config& config, const GenerateOptions& options) {
+  plan_job(load_job(config, options.cache), options);
 }
 
 }  // namespace crowdface

@@ -33,6 +33,8 @@ struct GenerateOptions {
 /// stopped goes on, and a finished crowd is repaired. \throws Error.
 void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options);
+/// The same of a config at hand, whose values are checked as those of a file are.
+void generate(const Config& config, const GenerateOptions& options);
 
 /// Checks the faces that shards have made, and makes what one run over the whole crowd would have
 /// left beside them: sheets, report, one ledger.
@@ -43,5 +45,6 @@ void gather(const std::filesystem::path& crowd_directory, const std::filesystem:
 /// Casting only: writes config.yaml, plan.jsonl and crowd.csv into the crowd's folder.
 void plan(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options);
+void plan(const Config& config, const GenerateOptions& options);
 
 }  // namespace crowdface

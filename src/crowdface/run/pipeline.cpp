@@ -2,6 +2,7 @@
 #include "crowdface/run/pipeline.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "crowdface/config/config_difference.h"
 #include "crowdface/config/input_files.h"
@@ -130,10 +131,12 @@ void choose_folders(Config& config) {
   if (!stands_there) config.output.faces_per_folder = kFacesPerFolder;
 }
 
+using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&)>;
+
 /// The config, with the reviews that the crowd's folder keeps if it holds this very crowd.
-ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
-                                     ConfigOverrides overrides, Problems& problems) {
-  ConfigReading reading = read_config_parts(config_file, overrides, problems);
+ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
+                                     Problems& problems) {
+  ConfigReading reading = read(overrides, problems);
   if (reading.complete) choose_folders(reading.config);
   const CrowdDirectory directory{reading.config.output.directory};
   if (!reading.complete || !is_there(directory.config())) return reading;
@@ -142,7 +145,7 @@ ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
   const std::string config = effective_config(reading.config, directory.root);
   const auto difference = config_difference(read_file(directory.config()), config);
   if (!difference) {
-    reading = read_config_parts(config_file, overrides, problems);
+    reading = read(overrides, problems);
     choose_folders(reading.config);
     return reading;
   }
@@ -152,12 +155,9 @@ ConfigReading read_with_kept_reviews(const std::filesystem::path& config_file,
   return reading;
 }
 
-}  // namespace
-
-std::optional<Job> load_job(const std::filesystem::path& config_file,
-                            const ConfigOverrides& overrides, const std::filesystem::path& cache,
-                            Problems& problems) {
-  ConfigReading reading = read_with_kept_reviews(config_file, overrides, problems);
+std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& overrides,
+                                 const std::filesystem::path& cache, Problems& problems) {
+  ConfigReading reading = read_with_kept_reviews(read, overrides, problems);
   if (!reading.complete) {
     check_inputs(reading, cache, problems);
     return std::nullopt;
@@ -178,6 +178,29 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
   const PlanNames names = config.plan_names();
   const Digest settings = settings_digest(config, *inputs);
   return Job{std::move(config), std::move(*inputs), smoothing, names, settings};
+}
+
+}  // namespace
+
+std::optional<Job> load_job(const std::filesystem::path& config_file,
+                            const ConfigOverrides& overrides, const std::filesystem::path& cache,
+                            Problems& problems) {
+  return load_read_job([&](const ConfigOverrides& more,
+                           Problems& out) { return read_config_parts(config_file, more, out); },
+                       overrides, cache, problems);
+}
+
+Job load_job(const Config& config, const std::filesystem::path& cache) {
+  const std::filesystem::path file = config.file.empty() ? "config" : config.file;
+  const std::string text = effective_config(config, std::filesystem::absolute(file).parent_path());
+  Problems problems;
+  std::optional<Job> job = load_read_job(
+      [&](const ConfigOverrides& more, Problems& out) {
+        return read_config_text(text, std::filesystem::absolute(file), more, out);
+      },
+      {}, cache, problems);
+  problems.throw_if_any();
+  return std::move(*job);
 }
 
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,

@@ -32,6 +32,10 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
              const std::filesystem::path& cache = {});
 
+/// The same of a config at hand. What it says is checked as the text of a file is, of which its paths are: it is
+/// written out and read again.
+Job load_job(const Config& config, const std::filesystem::path& cache = {});
+
 /// How many faces the config asks for.
 std::uint64_t face_count(const Config& config);
 
