@@ -36,7 +36,7 @@ native() {
   fi
 }
 
-# The same for arm64, without pictures, which take long under emulation.
+# The same for arm64. The heads are those of this system: their textures would take half an hour under emulation.
 cross() {
   export DEBIAN_FRONTEND=noninteractive
   apt-get update
@@ -53,13 +53,14 @@ cross() {
   apt-get install -y --no-install-recommends "${packages[@]}"
   cmake --preset arm64
   cmake --build --preset arm64 --target crowdface $(printf 'crowdface_%s_test ' $first_tests)
-  local test
+  local test head
   for test in $first_tests; do
     [ $test != run ] || export GTEST_FILTER='*Golden*'
     qemu-aarch64-static "build/arm64/bin/crowdface_${test}_test" --gtest_brief=1
   done
   local crowdface='qemu-aarch64-static build/arm64/bin/crowdface'
-  $crowdface synth -o out/demo_heads --count 16 --vertices 20000 --seed 1 --textures 1024 --hair
+  $crowdface synth -o out/arm_heads --count 16 --vertices 20000 --seed 1
+  for head in out/arm_heads/*.obj; do cmp <(grep ^v "$head") <(grep ^v "out/demo_heads/${head##*/}"); done
   $crowdface generate configs/demo.yaml
 }
 
@@ -102,7 +103,10 @@ for release in "${releases[@]}"; do
   start=$SECONDS
   echo "$release: a fresh root, then the two commands (log: $result/log)"
   case $release in
-    arm64) root=(trixie "$processor,arm64" cross "$result") ;;
+    arm64)
+      root=(trixie "$processor,arm64" cross "$result")
+      tar --append --file "$tree" out/demo_heads
+      ;;
     *) root=("$release" "$processor" native "$result") ;;
   esac
   outcome=passed
