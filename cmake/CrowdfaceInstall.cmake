@@ -5,8 +5,23 @@ include(CMakePackageConfigHelpers)
 get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)
 install(TARGETS crowdface)
 install(TARGETS ${modules} crowdface_images EXPORT crowdfaceTargets)
-install(DIRECTORY src/crowdface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h")
+# The public headers: crowdface.h and all that it includes.
+set(unread crowdface/crowdface.h)
+set(public_headers "")
+while(unread)
+  list(POP_FRONT unread header)
+  if(header IN_LIST public_headers OR NOT EXISTS ${PROJECT_SOURCE_DIR}/src/${header})
+    continue()  # version.h is made
+  endif()
+  list(APPEND public_headers ${header})
+  file(STRINGS ${PROJECT_SOURCE_DIR}/src/${header} includes REGEX "^#include \"")
+  list(TRANSFORM includes REPLACE "^#include \"(.*)\".*" "\\1")
+  list(APPEND unread ${includes})
+endwhile()
+foreach(header IN LISTS public_headers)
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/crowdface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h")
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// What most programs need of crowdface::run and the modules below it. Wrapping has a target of its own,
-/// crowdface::wrap.
+/// The public headers: these and all that they include. No other header is installed, and anything else may change
+/// without notice.
 #pragma once
 
 #include "crowdface/blend/blend.h"
@@ -9,19 +9,16 @@
 #include "crowdface/cast/face_area.h"
 #include "crowdface/config/config.h"
 #include "crowdface/config/config_reader.h"
-#include "crowdface/config/starter_config.h"
-#include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
-#include "crowdface/crowd/crowd_directory.h"
-#include "crowdface/crowd/plan_file.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/heads/prepare.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/adjacency.h"
@@ -29,10 +26,7 @@
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/region/region_weights.h"
-#include "crowdface/run/face_builder.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/mesh_writers.h"
-#include "crowdface/run/pipeline.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/iterate.h"
 #include "crowdface/smooth/smoothing_operator.h"

@@ -16,6 +16,10 @@ for file in bin/crowdface include/crowdface/crowdface.h include/crowdface/core/v
   share/crowdface/configs/demo.yaml share/doc/crowdface/LICENSE share/doc/crowdface/config.md; do
   [ -e "$place/prefix/$file" ] || { echo "not installed: $file"; exit 1; }
 done
+# The public headers alone: crowdface.h includes neither of these.
+for file in core/text.h run/mesh_writers.h; do
+  [ ! -e "$place/prefix/include/crowdface/$file" ] || { echo "installed, and not public: $file"; exit 1; }
+done
 "$place/prefix/bin/crowdface" --version
 # What it loads for images lies where it looks.
 "$place/prefix/bin/crowdface" synth -q -o "$place/heads" --count 2 --vertices 5000
