@@ -60,21 +60,6 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
   }
 }
 
-TEST(Diversity, AskingForMoreDrawsNoFewerCandidates) {
-  const DiversityOptions defaults;
-  DiversityOptions more;
-  more.min_distance_mm = 1;
-  EXPECT_EQ(more.candidates_for(1), defaults.candidates_for(1));
-  for (const int candidates : {1, 40}) {
-    more.candidates = candidates;
-    more.pool = candidates;
-    EXPECT_GE(more.candidates_for(1), defaults.candidates_for(1));
-    EXPECT_GE(more.candidates_for(5000), defaults.candidates_for(5000));
-    EXPECT_GE(more.pool_for_each(), defaults.pool_for_each());
-  }
-  EXPECT_EQ(more.candidates_for(1), 40);
-}
-
 TEST(Ageing, CanBeTakenBack) {
   Casting casting = example();
   casting.sampling.old_heads = {1, 4};

@@ -228,7 +228,7 @@ TEST(Plan, BuildsNoMeshesAndKeepsTheCache) {
 TEST(Plan, TellsAtOnceThatFarTooManyFacesAreAskedFor) {
   SmallCrowd crowd;
   crowd.count = 1'000'000;
-  crowd.more = "diversity: {min_distance: 0.06 mm, max_attempts: 100}\n";
+  crowd.more = "diversity: {min_distance: 0.06 mm}\n";
   const SmallCrowdFolder folder(crowd);
   const Outcome outcome = crowdface(3, {"plan", folder.config().string()},
                                     {"mm apart, not 1000000", "of 1000000 faces"});

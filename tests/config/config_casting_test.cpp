@@ -17,8 +17,7 @@ TEST_F(ConfigTest, CastingIsRead) {
   const auto config =
       read(kBands +
            "diversity: {mode: spread, min_distance: 1.5 mm, min_distance_to_faces: "
-           "1 mm, max_weight: 0.7, candidates: 4, pool: 20, "
-           "max_attempts: 50}\n"
+           "1 mm, max_weight: 0.7, pool: 10, max_attempts: 1000}\n"  // as older crowds have it
            "distance: {area: skin}\n"
            "believability: {max_deviation: 2, max_stretch: 4, max_flipped: 0.01, "
            "max_intersecting: 0.02, meshes: none}\n"
@@ -31,9 +30,6 @@ TEST_F(ConfigTest, CastingIsRead) {
   EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
   EXPECT_EQ(config->diversity.min_distance_to_faces_mm, 1);
   EXPECT_EQ(config->diversity.max_weight, 0.7);
-  EXPECT_EQ(config->diversity.candidates, 4);
-  EXPECT_EQ(config->diversity.pool, 20);
-  EXPECT_EQ(config->diversity.max_attempts, 50);
   EXPECT_EQ(config->distance.area, FaceArea::kSkin);
   EXPECT_EQ(config->believability.max_stretch, 4);
   EXPECT_EQ(config->believability.meshes, BelievabilityOptions::Meshes::kNone);
@@ -292,6 +288,8 @@ TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   refused("diversity: {min_distance: 2}\n", "expected a length with its unit");
   refused("diversity: {mode: best}\n", "first_fit or spread");
   refused("diversity: {max_weight: 0}\n", "above 0");
+  refused("diversity: {candidates: 40}\n", "no such key any more");
+  refused("diversity: {max_attempts: 50}\n", "no such key any more");
   refused("diversity: {quotas: {eve: 0.5}}\n", "groups take the place of quotas");
   refused("families: [{name: smith, members: 0, max_distance: 2 mm}]\n", "from 1 to 1000");
   refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "needs a letter");

@@ -81,9 +81,6 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.diversity.min_distance_mm, b.diversity.min_distance_mm);
   EXPECT_EQ(a.diversity.min_distance_to_faces_mm, b.diversity.min_distance_to_faces_mm);
   EXPECT_EQ(a.diversity.max_weight, b.diversity.max_weight);
-  EXPECT_EQ(a.diversity.candidates, b.diversity.candidates);
-  EXPECT_EQ(a.diversity.pool, b.diversity.pool);
-  EXPECT_EQ(a.diversity.max_attempts, b.diversity.max_attempts);
   EXPECT_EQ(a.believability.check, b.believability.check);
   EXPECT_EQ(a.believability.max_deviation, b.believability.max_deviation);
   EXPECT_EQ(a.believability.max_flipped, b.believability.max_flipped);
@@ -229,8 +226,6 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "  min_distance: 0 mm\n"
             "  min_distance_to_faces: 0 mm\n"
             "  max_weight: 1\n"
-            "  pool: 10\n"
-            "  max_attempts: 1000\n"
             "believability:\n"
             "  max_deviation: 2.5\n"
             "  max_stretch: 3\n"
@@ -298,7 +293,7 @@ TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
       "distance: {area: skin, mask: mask.png}\n"
       "diversity: {mode: spread, min_distance: 1.25 mm, min_distance_to_faces: 0.5 mm, max_weight: "
       "0.75,\n"
-      "            candidates: 3, pool: 7, max_attempts: 99}\n"
+      "            min_distance_to_rejected: 1 mm}\n"
       "believability: {max_deviation: 4, max_stretch: 5, max_flipped: 0.125, meshes: all}\n"
       "textures: {blend: target, size: 512, formats: [jpeg, png]}\n"
       "families:\n"

@@ -234,8 +234,6 @@ TEST(Casting, AskingForDistanceLowersNothing) {
   };
   const double defaults = closest({});
   EXPECT_GE(closest({"diversity.min_distance=0.1 mm"}), defaults);
-  EXPECT_GE(closest({"diversity.candidates=1"}), defaults);
-  EXPECT_GE(closest({"diversity.candidates=1", "diversity.min_distance=0.1 mm"}), defaults);
 }
 
 TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
@@ -295,7 +293,7 @@ TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
 TEST(Casting, WhatCannotBeDoneIsToldAndLeavesNothing) {
   SmallCrowd crowd = six_bowls();
   crowd.count = 60;
-  crowd.more = "diversity: {min_distance: 4 mm, max_attempts: 60}\n";
+  crowd.more = "diversity: {min_distance: 4 mm}\n";
   const SmallCrowdFolder folder(crowd);
   std::string message;
   try {

@@ -108,7 +108,7 @@ TEST(GenerateBands, ChildrenInheritByBand) {
   crowd.more =
       "families: [{name: kin, members: 2, parents: {mother: ann, father: bob}, inherit: "
       "{a_build: mother, b_features: father, region_3/c_skin: father}, max_distance: 20 mm, "
-      "min_distance: 0 mm}]\ndiversity: {candidates: 2}\nbelievability: none\n";
+      "min_distance: 0 mm}]\nbelievability: none\n";
   const SmallCrowdFolder folder(crowd);
   run(folder);
   const auto lines = plan_lines(folder.out());
@@ -141,7 +141,7 @@ TEST(GenerateBands, OfParentsWithOtherLevelsKeepTheirOrder) {
       "{b_features: {iterations: 22}, c_skin: {iterations: 20}}}}}\n"
       "families: [{name: kin, members: 2, parents: {mother: fine, father: coarse}, inherit: "
       "{a_build: mother, b_features: father, c_skin: father}, max_distance: 20 mm, "
-      "min_distance: 0 mm}]\ndiversity: {candidates: 2}\nbelievability: none\n";
+      "min_distance: 0 mm}]\nbelievability: none\n";
   const SmallCrowdFolder folder(crowd);
   run(folder);
   int children = 0;
@@ -166,7 +166,7 @@ TEST(GenerateBands, AGroupBindsTheHeadsOfABand) {
       "{targets: [bob], position: {distribution: anchored, pull: 0}, bands: {build: 0.9, skin: "
       "{smoothness: 0.1}}}";
   crowd.more =
-      "diversity: {candidates: 2}\ngroups: [{name: with_dan, share: 0.25, bands: {skin: {sources: "
+      "groups: [{name: with_dan, share: 0.25, bands: {skin: {sources: "
       "[dan]}}}, {name: others, bands: {skin: {sources: [ann, bob, cyd]}}}]\n";
   const SmallCrowdFolder folder(crowd);
   run(folder);

@@ -56,7 +56,7 @@ class Heads {
     return folder_.write(
         concat(name, ".yaml"),
         concat("schema: 1\ncrowd: {name: mob, count: 6, seed: 3}\nfaces: {directory: heads, ",
-               "align: none, units: cm}\nsmoothing: {levels: exact}\ndiversity: {candidates: 2}\n",
+               "align: none, units: cm}\nsmoothing: {levels: exact}\n",
                "output: {directory: ", name, ", contact_sheet: none}\n", more));
   }
   const testing::TemporaryFolder& folder() const { return folder_; }

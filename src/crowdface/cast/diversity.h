@@ -25,18 +25,13 @@ struct DiversityOptions {
   double min_distance_to_faces_mm = 0;  ///< from every input head
   /// Between a face that a review rejected and the one in its place; none: half the crowd's median.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;  ///< of one head in one region
-  /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept; but of 32
-  /// at least for the first thousand faces and of 8 for all others, whatever else is asked for.
-  std::optional<int> candidates;
-  int pool = 10;            ///< kSpread: pool size, in crowds; at least 10
-  int max_attempts = 1000;  ///< draws of one face before casting gives up
+  double max_weight = 1;                      ///< of one head in one region
+  int max_attempts = 1000;                    ///< draws of one face before casting gives up
+  static constexpr std::uint64_t kPool = 10;  ///< kSpread: pool size, in crowds
 
-  /// For the face with that number, from 1: it must not depend on how many there will be.
-  int candidates_for(std::uint64_t index) const {
-    return std::max(candidates.value_or(0), index <= 1000 ? 32 : 8);
-  }
-  std::uint64_t pool_for_each() const { return static_cast<std::uint64_t>(std::max(pool, 10)); }
+  /// kFirstFit: of that many faces that would do, the one farthest from the crowd is kept. It must not depend
+  /// on how many faces there will be. \param index  of the face, from 1.
+  static int candidates_for(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
 };
 
 /// What a face must not be. The limits let through what faces between the heads do (scans have

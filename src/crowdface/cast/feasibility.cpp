@@ -74,7 +74,6 @@ std::optional<Shortfall> hopeless_spread(const Casting& casting, const FaceJudge
   }
   Casting first_fit = casting;
   first_fit.diversity.mode = DiversityOptions::Mode::kFirstFit;
-  first_fit.diversity.candidates = 1;
   first_fit.reviews.clear();
   first_fit.count = kMostTried;
   return cast_crowd(first_fit, judge).shortfall;

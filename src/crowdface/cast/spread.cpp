@@ -107,8 +107,7 @@ void FarthestPoints::pick(Index candidate) {
 void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
                  const Kinship& kinship, CrowdSoFar& crowd, const FaceJoined& joined,
                  CrowdCast& result) {
-  CandidatePool pool =
-      draw_pool(casting, judge, kinds, casting.count, casting.diversity.pool_for_each());
+  CandidatePool pool = draw_pool(casting, judge, kinds, casting.count, DiversityOptions::kPool);
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
   for (std::uint64_t index = 1; index <= casting.count; ++index) {

@@ -64,7 +64,7 @@ const Keys<Attachment>& item_keys() {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
       key("file", &Attachment::file, obj_file(), "an OBJ file"),
-      {"tags", read_item_tags, write_tags},
+      Key<Attachment>{"tags", read_item_tags, write_tags}.taking("list of tags"),
       word_key("moves", &Attachment::moves),
       of_item("share", &AttachmentItem::share, number(0, kMostShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
@@ -197,11 +197,16 @@ auto write_shares(std::map<std::string, double> Attachments::*shares) {
 
 const Keys<Attachments>& attachments_keys() {
   static const Keys<Attachments> keys = {
-      {"fitted_to", read_fitted_to, write_fitted_to},
-      {"items", read_items, write_items,
-       "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]"},
-      {"none", read_none, write_shares(&Attachments::none)},
-      {"quotas", read_item_quotas, write_shares(&Attachments::quotas)}};
+      Key<Attachments>{"fitted_to", read_fitted_to, write_fitted_to}.taking(
+          "`mean`, head, or OBJ file"),
+      Key<Attachments>{"items", read_items, write_items,
+                       "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]"}
+          .taking("list of mappings with the keys below")
+          .holding(item_keys()),
+      Key<Attachments>{"none", read_none, write_shares(&Attachments::none)}.taking(
+          "`{kind: share}`, shares 0 … 1"),
+      Key<Attachments>{"quotas", read_item_quotas, write_shares(&Attachments::quotas)}.taking(
+          "`{kind, name or colour: share}`, shares 0 … 1")};
   return keys;
 }
 
@@ -219,8 +224,6 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
     }
   }
 }
-
-}  // namespace
 
 void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (is_word(node, "none")) return;
@@ -243,6 +246,13 @@ std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
 std::string write_attachments(const Config& config, const ConfigWriting& writing) {
   if (config.attachments.items.empty()) return "";
   return block_map(write_keys(attachments_keys(), config.attachments, writing));
+}
+
+}  // namespace
+
+Key<Config> attachments_key() {
+  return Key<Config>{"attachments", read_attachments, write_attachments, {}, attachments_starter}
+      .holding(attachments_keys());
 }
 
 }  // namespace crowdface

@@ -12,9 +12,6 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint64_t kMostCandidates = 1000;
-constexpr std::uint64_t kLargestPool = 1000;
-constexpr std::uint64_t kMostAttempts = 1'000'000;
 constexpr double kShareRounding = 1e-9;
 constexpr Eigen::Index kMostJudged = 200'000;  // vertices of heads whose meshes a starter judges
 
@@ -145,11 +142,23 @@ const Keys<BelievabilityOptions>& believability_keys() {
   return keys;
 }
 
+/// A key of older versions, which the configs of their crowds have with this value.
+Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
+  return {name,
+          [=](const YamlNode& node, auto&, ConfigDraft& draft) {
+            if (node.text != value) {
+              draft.complaints.about(node, "there is no such key any more; leave it out");
+            }
+          },
+          [](const auto&...) { return ""; }};
+}
+
 }  // namespace
 
 const Keys<Config::Distance>& distance_keys() {
-  static const Keys<Config::Distance> keys = {word_key("area", &Config::Distance::area),
-                                              {"mask", read_mask, write_mask}};
+  static const Keys<Config::Distance> keys = {
+      word_key("area", &Config::Distance::area),
+      Key<Config::Distance>{"mask", read_mask, write_mask}.taking("image file")};
   return keys;
 }
 
@@ -167,11 +176,13 @@ const Keys<DiversityOptions>& diversity_keys() {
       key("max_weight", &Diversity::max_weight,
           above_zero(number(0, 1), "a number above 0, up to 1")),
       {"quotas", refuse_quotas, [](const auto&...) { return ""; }},
-      key("candidates", &Diversity::candidates, whole(1, kMostCandidates)),
-      key("pool", &Diversity::pool, whole(1, kLargestPool)),
-      key("max_attempts", &Diversity::max_attempts, whole(1, kMostAttempts))};
+      gone_key("candidates", {}),
+      gone_key("pool", "10"),
+      gone_key("max_attempts", "1000")};
   return keys;
 }
+
+namespace {
 
 void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft) {
   config.believability.check = !is_word(node, "none");
@@ -180,13 +191,20 @@ void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft
   }
 }
 
-Starter believability_starter() {
-  return starter_section(believability_keys());
-}
-
 std::string write_believability(const Config& config, const ConfigWriting& writing) {
   if (!config.believability.check) return "none";
   return block_map(write_keys(believability_keys(), config.believability, writing));
+}
+
+}  // namespace
+
+Key<Config> believability_key() {
+  return Key<Config>{"believability",
+                     read_believability,
+                     write_believability,
+                     {},
+                     starter_section(believability_keys())}
+      .holding(believability_keys());
 }
 
 }  // namespace crowdface

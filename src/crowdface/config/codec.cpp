@@ -16,9 +16,10 @@ using Unit = SmoothnessDistribution::Unit;
 
 /// A codec of values that need nothing but their YAML.
 template <class Value, class Read, class Write>
-Codec<Value> plain(const Read& read, const Write& write) {
+Codec<Value> plain(const Read& read, const Write& write, const std::string& takes) {
   return {[=](const YamlNode& node, ConfigDraft& draft) { return read(node, draft.complaints); },
-          [=](const Value& value, const ConfigWriting&) { return std::string(write(value)); }};
+          [=](const Value& value, const ConfigWriting&) { return std::string(write(value)); },
+          takes};
 }
 
 bool is_size(const YamlNode& node) {
@@ -55,7 +56,8 @@ Codec<double> iteration_count() {
             const auto count = read_whole(node, 0, most, draft.complaints);
             return count ? std::optional(static_cast<double>(*count)) : std::nullopt;
           },
-          [](double count, const auto&) { return concat(static_cast<std::uint64_t>(count)); }};
+          [](double count, const auto&) { return concat(static_cast<std::uint64_t>(count)); },
+          "whole number"};
 }
 
 /// One value or a range of them, in this unit.
@@ -67,7 +69,8 @@ Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
           },
           [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
             return ranges.write(smoothness.range, writing);
-          }};
+          },
+          ranges.takes};
 }
 
 /// `{name: weight}`: a head's own entry counts alone, the weights of several tags add up.
@@ -136,16 +139,24 @@ std::string ConfigWriting::head(Eigen::Index index) const {
   return write_scalar(config.faces.names[static_cast<std::size_t>(index)]);
 }
 
+std::string without_article(std::string_view expected) {
+  for (const std::string_view article : {"a ", "an "}) {
+    if (expected.starts_with(article)) expected.remove_prefix(article.size());
+  }
+  return std::string(expected);
+}
+
 Codec<double> number(double low, double high) {
   return plain<double>(
       [=](const YamlNode& node, Complaints& out) { return read_number(node, low, high, out); },
-      format_number);
+      format_number, concat("number, ", plain_number(low), " … ", plain_number(high)));
 }
 
 Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high) {
   return plain<std::uint64_t>(
       [=](const YamlNode& node, Complaints& out) { return read_whole(node, low, high, out); },
-      [](std::uint64_t value) { return concat(value); });
+      [](std::uint64_t value) { return concat(value); },
+      concat("whole number, ", low, " … ", high));
 }
 
 Codec<double> length(double high_mm) {
@@ -164,18 +175,23 @@ Codec<double> length(double high_mm) {
         }
         return *value == 0 ? 0.0 : *value;  // -0 is 0
       },
-      [](double value_mm) { return concat(value_mm, " mm"); });
+      [](double value_mm) { return concat(value_mm, " mm"); },
+      concat("length, up to ", plain_number(high_mm), " mm"));
 }
 
 Codec<double> positive_length(double high_mm) {
-  return above_zero(length(high_mm), "a length above 0 mm");
+  return above_zero(length(high_mm),
+                    concat("a length above 0 mm, up to ", plain_number(high_mm), " mm"));
 }
 
 Codec<double> above_zero(const Codec<double>& codec, const std::string& expected) {
-  return such_that(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
-    if (value == 0) draft.complaints.expected(node, expected);
-    return value != 0;
-  });
+  Codec<double> above =
+      such_that(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
+        if (value == 0) draft.complaints.expected(node, expected);
+        return value != 0;
+      });
+  above.takes = without_article(expected);
+  return above;
 }
 
 Codec<Range> range(const Codec<double>& one) {
@@ -199,7 +215,8 @@ Codec<Range> range(const Codec<double>& one) {
           [=](const Range& range, const ConfigWriting& writing) {
             const std::string low = one.write(range.low, writing);
             return range.low == range.high ? low : flow_list({low, one.write(range.high, writing)});
-          }};
+          },
+          concat(one.takes, ", or a range `[low, high]`")};
 }
 
 Codec<Range> age() {
@@ -239,7 +256,8 @@ Codec<SmoothnessDistribution> smoothness() {
           },
           [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
             return (smoothness.unit == Unit::kSize ? sizes : fractions).write(smoothness, writing);
-          }};
+          },
+          "fraction, 0 … 1, or a size, or a range of either"};
 }
 
 Codec<SmoothnessDistribution> iterations() {
@@ -253,13 +271,13 @@ std::string write_weights(const std::vector<WeightedHead>& weights, const Config
 }
 
 Codec<std::string> name() {
-  return plain<std::string>(read_name, write_scalar);
+  return plain<std::string>(read_name, write_scalar, "name");
 }
 
 Codec<std::string> text(const std::string& expected) {
   return plain<std::string>(
       [=](const YamlNode& node, Complaints& out) { return read_text(node, expected, out); },
-      write_scalar);
+      write_scalar, without_article(expected));
 }
 
 Codec<Eigen::Index> head() {
@@ -267,15 +285,17 @@ Codec<Eigen::Index> head() {
             const auto name = read_name(node, draft.complaints);
             return name ? find_head(*name, node.place, node.path, draft) : std::nullopt;
           },
-          [](Eigen::Index index, const ConfigWriting& writing) { return writing.head(index); }};
+          [](Eigen::Index index, const ConfigWriting& writing) { return writing.head(index); },
+          "head"};
 }
 
 Codec<std::vector<Eigen::Index>> head_list() {
-  return {read_heads, write_heads};
+  return {read_heads, write_heads, "`all`, or a list of heads and tags"};
 }
 
 Codec<std::vector<WeightedHead>> weighted_heads() {
-  return {read_weighted_heads, write_weighted_heads};
+  return {read_weighted_heads, write_weighted_heads,
+          "`all`, a list of heads and tags, or `{head or tag: weight}`"};
 }
 
 Codec<PlanePoint> point() {
@@ -290,7 +310,8 @@ Codec<PlanePoint> point() {
           },
           [](const PlanePoint& at, const ConfigWriting&) {
             return flow_list({format_number(at.x()), format_number(at.y())});
-          }};
+          },
+          "`[x, y]`"};
 }
 
 Codec<std::filesystem::path> path(const std::string& expected) {
@@ -304,7 +325,8 @@ Codec<std::filesystem::path> path(const std::string& expected) {
             const auto absolute = std::filesystem::absolute(file).lexically_normal();
             const auto relative = absolute.lexically_relative(writing.folder);
             return write_scalar(relative.empty() ? absolute.string() : relative.string());
-          }};
+          },
+          without_article(expected)};
 }
 
 Codec<std::filesystem::path> obj_file() {

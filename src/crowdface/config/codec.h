@@ -27,7 +27,11 @@ template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
   std::function<std::string(const Value&, const ConfigWriting&)> write;
+  std::string takes = {};  ///< the values, for docs/config.md: "number, 0 … 1"
 };
+
+/// "list of tags" for "a list of tags".
+std::string without_article(std::string_view expected);
 
 /// A number, bounds included.
 Codec<double> number(double low, double high);
@@ -74,13 +78,21 @@ Codec<Value> such_that(Codec<Value> codec, const Fits& fits) {
   return codec;
 }
 
+/// "`front`, `skin`".
+template <class Value>
+std::string shown_words() {
+  return join(texts_of(words_of<Value>(),
+                       [](const Word<Value>& word) { return concat('`', word.text, '`'); }));
+}
+
 /// One of the words of the type.
 template <class Value>
 Codec<Value> word() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
             return read_choice(node, words_of<Value>(), draft.complaints);
           },
-          [](Value value, const ConfigWriting&) { return std::string(word_of(value)); }};
+          [](Value value, const ConfigWriting&) { return std::string(word_of(value)); },
+          shown_words<Value>()};
 }
 
 /// A list of values that each stand in one line.
@@ -97,13 +109,15 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
           [=](const std::vector<Value>& values, const ConfigWriting& writing) {
             return flow_list(
                 texts_of(values, [&](const Value& value) { return item.write(value, writing); }));
-          }};
+          },
+          without_article(expected)};
 }
 
 /// A list of words, each once. \param expected  "a list of views, [front, profile]".
 template <class Value>
 Codec<std::vector<Value>> words(const std::string& expected, std::size_t fewest = 1) {
   auto codec = list(word<Value>(), expected);
+  codec.takes = concat("list of ", shown_words<Value>(), ", each once");
   codec.read = [=, read = codec.read](const YamlNode& node,
                                       ConfigDraft& draft) -> std::optional<std::vector<Value>> {
     if (node.kind != YamlNode::Kind::kList || node.items.size() < fewest) {

@@ -20,6 +20,19 @@ struct StarterLines {
 };
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
+/// A row of the tables in docs/config.md.
+struct KeyRow {
+  std::string section, key;
+  std::string takes;    ///< which values
+  std::string initial;  ///< the value if the key is left out; "required", or empty for none
+};
+
+template <class Section>
+struct Key;
+template <class Section>
+std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
+                             const Section& initial);
+
 /// One key of a section: a row from which it is known, read and written.
 template <class Section>
 struct Key {
@@ -30,6 +43,9 @@ struct Key {
   std::function<std::string(const Section&, const ConfigWriting&)> write;
   std::string_view required = {};  ///< for a key that must be there: what would do
   Starter starter = {};            ///< none: it is not in a starter config
+  std::string takes = {};          ///< the values, for docs/config.md
+  /// The rows of the keys in its own mapping, if there are any. \param section  the path of that mapping.
+  std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
 
   Key in_starter(const Starter& lines) const {
     Key key = *this;
@@ -38,6 +54,20 @@ struct Key {
   }
   Key in_starter(const StarterLines& lines) const {
     return in_starter([=](const StarterFacts&) { return lines; });
+  }
+  Key taking(std::string values) const {
+    Key key = *this;
+    key.takes = std::move(values);
+    return key;
+  }
+  /// \param keys  of its own mapping.
+  template <class Inner>
+  Key holding(const std::vector<Key<Inner>>& keys, const Inner& initial = {}) const {
+    Key key = *this;
+    key.rows = [&keys, initial](const std::string& section) {
+      return key_rows(section, keys, initial);
+    };
+    return key;
   }
   /// Of other sections the key is left out.
   template <class Is>
@@ -87,6 +117,33 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
   return entries;
 }
 
+/// A value as it stands in docs/config.md.
+std::string in_one_line(std::string_view value);
+
+/// The rows of a section's keys, and of those in their mappings.
+template <class Section>
+std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& keys,
+                             const Section& initial) {
+  std::vector<KeyRow> rows;
+  const Config defaults;
+  for (const Key<Section>& key : keys) {
+    if (!key.takes.empty()) {
+      rows.push_back(
+          {section, std::string(key.name), key.takes,
+           key.required.empty() ? in_one_line(key.write(initial, {defaults, {}})) : "required"});
+    }
+    if (!key.rows) continue;
+    const std::string path =
+        section.empty() ? std::string(key.name) : concat(section, '.', key.name);
+    const std::vector<KeyRow> own = key.rows(path);
+    rows.insert(rows.end(), own.begin(), own.end());
+  }
+  return rows;
+}
+
+/// The rows of all keys of a config.
+std::vector<KeyRow> config_key_rows();
+
 /// A list of such sections.
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
@@ -135,7 +192,8 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
             }
           },
           required,
-          {}};
+          {},
+          codec.takes};
 }
 
 /// What is looked at once a section is read. \param sound  whether it had no complaint.
@@ -145,16 +203,20 @@ using SectionCheck = void (*)(const YamlNode& node, bool sound, ConfigDraft& dra
 template <class Section, class Member>
 Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Member>& keys,
                          std::string_view required = {}, SectionCheck check = nullptr) {
-  return {name,
-          [=, &keys](const YamlNode& node, Section& section, ConfigDraft& draft) {
-            const std::size_t complaints_before = draft.complaints.size();
-            read_keys(node, keys, section.*member, draft);
-            if (check) check(node, draft.complaints.size() == complaints_before, draft);
-          },
-          [=, &keys](const Section& section, const ConfigWriting& writing) {
-            return block_map(write_keys(keys, section.*member, writing));
-          },
-          required, starter_section(keys)};
+  return {
+      name,
+      [=, &keys](const YamlNode& node, Section& section, ConfigDraft& draft) {
+        const std::size_t complaints_before = draft.complaints.size();
+        read_keys(node, keys, section.*member, draft);
+        if (check) check(node, draft.complaints.size() == complaints_before, draft);
+      },
+      [=, &keys](const Section& section, const ConfigWriting& writing) {
+        return block_map(write_keys(keys, section.*member, writing));
+      },
+      required,
+      starter_section(keys),
+      {},
+      [&keys, member](const std::string& path) { return key_rows(path, keys, Section{}.*member); }};
 }
 
 template <class Section, class Value>
@@ -169,29 +231,17 @@ const Keys<Config::Distance>& distance_keys();
 const Keys<DiversityOptions>& diversity_keys();
 const Keys<SamplingOptions>& sampling_keys();
 const Keys<Config::Output>& output_keys();
-void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_faces(const Config& config, const ConfigWriting& writing);
-std::optional<StarterLines> faces_starter(const StarterFacts& facts);
-void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_regions(const Config& config, const ConfigWriting& writing);
-std::optional<StarterLines> regions_starter(const StarterFacts& facts);
-void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_shapes(const Config& config, const ConfigWriting& writing);
-void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_attachments(const Config& config, const ConfigWriting& writing);
-std::optional<StarterLines> attachments_starter(const StarterFacts& facts);
-void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_believability(const Config& config, const ConfigWriting& writing);
-Starter believability_starter();
-void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_recipes(const Config& config, const ConfigWriting& writing);
-void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_groups(const Config& config, const ConfigWriting& writing);
-std::optional<StarterLines> groups_starter(const StarterFacts& facts);
+Key<Config> faces_key();
+Key<Config> regions_key();
+Key<Config> shapes_key();
+Key<Config> attachments_key();
+Key<Config> believability_key();
+Key<Config> recipes_key();
+Key<Config> groups_key();
+Key<Config> families_key();
 /// The ids of a family's members, and of parents who are drawn.
 std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
-void read_families(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_families(const Config& config, const ConfigWriting& writing);
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_review(const Config& config, const ConfigWriting& writing);
+
 }  // namespace crowdface

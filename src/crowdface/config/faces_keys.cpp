@@ -133,7 +133,8 @@ Codec<Axis> axis() {
             if (!axis) draft.complaints.expected(node, "an axis, +X, -X, +Y, -Y, +Z or -Z");
             return axis;
           },
-          [](const Axis& axis, const ConfigWriting&) { return name_of(axis); }};
+          [](const Axis& axis, const ConfigWriting&) { return name_of(axis); },
+          "axis: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`"};
 }
 
 /// In a comment: what is no head's name might end the line.
@@ -170,12 +171,12 @@ StarterLines starter_tags(const StarterFacts& facts) {
 
 const Keys<Faces>& faces_keys() {
   static const Keys<Faces> keys = {
-      {"directory",
-       read_head_directory,
-       [](const auto&...) { return ""; },
-       {},
-       [](const StarterFacts& facts) { return StarterLines{write_scalar(facts.heads.string())}; }},
-      {"files", read_files, write_files},
+      Key<Faces>{"directory", read_head_directory, [](const auto&...) { return ""; }}
+          .taking("folder")
+          .in_starter([](const StarterFacts& facts) {
+            return StarterLines{write_scalar(facts.heads.string())};
+          }),
+      Key<Faces>{"files", read_files, write_files}.taking("list of OBJ files"),
       word_key("units", &Faces::units, "what is one unit of the OBJ files: mm, cm, m or in?")
           .in_starter(starter_units),
       key("up", &Faces::up, axis()).in_starter([](const StarterFacts& facts) {
@@ -187,11 +188,10 @@ const Keys<Faces>& faces_keys() {
       word_key("align", &Faces::align)
           .in_starter({std::string(word_of(Align::kCheck)),
                        "warn about heads that do not stand like the others; rigid moves them"}),
-      {"tags", read_head_tags, write_tags, {}, starter_tags}};
+      Key<Faces>{"tags", read_head_tags, write_tags, {}, starter_tags}.taking(
+          "`{head: [tag, …]}`")};
   return keys;
 }
-
-}  // namespace
 
 void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   Faces& faces = config.faces;
@@ -228,6 +228,14 @@ std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
 
 std::string write_faces(const Config& config, const ConfigWriting& writing) {
   return block_map(write_keys(faces_keys(), config.faces, writing));
+}
+
+}  // namespace
+
+Key<Config> faces_key() {
+  return Key<Config>{"faces", read_faces, write_faces,
+                     "such as \"faces: {directory: heads, units: cm}\"", faces_starter}
+      .holding(faces_keys());
 }
 
 }  // namespace crowdface

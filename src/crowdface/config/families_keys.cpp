@@ -33,7 +33,8 @@ Codec<std::size_t> group() {
           },
           [](std::size_t index, const ConfigWriting& writing) {
             return write_scalar(writing.config.groups[index].name);
-          }};
+          },
+          "name of a [group](#groups)"};
 }
 
 /// \param role  "mother" or "father", after which one who is drawn is called.
@@ -145,8 +146,9 @@ const Keys<FamilyOptions>& family_keys() {
       key("members", &Family::members, whole(1, kMostMembers), "how many faces"),
       key("group", &Family::group, group()),
       key("target", &Family::target, head()),
-      {"parents", read_parents, write_parents},
-      {"inherit", read_inherit, write_inherit},
+      Key<Family>{"parents", read_parents, write_parents}.taking("`{mother: …, father: …}`"),
+      Key<Family>{"inherit", read_inherit, write_inherit}.taking(
+          "`{region or band: mother, father or drawn}`"),
       key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistance)),
       key("min_distance", &Family::min_distance_mm, length(kMaxDistance)),
       word_key("twins", &Family::twins).written_if([](const Family& family, const auto&) {
@@ -154,17 +156,6 @@ const Keys<FamilyOptions>& family_keys() {
       }),
       key("age", &Family::age, age())};
   return keys;
-}
-
-}  // namespace
-
-std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd) {
-  std::vector<std::string> ids;
-  for (int m = 1; m <= family.members; ++m) ids.push_back(member_id(crowd, family.name, m));
-  for (const Parent& parent : family.parents) {
-    if (parent.drawn) ids.push_back(parent_id(crowd, parent));
-  }
-  return ids;
 }
 
 void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
@@ -191,6 +182,21 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_families(const Config& config, const ConfigWriting& writing) {
   return write_sections(family_keys(), config.families, writing);
+}
+
+}  // namespace
+
+std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd) {
+  std::vector<std::string> ids;
+  for (int m = 1; m <= family.members; ++m) ids.push_back(member_id(crowd, family.name, m));
+  for (const Parent& parent : family.parents) {
+    if (parent.drawn) ids.push_back(parent_id(crowd, parent));
+  }
+  return ids;
+}
+
+Key<Config> families_key() {
+  return Key<Config>{"families", read_families, write_families}.holding(family_keys());
 }
 
 }  // namespace crowdface

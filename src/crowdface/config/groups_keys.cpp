@@ -61,11 +61,15 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
 const Keys<Group>& group_keys() {
   static const Keys<Group> keys = [] {
     constexpr std::uint64_t kMostFaces = 1'000'000;
-    const auto has_no_count = [](const Group& group, const auto&) { return !group.count; };
-    Keys<Group> own = {key("name", &Group::name, name(), "such as elderly"),
-                       key("share", &Group::share, number(0, 1)).written_if(has_no_count),
-                       key("count", &Group::count, whole(0, kMostFaces)),
-                       {"tags", read_group_tags, [](const auto&...) { return ""; }}};
+    const auto has_share = [](const Group& group, const auto&) {
+      return !group.count && group.share != kOpenShare;
+    };
+    Keys<Group> own = {
+        key("name", &Group::name, name(), "such as elderly"),
+        key("share", &Group::share, number(0, 1)).written_if(has_share),
+        key("count", &Group::count, whole(0, kMostFaces)),
+        Key<Group>{"tags", read_group_tags, [](const auto&...) { return ""; }}.taking(
+            "list of tags")};
     for (const Key<SamplingOptions>& sampled : sampling_keys()) {
       own.push_back({sampled.name,
                      [read = sampled.read](const YamlNode& node, Group& group, ConfigDraft& draft) {
@@ -76,7 +80,8 @@ const Keys<Group>& group_keys() {
                      }});
     }
     // After all that names heads.
-    own.push_back({"without", read_without, [](const auto&...) { return ""; }});
+    own.push_back(Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.taking(
+        "list of tags"));
     return own;
   }();
   return keys;
@@ -114,8 +119,6 @@ void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
   }
 }
 
-}  // namespace
-
 void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node,
                                "a list of groups, [{name: elderly, share: 0.3, tags: [old]}]");
@@ -146,6 +149,15 @@ std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
 
 std::string write_groups(const Config& config, const ConfigWriting& writing) {
   return config.groups.empty() ? "" : write_sections(group_keys(), config.groups, writing);
+}
+
+}  // namespace
+
+Key<Config> groups_key() {
+  Group open;
+  open.share = kOpenShare;
+  return Key<Config>{"groups", read_groups, write_groups, {}, groups_starter}.holding(group_keys(),
+                                                                                      open);
 }
 
 }  // namespace crowdface

@@ -138,15 +138,17 @@ const Keys<Sheet>& contact_sheet_keys() {
           words<View>("a list of views, [front, three_quarter, profile, back]")),
       key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]")),
       word_key("order", &Sheet::order),
-      {"compare", read_comparison, write_comparison},
-      {"compare_scale",
-       [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
-         const auto scale = positive_length(kLongestScaleMm).read(node, draft);
-         sheet.compare.scale_mm = scale.value_or(sheet.compare.scale_mm);
-       },
-       [](const Sheet& sheet, const ConfigWriting& writing) {
-         return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
-       }},
+      Key<Sheet>{"compare", read_comparison, write_comparison}.taking(
+          concat(shown_words<With>(), ", or a file or crowd folder")),
+      Key<Sheet>{"compare_scale",
+                 [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
+                   const auto scale = positive_length(kLongestScaleMm).read(node, draft);
+                   sheet.compare.scale_mm = scale.value_or(sheet.compare.scale_mm);
+                 },
+                 [](const Sheet& sheet, const ConfigWriting& writing) {
+                   return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
+                 }}
+          .taking(positive_length(kLongestScaleMm).takes),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]")),
       key("shapes", &Sheet::shapes, such_that(whole(0, 64), can_be_shown)),
       word_key("texture", &Sheet::texture)};
@@ -203,12 +205,16 @@ const Keys<Output>& output_keys() {
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
           .in_starter({"[obj]", "and ply, glb, points; [] for pictures only"}),
-      {"lods", read_lods, write_lods},
+      Key<Output>{"lods", read_lods, write_lods}.taking(
+          "list of up to 8 percentages, each smaller"),
       word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
       key("faces_per_folder", &Output::faces_per_folder, whole(0, kMostFacesPerFolder)),
-      {"surfaces", read_surfaces, write_surfaces},
-      {"contact_sheet", read_contact_sheet, write_contact_sheet, {}, starter_sheet}};
+      Key<Output>{"surfaces", read_surfaces, write_surfaces}.taking(
+          concat("`{material: surface}`, a surface is one of ", shown_words<SurfaceKind>(),
+                 " or a colour `\"#rrggbb\"`")),
+      Key<Output>{"contact_sheet", read_contact_sheet, write_contact_sheet, {}, starter_sheet}
+          .holding(contact_sheet_keys())};
   return keys;
 }
 

@@ -49,10 +49,11 @@ bool in_iterations(const HandBand& band, const ConfigWriting&) {
 const Keys<HandBand>& recipe_band_keys() {
   static const Keys<HandBand> keys = {
       key("position", &HandBand::position, point()),
-      {"weights", read_band_weights,
-       [](const HandBand& band, const ConfigWriting& writing) {
-         return band.weights.empty() ? "" : write_weights(band.weights, writing);
-       }},
+      Key<HandBand>{"weights", read_band_weights,
+                    [](const HandBand& band, const ConfigWriting& writing) {
+                      return band.weights.empty() ? "" : write_weights(band.weights, writing);
+                    }}
+          .taking("`{head: weight}`"),
       // Both stand in one member: its unit tells which is written.
       key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
       key("iterations", &HandBand::smoothness, iterations()).written_if(in_iterations),
@@ -99,8 +100,9 @@ const Keys<HandRegion>& region_keys() {
   static const Keys<HandRegion> keys = [] {
     Keys<HandRegion> own;
     for (const Key<HandBand>& key : recipe_band_keys())
-      own.push_back({key.name, key.read, key.write});
-    own.push_back({"bands", read_recipe_bands, write_recipe_bands});
+      own.push_back({key.name, key.read, key.write, {}, {}, key.takes});
+    own.push_back(Key<HandRegion>{"bands", read_recipe_bands, write_recipe_bands}.taking(
+        "`{band: {…}}`, the same keys"));
     return own;
   }();
   return keys;
@@ -133,7 +135,7 @@ void read_regions_of(const YamlNode& node, HandRecipe& recipe, ConfigDraft& draf
 std::string write_regions_of(const HandRecipe& recipe, const ConfigWriting& writing) {
   const std::vector<std::string> names = writing.config.region_names();
   std::vector<std::string> entries;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < recipe.regions.size(); ++i) {
     entries.push_back(entry(write_scalar(names[i]),
                             flow_map(write_keys(region_keys(), recipe.regions[i], writing))));
   }
@@ -170,17 +172,20 @@ const Keys<HandRecipe>& recipe_keys() {
       key("age", &HandRecipe::age, age()),
       key("asymmetry", &HandRecipe::asymmetry, asymmetry()),
       key("mirrored", &HandRecipe::mirrored, word<bool>()),
-      {"colours",
-       [](const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
-         if (draft.config.textures.blend != TextureBlend::kAuto) {
-           draft.complaints.about(node, "go with textures.blend: auto");
-         }
-         read_head_weights(node, recipe.colours, draft);
-       },
-       [](const HandRecipe& recipe, const ConfigWriting& writing) {
-         return recipe.colours.empty() ? "" : write_weights(recipe.colours, writing);
-       }},
-      {"regions", read_regions_of, write_regions_of}};
+      Key<HandRecipe>{"colours",
+                      [](const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
+                        if (draft.config.textures.blend != TextureBlend::kAuto) {
+                          draft.complaints.about(node, "go with textures.blend: auto");
+                        }
+                        read_head_weights(node, recipe.colours, draft);
+                      },
+                      [](const HandRecipe& recipe, const ConfigWriting& writing) {
+                        return recipe.colours.empty() ? "" : write_weights(recipe.colours, writing);
+                      }}
+          .taking("`{head: weight}`"),
+      Key<HandRecipe>{"regions", read_regions_of, write_regions_of}
+          .taking("`{region: {…}}`")
+          .holding(region_keys())};
   return keys;
 }
 
@@ -190,8 +195,6 @@ std::optional<HandRecipe> read_recipe(const YamlNode& node, ConfigDraft& draft) 
   if (!read_keys(node, recipe_keys(), recipe, draft)) return std::nullopt;
   return recipe;
 }
-
-}  // namespace
 
 void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of recipes, [{id: …, target: …, regions: …}]");
@@ -206,6 +209,12 @@ void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_recipes(const Config& config, const ConfigWriting& writing) {
   return write_sections(recipe_keys(), config.recipes, writing);
+}
+
+}  // namespace
+
+Key<Config> recipes_key() {
+  return Key<Config>{"recipes", read_recipes, write_recipes}.holding(recipe_keys());
 }
 
 std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::string& source,

@@ -71,14 +71,14 @@ void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draf
 
 const Keys<Regions>& regions_keys() {
   static const Keys<Regions> keys = {
-      {"names", read_region_names,
-       [](const Regions& regions, const auto&) { return flow_names(regions.names); },
-       "such as [top, middle, bottom]"},
-      {"mask", read_masks, write_masks, "the image whose channels are the regions"}};
+      Key<Regions>{"names", read_region_names,
+                   [](const Regions& regions, const auto&) { return flow_names(regions.names); },
+                   "such as [top, middle, bottom]"}
+          .taking(concat("list of 1 to ", kMostRegions, " names")),
+      Key<Regions>{"mask", read_masks, write_masks, "the image whose channels are the regions"}
+          .taking("image file, or list of image files")};
   return keys;
 }
-
-}  // namespace
 
 void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (is_word(node, "none")) return;
@@ -108,6 +108,13 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
 std::string write_regions(const Config& config, const ConfigWriting& writing) {
   if (config.regions.names.empty()) return "none";
   return block_map(write_keys(regions_keys(), config.regions, writing));
+}
+
+}  // namespace
+
+Key<Config> regions_key() {
+  return Key<Config>{"regions", read_regions, write_regions, {}, regions_starter}.holding(
+      regions_keys());
 }
 
 }  // namespace crowdface

@@ -111,8 +111,9 @@ std::string write_anchors(const Plane& plane, const ConfigWriting& writing) {
 }
 
 const Keys<Plane>& plane_keys() {
-  static const Keys<Plane> keys = {word_key("layout", &Plane::layout),
-                                   {"anchors", read_anchors, write_anchors}};
+  static const Keys<Plane> keys = {
+      word_key("layout", &Plane::layout),
+      Key<Plane>{"anchors", read_anchors, write_anchors}.taking("`{head: [x, y]}`")};
   return keys;
 }
 
@@ -192,6 +193,13 @@ void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   draft.complaints.about(node, concat("this crowdface reads schema 1, found ", describe(node)));
 }
 
+/// Sampling as it is where all is left out.
+SamplingOptions with_a_region() {
+  SamplingOptions sampling;
+  sampling.regions.resize(1);
+  return sampling;
+}
+
 }  // namespace
 
 const Keys<Config>& root_keys() {
@@ -200,30 +208,40 @@ const Keys<Config>& root_keys() {
           .in_starter({"1"}),
       section_key("crowd", &Config::crowd, crowd_keys(),
                   "such as \"crowd: {name: market, count: 24}\""),
-      {"faces", read_faces, write_faces, "such as \"faces: {directory: heads, units: cm}\"",
-       faces_starter},
-      {"regions", read_regions, write_regions, {}, regions_starter},
+      faces_key(),
+      regions_key(),
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
-      {"parts", read_parts, write_parts},
-      {"shapes", read_shapes, write_shapes},
+      Key<Config>{"parts", read_parts, write_parts}.holding(parts_keys()),
+      shapes_key(),
       file_key("points", &Config::points, "none, or a YAML file of points"),
       file_key("rig", &Config::rig, "none, or a GLB file with joints"),
-      {"attachments", read_attachments, write_attachments, {}, attachments_starter},
+      attachments_key(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
-      section_key("sampling", &Config::sampling, sampling_keys()),
+      section_key("sampling", &Config::sampling, sampling_keys())
+          .holding(sampling_keys(), with_a_region()),
       section_key("distance", &Config::distance, distance_keys()),
       section_key("diversity", &Config::diversity, diversity_keys()),
-      {"believability", read_believability, write_believability, {}, believability_starter()},
-      {"groups", read_groups, write_groups, {}, groups_starter},
-      {"recipes", read_recipes, write_recipes},
-      {"families", read_families, write_families},
+      believability_key(),
+      groups_key(),
+      recipes_key(),
+      families_key(),
       {"review", read_review, write_review},
       // Merged before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
       section_key("output", &Config::output, output_keys(), {}, check_output)};
   return keys;
+}
+
+std::string in_one_line(std::string_view value) {
+  constexpr std::string_view kEverywhere = "\ndefault: ";  // of a value for each region
+  if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
+  return std::string(value);
+}
+
+std::vector<KeyRow> config_key_rows() {
+  return key_rows("", root_keys(), Config{});
 }
 
 std::string effective_config(const Config& config, const std::filesystem::path& directory) {

@@ -93,7 +93,10 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
               entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]), value));
             }
             return entries.empty() ? "" : block_map(entries);
-          }};
+          },
+          {},
+          {},
+          codec.takes};
 }
 
 /// The head of that name, or the face's own target.
@@ -171,7 +174,8 @@ Codec<SmoothnessDistribution> sampled_smoothness() {
             return value.unit == SmoothnessDistribution::Unit::kIterations
                        ? flow_map({entry("iterations", iterations().write(value, writing))})
                        : smoothness().write(value, writing);
-          }};
+          },
+          concat(smoothness().takes, ", or `{iterations: …}`")};
 }
 
 constexpr std::size_t kMostBands = 4;
@@ -182,7 +186,8 @@ const Keys<BandSampling>& band_keys() {
       per_region_key<Band>("smoothness", &Band::Region::smoothness, sampled_smoothness(),
                            {"iterations"}),
       per_region_key<Band>("position", &Band::Region::position,
-                           Codec<PositionDistribution>{read_position, write_position},
+                           Codec<PositionDistribution>{read_position, write_position,
+                                                       "mapping, see [below](#where-position)"},
                            names_of(position_keys())),
       per_region_key<Band>("extrapolation", &Band::Region::extrapolation, extrapolation()),
       key("sources", &Band::sources, head_list()), key("ageing", &Band::ageing, number(0, 1))};
@@ -258,7 +263,8 @@ const Keys<SamplingOptions>& sampling_keys() {
       key("targets", &Sampling::targets, weighted_heads()),
       key("sources", &Sampling::sources, head_list()),
       per_region_key<Sampling>("position", &RegionSampling::position,
-                               Codec<PositionDistribution>{read_position, write_position},
+                               Codec<PositionDistribution>{read_position, write_position,
+                                                           "mapping, see [below](#where-position)"},
                                names_of(position_keys())),
       per_region_key<Sampling>("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
                                {"iterations"})
@@ -278,8 +284,11 @@ const Keys<SamplingOptions>& sampling_keys() {
                     [](const Sampling& sampling, const ConfigWriting&) {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
+          .taking(concat("`all`, or ", whole(1, kMostSources).takes))
           .in_starter({"3", "", "How many heads lend their features to each region of a face."}),
-      {"bands", read_bands, write_bands},
+      Key<Sampling>{"bands", read_bands, write_bands}
+          .taking("mapping from names to the keys of a band")
+          .holding(band_keys()),
       key("age", &Sampling::age, age()),
       key("asymmetry", &Sampling::asymmetry, asymmetry()).written_if(is_mirrored),
       word_key("mirror", &Sampling::mirror).written_if(is_mirrored)};

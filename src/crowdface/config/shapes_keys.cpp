@@ -99,13 +99,16 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
 const Keys<Shapes>& shapes_keys() {
   static const Keys<Shapes> keys = {
       key("neutral", &Shapes::neutral, obj_file()),
-      {"directory", read_shape_directory,
-       [](const Shapes& shapes, const ConfigWriting& writing) {
-         return path("").write(shapes.directory, writing);
-       }},
-      {"heads", read_shape_heads, [](const Shapes& shapes, const ConfigWriting& writing) {
-         return path("").write(shapes.heads, writing);
-       }}};
+      Key<Shapes>{"directory", read_shape_directory,
+                  [](const Shapes& shapes, const ConfigWriting& writing) {
+                    return path("").write(shapes.directory, writing);
+                  }}
+          .taking("folder"),
+      Key<Shapes>{"heads", read_shape_heads,
+                  [](const Shapes& shapes, const ConfigWriting& writing) {
+                    return path("").write(shapes.heads, writing);
+                  }}
+          .taking("folder")};
   return keys;
 }
 
@@ -145,8 +148,6 @@ void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft
   check_lacking(node, shapes, draft);
 }
 
-}  // namespace
-
 void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (is_word(node, "none")) return;
   if (!draft.complaints.expect_map(node,
@@ -161,6 +162,12 @@ void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft) {
 std::string write_shapes(const Config& config, const ConfigWriting& writing) {
   if (config.shapes.names.empty()) return "none";
   return block_map(write_keys(shapes_keys(), config.shapes, writing));
+}
+
+}  // namespace
+
+Key<Config> shapes_key() {
+  return Key<Config>{"shapes", read_shapes, write_shapes}.holding(shapes_keys());
 }
 
 }  // namespace crowdface

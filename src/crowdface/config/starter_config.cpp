@@ -40,7 +40,7 @@ std::string starter_attachments(const YamlNode& section, const StarterFacts& fac
   draft.config.faces.names = facts.names;
   draft.heads_known = true;
   draft.tags_known = false;  // of what nobody may wear nothing is said: it is left out
-  read_attachments(section, draft.config, draft);
+  attachments_key().read(section, draft.config, draft);
   if (!complaints.empty()) return {};
   Config::Attachments& attachments = draft.config.attachments;
   std::erase_if(attachments.items, [&](const Config::Attachment& item) {
@@ -56,7 +56,7 @@ std::string starter_attachments(const YamlNode& section, const StarterFacts& fac
   std::erase_if(attachments.none, speaks_of_nobody);
   std::erase_if(attachments.quotas, speaks_of_nobody);
   for (Config::Attachment& item : attachments.items) std::erase_if(item.excludes, is_nobodys);
-  return write_attachments(draft.config, {draft.config, config_folder});
+  return attachments_key().write(draft.config, {draft.config, config_folder});
 }
 
 }  // namespace crowdface
