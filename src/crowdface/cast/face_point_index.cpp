@@ -88,27 +88,13 @@ std::int32_t PointTree::build(Building& building, std::size_t begin, std::size_t
   return at;
 }
 
-void PointTree::search(std::int32_t at, const std::vector<float>& query, Index begin, Index end,
-                       double enough, NearestPoint& best) const {
-  const Node& node = nodes_[static_cast<std::size_t>(at)];
-  if (node.least >= end || node.greatest < begin) return;
-  if (node.left < 0) {
-    for (std::int32_t b = node.block; b < node.block + node.blocks; ++b) {
-      points_.search(query, b, begin, end, best);
-    }
-    return;
-  }
-  std::array<std::pair<float, std::int32_t>, 2> children;
-  for (std::size_t c = 0; c < 2; ++c) {
-    const std::int32_t child = c == 0 ? node.left : node.right;
-    children[c] = {nodes_[static_cast<std::size_t>(child)].box.squared_distance(query), child};
-  }
-  if (children[1].first < children[0].first) std::swap(children[0], children[1]);
-  for (const auto& [squared, child] : children) {
-    if (static_cast<double>(squared) * (1 - PointBlocks::kRounding) > best.squared) return;
-    search(child, query, begin, end, enough, best);
-    if (best.squared < enough) return;
-  }
+void PointTree::search(const std::vector<float>& query, Index begin, Index end, double enough,
+                       NearestPoint& best) const {
+  const auto wanted = [&](float squared, const Node& node) {
+    return !(best.squared < enough) && node.least < end && node.greatest >= begin &&
+           static_cast<double>(squared) * (1 - PointBlocks::kRounding) <= best.squared;
+  };
+  visit(query, wanted, [&](Index block) { points_.search(query, block, begin, end, best); });
 }
 
 void PointTrees::add(const Eigen::VectorXf& point) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "crowdface/cast/face_space.h"
@@ -18,22 +20,38 @@ class PointTree {
 
   const PointBlocks& points() const { return points_; }
   void search(const std::vector<float>& query, Index begin, Index end, double enough,
-              NearestPoint& best) const {
-    search(0, query, begin, end, enough, best);
-  }
+              NearestPoint& best) const;
 
- private:
   struct Node {
     LeadingBox box;
     Index least = 0, greatest = 0;       ///< numbers of its points
     std::int32_t left = -1, right = -1;  ///< −1: a leaf
     std::int32_t block = 0, blocks = 0;  ///< of a leaf
   };
+  /// Visits the blocks of leaves, of two children first those of the one that is nearer to the query.
+  /// \param wanted  (squared distance, node) whether to look into a node.
+  /// \param use     takes the number of a block.
+  template <class Wanted, class Use>
+  void visit(const std::vector<float>& query, const Wanted& wanted, const Use& use,
+             std::size_t at = 0) const {
+    const Node& node = nodes_[at];
+    for (std::int32_t b = node.block; b < node.block + node.blocks; ++b) use(Index{b});
+    if (node.left < 0) return;
+    std::array<std::pair<float, std::size_t>, 2> children;
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto child = static_cast<std::size_t>(c == 0 ? node.left : node.right);
+      children[c] = {nodes_[child].box.squared_distance(query), child};
+    }
+    if (children[1].first < children[0].first) std::swap(children[0], children[1]);
+    for (const auto& [squared, child] : children) {
+      if (wanted(squared, nodes_[child])) visit(query, wanted, use, child);
+    }
+  }
+
+ private:
   struct Building;
 
   std::int32_t build(Building& building, std::size_t begin, std::size_t end);
-  void search(std::int32_t node, const std::vector<float>& query, Index begin, Index end,
-              double enough, NearestPoint& best) const;
 
   PointBlocks points_;
   std::vector<Node> nodes_;
