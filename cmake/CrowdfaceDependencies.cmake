@@ -18,6 +18,8 @@ if(NOT embree_VERSION_MAJOR MATCHES "^[34]$")
   message(FATAL_ERROR "crowdface works with Embree 3 and Embree 4; found ${embree_VERSION} in ${embree_DIR}")
 endif()
 find_package(meshoptimizer REQUIRED)
+find_package(draco REQUIRED)
+find_package(assimp REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 find_package(httplib QUIET)  # Fedora's package is for CMake, Debian's for pkg-config

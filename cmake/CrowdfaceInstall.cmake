@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)
 install(TARGETS crowdface)
-install(TARGETS ${modules} crowdface_images EXPORT crowdfaceTargets)
+install(TARGETS ${modules} crowdface_images crowdface_meshes EXPORT crowdfaceTargets)
 # The public headers: crowdface.h and all that it includes.
 set(unread crowdface/crowdface.h)
 set(public_headers "")

@@ -21,7 +21,7 @@ packages=(
   # libraries, see cmake/CrowdfaceDependencies.cmake
   libeigen3-dev libtbb-dev libtinyobjloader-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libspdlog-dev libxxhash-dev librandom123-dev libembree-dev libhwy-dev
-  libmeshoptimizer-dev libcpp-httplib-dev libpng-dev
+  libmeshoptimizer-dev libdraco-dev libassimp-dev libcpp-httplib-dev libpng-dev
   # OpenImageIO's CMake package insists on its command-line tools
   libopenimageio-dev openimageio-tools
   # the labels of contact sheets

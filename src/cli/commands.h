@@ -22,6 +22,7 @@ Run add_sheet(CLI::App& program);
 Run add_synth(CLI::App& program);
 Run add_import(CLI::App& program);
 Run add_check(CLI::App& program);
+Run add_convert(CLI::App& program);
 Run add_init(CLI::App& program);
 Run add_mask(CLI::App& program);
 Run add_cache(CLI::App& program);

@@ -13,8 +13,9 @@
 #include "crowdface/core/units.h"
 #include "crowdface/heads/load_inputs.h"
 #include "crowdface/io/image.h"
-#include "crowdface/io/obj_file.h"
+#include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/tile_files.h"
+#include "crowdface/paint/face_marks.h"
 #include "crowdface/paint/proposed_masks.h"
 #include "crowdface/region/mask_source.h"
 
@@ -81,6 +82,11 @@ void declare_init(CLI::App& command, InitOptions& options) {
   add_flag(command, "--force", options.force, "Replace an existing file");
 }
 
+/// With three digits or so.
+std::string format_number_of(double value) {
+  return format_fixed(value, value < 1 ? 4 : 2);
+}
+
 constexpr std::size_t kHeadsLookedAt = 8;
 
 /// What the heads' shape tells: where they look, and regions.
@@ -88,6 +94,8 @@ struct Seen {
   Positions first;  ///< of the first head
   std::optional<Bearing> bearing;
   std::optional<PaintedMasks> masks;
+  bool has_uvs = true;
+  double face = 0;  ///< from the eyes to the mouth, in units; 0: not found
 };
 
 /// Looks at some heads of the folder. What stands against regions is told, and no error: a config that
@@ -102,10 +110,15 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   const auto set = load_faces(faces, {}, problems);
   if (!set) {
     log_warning(concat("no regions: ", problems.messages().front()));
-    return {read_obj(files[0]).positions, {}, {}};
+    return {read_mesh_as_obj(files[0]).positions, {}, {}};
   }
   const HeadShape mean = shape_of_mean(*set);
   Seen seen{set->heads[0].positions, find_bearing(set->topology, mean), {}};
+  if (const auto marks = find_face_marks(set->topology, mean,
+                                         axes_of(seen.bearing.value_or(Bearing{{1, 1}, {2, 1}})))) {
+    seen.face = marks->face();
+  }
+  seen.has_uvs = set->uvs.rows() > 0;
   if (!with_masks) return seen;
   try {
     const Bearing bearing = seen.bearing.value_or(Bearing{{1, 1}, {2, 1}});
@@ -115,6 +128,28 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     log_warning(concat("no regions: ", error.what()));
   }
   return seen;
+}
+
+/// The unit with a name in which the face, or else the head, has a human size; or the length that gives it one.
+void guess_units(const Seen& seen, StarterFacts& facts) {
+  constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
+  constexpr double kTypicalFaceMm = 65, kLeastFaceMm = 35, kMostFaceMm = 120;
+  constexpr double kMostTimes = 3;  // of a head's height
+  facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
+  const std::string height =
+      concat("the first head is ", format_number_of(facts.head_height), " units tall");
+  facts.units_reason = height;
+  const double face_mm = seen.face * mm_per(facts.units);
+  const double times = facts.head_height * mm_per(facts.units) / kTypicalHeightMm;
+  if (seen.face > 0 && (face_mm < kLeastFaceMm || face_mm > kMostFaceMm)) {
+    facts.units = fitting_unit(seen.face, kTypicalFaceMm);
+    facts.units_reason =
+        concat(height, " and ", format_number_of(seen.face), " from the eyes to the mouth, some ",
+               kTypicalFaceMm, " mm of people, which fits neither mm nor cm nor m");
+  } else if (seen.face == 0 && (times > kMostTimes || times < 1 / kMostTimes)) {
+    facts.units = fitting_unit(facts.head_height, kTypicalHeightMm);
+    facts.units_reason = concat(height, ", which fits neither mm nor cm nor m");
+  }
 }
 
 /// The section that lies beside heads which came with hair and the like, as the config in a folder has
@@ -153,12 +188,17 @@ void init(const InitOptions& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
   if (files.size() < kFewestHeads || files.size() > kMostHeads) {
+    const std::string left_out = left_out_of_heads(heads);
     throw MissingInput(concat(heads.string(), ": expected ", kFewestHeads, " to ", kMostHeads,
-                              " OBJ files, found ", files.size()));
+                              " heads (OBJ, PLY, GLB, glTF, FBX, NumPy), found ", files.size(),
+                              left_out.empty() ? "" : "; ", left_out));
+  }
+  if (const std::string left_out = left_out_of_heads(heads); !left_out.empty()) {
+    log_warning(left_out);
   }
   const fs::path file = output_file(out);
   refuse_to_write_over(files, {file});
-  const std::string mask = mask_beside(heads);
+  std::string mask = mask_beside(heads);
   std::vector<fs::path> beside = find_tiles(heads / mask);
   beside.push_back(heads / mask);
   beside.push_back(heads / "tags.yaml");
@@ -169,6 +209,11 @@ void init(const InitOptions& options) {
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
   refuse_path_no_config_can_hold(facts.heads);
   const Seen seen = look_at(files, mask.empty());
+  if (!seen.has_uvs && !mask.empty()) {
+    log_warning(concat("no regions: the heads have no texture coordinates, which the mask ", mask,
+                       " needs"));
+    mask.clear();
+  }
   if (seen.bearing) {
     facts.up = seen.bearing->up;
     facts.front = seen.bearing->front;
@@ -176,8 +221,7 @@ void init(const InitOptions& options) {
   for (const fs::path& head : files) facts.names.push_back(head.stem().string());
   const auto up = seen.first.col(facts.up.index);
   facts.head_height = up.maxCoeff() - up.minCoeff();
-  constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
-  facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
+  guess_units(seen, facts);
   facts.vertices = seen.first.rows();
   facts.crowd_name = "crowd";
   facts.tags = tags_beside(heads, facts.names);
@@ -193,8 +237,7 @@ void init(const InitOptions& options) {
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
-                  name_of(facts.units), " because the first head is ",
-                  format_fixed(facts.head_height, 2), " units tall; they look along ",
+                  name_of(facts.units), " because ", facts.units_reason, "; they look along ",
                   name_of(facts.front), " with ", name_of(facts.up),
                   " up. Check that, then: crowdface check ", out.string()));
   if (!facts.attachments.empty()) {

@@ -23,7 +23,7 @@
 #include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
-#include "crowdface/io/image_codec.h"
+#include "crowdface/io/own_library.h"
 
 #include "cli/commands.h"
 
@@ -161,16 +161,16 @@ int run_program(int argc, char** argv) {
   give_back_large_blocks();
   watch_for_lack_of_memory();
   watch_mapped_files();
-  guard_start_of_image_libraries();
+  guard_start_of_libraries();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + kVersion);
   program.require_subcommand(1);
   Run chosen;
   for (Run (*add)(CLI::App&) :
-       {add_generate, add_check, add_init, add_mask, add_plan, add_prepare, add_blend, add_smooth,
-        add_gather, add_verify, add_sheet, add_synth, add_import, add_cache, add_wrap, add_edit,
-        add_submit, add_status}) {
+       {add_generate, add_check, add_convert, add_init, add_mask, add_plan, add_prepare, add_blend,
+        add_smooth, add_gather, add_verify, add_sheet, add_synth, add_import, add_cache, add_wrap,
+        add_edit, add_submit, add_status}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(

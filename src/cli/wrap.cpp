@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -36,8 +37,11 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
   const std::string name = head.stem().string();
   Task task{scan, scan, head, reports / concat(name, ".wrap.json"),
             reports / concat(name, ".wrap.png")};
-  task.own_landmarks.replace_extension(".yaml");
-  if (!is_there(task.own_landmarks)) task.own_landmarks.clear();
+  task.own_landmarks.clear();
+  for (const char* ending : {".yaml", ".pp", "_picked_points.pp"}) {
+    const fs::path beside = scan.parent_path() / concat(scan.stem().string(), ending);
+    if (task.own_landmarks.empty() && is_there(beside)) task.own_landmarks = beside;
+  }
   return task;
 }
 
@@ -57,7 +61,7 @@ std::vector<Task> tasks_of(const WrapOptions& options) {
 void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<Task>& tasks) {
   std::vector<fs::path> inputs = {options.shape, options.landmarks, options.ignore};
   if (!options.model.empty()) {
-    for (fs::path& head : files_of(options.model, {".obj"})) inputs.push_back(std::move(head));
+    for (fs::path& head : list_heads(options.model)) inputs.push_back(std::move(head));
   }
   std::vector<fs::path> outputs;
   for (const Task& task : tasks) {
@@ -95,8 +99,14 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 /// Those of the files, or where they are too few, and it is known how the scan stands, those that shapes tell as well.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task,
                                        const Scan& scan) {
-  std::vector<WrapLandmark> landmarks =
-      match_landmarks(landmarks_for(shared, task), shared.file.positions, scan);
+  const LandmarkFile file = landmarks_for(shared, task);
+  std::vector<WrapLandmark> landmarks = match_landmarks(file, shared.file.positions, scan);
+  if (landmarks.empty() && !file.of_scan.empty()) {
+    log_warning(concat(task.scan.string(), ": none of its ", file.of_scan.size(), " landmarks (",
+                       file.of_scan.begin()->first,
+                       ", …) has a place on the template under the same name: ",
+                       "name it with --template-landmarks, or under template in the YAML file"));
+  }
   if (landmarks.size() >= kFewestLandmarks || !shared.hint) return landmarks;
   std::vector<std::string> found;
   for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *shared.hint)) {
@@ -142,6 +152,22 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
   return result;
 }
 
+/// What a refusal says if the scan seems to stand otherwise than it was said.
+std::string other_bearing(const WrapInputs& shared, const Scan& scan,
+                          const std::vector<WrapLandmark>& landmarks) {
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
+  if (!shared.hint || picked >= static_cast<std::ptrdiff_t>(kFewestLandmarks)) return {};
+  const WrapTemplate& shape = shared.shape;
+  const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
+  Positions rest = shape.skin.of(shape.positions);
+  if (shape.reduced) rest = bent.of(rest);
+  const auto found = better_bearing(bent, rest, shape.axes, ScanSurface(scan), *shared.hint);
+  if (!found) return {};
+  return concat("; the scan seems to look along ", name_of(found->front), " with ",
+                name_of(found->up), " up: --scan-up ", name_of(found->up), " --scan-front ",
+                name_of(found->front));
+}
+
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
               const Digest& inputs) {
   const Scan scan = read_scan(task.scan);
@@ -150,10 +176,11 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
     try {
       WrapResult wrapped =
           wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, shared.hint);
-      refuse_bad_wrap(shared.shape, wrapped);
+      refuse_bad_wrap(shared.shape, wrapped, shared.regions);
       return wrapped;
     } catch (const InvalidInput& error) {
-      throw InvalidInput(concat(task.scan.string(), ": ", error.what()));
+      throw InvalidInput(
+          concat(task.scan.string(), ": ", error.what(), other_bearing(shared, scan, landmarks)));
     }
   }();
   const double scale = output_scale(options, result.pose);
@@ -242,15 +269,18 @@ WrapOptions sorted(WrapOptions options) {
 void declare_wrap(CLI::App& command, WrapOptions& options) {
   add_option(command, "template_file", options.first, "TEMPLATE.obj",
              "The head whose topology the result has");
-  add_option(command, "scan_file", options.scan, "SCAN.{obj,ply,stl,glb}",
-             "The scan, in any unit and pose");
+  add_option(command, "scan_file", options.scan, "SCAN",
+             "The scan, in any unit and pose: OBJ, PLY, STL, GLB, glTF or FBX");
   add_option(command, "-o,--output", options.out, "OUT",
              "The head to write, or with --batch the folder");
   add_option(command, "--batch", options.batch, "DIR",
              "A folder of scans, each with its own landmarks beside it (NAME.yaml)");
   add_option(command, "--template", options.shape, "TEMPLATE.obj", "The template, with --batch");
-  add_option(command, "--landmarks", options.landmarks, "FILE.yaml",
-             "template: {NAME: vertex} and scan: {NAME: [x, y, z]}; vertices count from 0");
+  add_option(command, "--landmarks", options.landmarks, "FILE",
+             "template: {NAME: vertex} and scan: {NAME: [x, y, z]}; vertices count from 0; or the "
+             "scan's alone, as MeshLab's .pp, CSV, JSON or .npy");
+  add_option(command, "--template-landmarks", options.template_landmarks, "FILE",
+             "The template's landmarks alone, in the same formats");
   add_option(command, "--model", options.model, "DIR",
              "Heads in the template's topology, whose mean and variety guide the wrap");
   add_option(command, "--ignore", options.ignore, "MASK",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
@@ -11,6 +12,8 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/pick/proposed_landmarks.h"
 #include "crowdface/region/region_weights.h"
@@ -41,16 +44,16 @@ LengthUnit guess_unit(const Positions& positions) {
 /// The heads of the model, and with them where the template's vertices are on average.
 void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& positions,
                 Hasher& digest) {
-  const std::vector<fs::path> files = files_of(options.model, {".obj"});
+  const std::vector<fs::path> files = list_heads(options.model);
   if (files.size() < 2) {
-    refuse_file(options.model,
-                concat("expected two heads or more in the template's topology (.obj), found ",
-                       files.size()));
+    refuse_file(options.model, concat("expected two heads or more in the template's topology (OBJ, "
+                                      "PLY, GLB, glTF, FBX, NumPy), found ",
+                                      files.size()));
   }
   std::vector<Positions> heads;
   Problems problems;
   for (const fs::path& path : files) {
-    const ObjFile head = read_obj(path);
+    const ObjFile head = read_mesh_as_obj(path);
     if (const std::string other = first_difference(inputs.file.topology, head.topology);
         !other.empty()) {
       problems.add(ExitCode::kBadData, concat(path.string(), ": is no head in the topology of ",
@@ -93,7 +96,9 @@ std::optional<PoseHint> pose_hint(const WrapOptions& options) {
 
 LengthUnit unit_of(const std::string& option, const std::string& text) {
   const auto unit = parse_length_unit(text);
-  if (!unit) throw UsageError(concat(option, ": expected mm, cm, m or in, found ", quoted(text)));
+  if (!unit)
+    throw UsageError(concat(
+        option, ": expected mm, cm, m, in, or a length such as 243.84 cm, found ", quoted(text)));
   return *unit;
 }
 
@@ -111,9 +116,10 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
 }
 
 std::vector<fs::path> scans_in(const fs::path& folder) {
-  std::vector<fs::path> scans = files_of(folder, {".obj", ".ply", ".stl", ".glb"});
+  std::vector<std::string> endings(mesh_endings().begin(), mesh_endings().end());
+  std::vector<fs::path> scans = files_of(folder, endings);
   if (scans.empty()) {
-    refuse_file(folder, "expected scans (.obj, .ply, .stl, .glb), found none");
+    refuse_file(folder, concat("expected scans (", join(endings), "), found none"));
   }
   std::map<std::string, fs::path> names;
   for (const fs::path& scan : scans) {
@@ -127,7 +133,10 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
 
 WrapInputs read_wrap_inputs(const WrapOptions& options) {
   WrapInputs inputs;
-  inputs.file = read_obj(options.shape);
+  inputs.file = read_mesh_as_obj(options.shape);
+  for (const std::string& note : inputs.file.notes) {
+    log_warning(concat(options.shape, ": ", note));
+  }
   Hasher digest;
   digest.add(kWrapVersion).add(hash_file(options.shape).digest);
   const LengthUnit unit =
@@ -148,8 +157,14 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
         propose_landmarks(inputs.shape, pickable(inputs.shape, inputs.shape.positions));
   }
   if (!options.landmarks.empty()) {
-    inputs.landmarks = read_landmarks(options.landmarks);
+    inputs.landmarks = read_landmarks(
+        options.landmarks, options.batch.empty() ? LandmarksOf::kScan : LandmarksOf::kTemplate);
     digest.add(hash_file(options.landmarks).digest);
+  }
+  if (!options.template_landmarks.empty()) {
+    inputs.landmarks.of_template =
+        read_landmarks(options.template_landmarks, LandmarksOf::kTemplate).of_template;
+    digest.add(hash_file(options.template_landmarks).digest);
   }
   for (const std::string& text : {options.units, options.scan_units, options.up, options.front,
                                   options.scan_up, options.scan_front}) {

@@ -20,7 +20,7 @@
 namespace crowdface::cli {
 
 struct WrapOptions : CommonOptions {
-  std::string first, scan, shape, landmarks, model, ignore, out, batch;
+  std::string first, scan, shape, landmarks, template_landmarks, model, ignore, out, batch;
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string port = "0";  ///< of the page of --pick
   bool no_pictures = false, force = false, dry_run = false, pick = false, no_browser = false;

@@ -126,6 +126,7 @@ TEST_F(ExampleConfigs, TheStarterReadsBack) {
   facts.names = {"ann", "bob", "cyd"};
   facts.units = LengthUnit::kInch;
   facts.head_height = 10.5;
+  facts.units_reason = "the first head is 10.50 units tall";
   facts.up = {2, 1};
   facts.front = {1, -1};
   const std::string text = starter_config(facts);
@@ -136,8 +137,8 @@ TEST_F(ExampleConfigs, TheStarterReadsBack) {
   EXPECT_EQ(config->faces.up, facts.up);
   EXPECT_EQ(config->faces.front, facts.front);
   EXPECT_EQ(config->output.directory, folder_ / "out/crowd");
-  EXPECT_THAT(text, testing::HasSubstr("10.50 units\n"));
-  EXPECT_THAT(text, testing::HasSubstr("26.7 cm. PLEASE CHECK"));
+  EXPECT_THAT(text, testing::HasSubstr("because the first head is 10.50 units tall,\n"));
+  EXPECT_THAT(text, testing::HasSubstr("26.7 cm high. PLEASE CHECK"));
 }
 
 TEST_F(ExampleConfigs, TheStarterTakesAnyFolderName) {

@@ -178,7 +178,8 @@ TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
       "not starting with '.', found \"../x\"\n"
       "c.yaml:2:28: crowd.count: expected a whole number from 0 to 1000000, found \"-1\"\n"
       "c.yaml:2:32: unknown key \"sede\" in crowd; did you mean \"seed\"?\n"
-      "c.yaml:3:8: faces.units: missing; what is one unit of the OBJ files: mm, cm, m or in?\n"
+      "c.yaml:3:8: faces.units: missing; what is one unit of the files: mm, cm, m, in, or a "
+      "length?\n"
       "c.yaml:3:27: unknown key \"unit\" in faces; did you mean \"units\"?\n"
       "c.yaml:4:23: smoothing.operator: expected umbrella or lazy, found \"lasy\"; did you mean "
       "\"lazy\"?\n"
@@ -212,8 +213,7 @@ TEST_F(ReadConfig, MissingFilesAreMissingInput) {
 TEST_F(ReadConfig, TooFewAndTooManyHeads) {
   touch("one/ann.obj");
   EXPECT_FALSE(read("schema: 1\ncrowd: {name: a, count: 1}\nfaces: {directory: one, units: cm}\n"));
-  EXPECT_EQ(told(),
-            "c.yaml:3:20: faces.directory: expected 2 to 50 heads, found 1 OBJ files in \"one\"");
+  EXPECT_EQ(told(), "c.yaml:3:20: faces.directory: expected 2 to 50 heads, found 1 in \"one\"");
   for (int i = 0; i < 51; ++i) touch(concat("many/h", i, ".obj"));
   EXPECT_FALSE(
       read("schema: 1\ncrowd: {name: a, count: 1}\nfaces: {directory: many, units: cm}\n"));

@@ -334,7 +334,7 @@ TEST_F(WrongHead, SectionsAreCheckedToo) {
   EXPECT_THAT(with_faces("{units: cm, files: heads/ann.obj}"),
               HasSubstr("3:27: faces.files: expected a list"));
   EXPECT_THAT(with_faces("{units: cm, files: [heads/ann.obj]}"), HasSubstr("found 1 files"));
-  EXPECT_THAT(with_faces("{units: cm, files: [a.fbx, b.obj]}"), HasSubstr("ends in .obj"));
+  EXPECT_THAT(with_faces("{units: cm, files: [a.max, b.obj]}"), HasSubstr("ends in .obj"));
   EXPECT_THAT(with_faces("{units: feet, directory: heads}"),
               HasSubstr("3:16: faces.units: expected mm or cm or m or in"));
   EXPECT_THAT(with_faces("{units: cm, directory: heads, up: W}"),

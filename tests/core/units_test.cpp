@@ -15,6 +15,21 @@ TEST(Length, CarriesItsUnit) {
   }
 }
 
+TEST(LengthUnit, MayBeAnyLength) {
+  EXPECT_EQ(parse_length_unit("cm"), LengthUnit::kCentimetre);
+  EXPECT_EQ(parse_length_unit("243.84 cm"), LengthUnit{2438.4});
+  EXPECT_EQ(parse_length_unit("10 mm"), LengthUnit::kCentimetre);
+  for (const char* bad : {"feet", "0 mm", "-1 cm", "1e30 m", ""}) {
+    EXPECT_EQ(parse_length_unit(bad), std::nullopt) << bad;
+  }
+  for (const char* text : {"mm", "in", "243.84 cm", "0.3 mm"}) {
+    const LengthUnit unit = *parse_length_unit(text);
+    EXPECT_EQ(parse_length_unit(name_of(unit)), unit) << text;
+  }
+  EXPECT_EQ(fitting_unit(0.0267, 65), LengthUnit{2400});
+  EXPECT_EQ(nearest_unit(27, 280), LengthUnit::kCentimetre);
+}
+
 TEST(Axis, NamesReadBack) {
   for (const char* name : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}) {
     EXPECT_EQ(name_of(*parse_axis(name)), name);

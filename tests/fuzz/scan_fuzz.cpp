@@ -2,16 +2,18 @@
 #include <cstdlib>
 
 #include "crowdface/core/error.h"
-#include "crowdface/wrap/scan_file.h"
+#include "crowdface/io/file_mesh.h"
 
 #include "fuzz/input_file.h"
 
 namespace {
 
-// A scan's format is told by its name; here by how it begins.
-crowdface::Scan parse(std::string_view bytes) {
+// A mesh's format is told by its name; here by how it begins.
+crowdface::FileMesh parse(std::string_view bytes) {
   if (bytes.starts_with("ply")) return crowdface::parse_ply(bytes, "scan.ply");
-  if (bytes.starts_with("glTF")) return crowdface::parse_glb(bytes, "scan.glb");
+  if (bytes.starts_with("glTF") || bytes.starts_with("{")) {
+    return crowdface::parse_gltf(bytes, "scan.glb");
+  }
   return crowdface::parse_stl(bytes, "scan.stl");
 }
 
@@ -19,13 +21,21 @@ crowdface::Scan parse(std::string_view bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    crowdface::Scan scan = parse(crowdface::fuzz::text_of(data, size));
-    for (const crowdface::Triangle& triangle : scan.triangles) {
-      for (const std::uint32_t vertex : triangle) {
-        if (static_cast<crowdface::Index>(vertex) >= scan.positions.rows()) std::abort();
+    crowdface::FileMesh mesh = parse(crowdface::fuzz::text_of(data, size));
+    const auto check = [&] {
+      const crowdface::Topology& topology = mesh.topology;
+      if (topology.vertex_count != mesh.positions.rows()) std::abort();
+      if (topology.face_offsets.back() != topology.corner_vertices.size()) std::abort();
+      for (const std::uint32_t vertex : topology.corner_vertices) {
+        if (static_cast<crowdface::Index>(vertex) >= topology.vertex_count) std::abort();
       }
-    }
-    if (scan.positions.allFinite()) crowdface::weld(scan);
+      for (const std::uint32_t uv : topology.corner_uvs) {
+        if (uv != crowdface::kNoIndex && uv >= mesh.uvs.rows()) std::abort();
+      }
+    };
+    check();
+    if (mesh.positions.allFinite()) crowdface::join_split_vertices(mesh);
+    check();
   } catch (const crowdface::Error&) {
   }
   return 0;

@@ -229,17 +229,22 @@ TEST_F(ImageFiles, WideIntegersAreRefused) {
               HasSubstr("expected 8 or 16 bit"));
 }
 
-TEST_F(ImageFiles, PartOfAnExrIsRefused) {
+// As Nuke writes what has a bounding box.
+TEST_F(ImageFiles, OfAnExrTheDisplayWindowIsRead) {
   const path file = folder_ / "part.exr";
-  OIIO::ImageSpec spec(2, 2, 1, OIIO::TypeDesc::FLOAT);
-  spec.full_width = 8;
-  spec.full_height = 8;
+  OIIO::ImageSpec spec(3, 2, 1, OIIO::TypeDesc::FLOAT);
+  spec.x = 2;
+  spec.y = -1;
+  spec.full_width = 4;
+  spec.full_height = 3;
   auto output = OIIO::ImageOutput::create(file.string());
   ASSERT_TRUE(output->open(file.string(), spec));
-  const std::vector<float> floats(4, 1.0F);
+  const std::vector<float> floats = {1, 2, 3, 4, 5, 6};
   ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, floats.data()));
   ASSERT_TRUE(output->close());
-  EXPECT_THAT(message_of(file), HasSubstr("display window"));
+  const Image image = read_image(file);
+  EXPECT_EQ(std::get<0>(image.pixels), (std::vector<float>{0, 0, 4, 5, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(read_image_size(file).width, 4);
 }
 
 // Editors note where a picture was cut out; it is whole all the same.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
@@ -138,36 +139,30 @@ struct Malformed {
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 const std::vector<Malformed> kMalformed = {
-    {"nan", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "finite number", "\"nan\""}},
+    {"nan",
+     "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     {":1:", "finite number", "\"nan\"", "without a place"}},
     {"inf", "v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n", {":2:", "finite number", "\"inf\""}},
     {"word", "v 0 0 0\nv 1 0 0\nv abc 1 0\nf 1 2 3\n", {":3:", "finite number", "\"abc\""}},
     {"overflow", "v 1e400 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"1e400\""}},
     {"huge", "v 1e38 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "within", "\"1e38\""}},
     {"hexadecimal", "v 0x10 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"0x10\""}},
-    {"comma", "v 0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"0,5\""}},
+    {"comma", "v 0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"0,5\"", "decimal point"}},
     {"two_coordinates", "v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "3 coordinates", "2 words"}},
-    {"nine_numbers", "v 0 0 0 1 1 1 1 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "9 words"}},
     {"index_beyond", kTriangle + "f 1 2 99\n", {":4:", "between 1 and 3", "\"99\""}},
-    {"index_zero", kTriangle + "f 0 1 2\n", {":4:", "\"0\""}},
+    {"index_zero", kTriangle + "f 0 1 2\n", {":4:", "\"0\"", "counts from 1"}},
     {"index_relative_beyond", kTriangle + "f -4 -2 -1\n", {":4:", "-1 and -3", "\"-4\""}},
     {"index_wraps", kTriangle + "f 1 2 4294967297\n", {":4:", "\"4294967297\""}},
     {"index_huge", kTriangle + "f 1 2 99999999999999999999\n", {":4:", "number of a vertex"}},
     {"index_word", kTriangle + "f 1 2 x\n", {":4:", "number of a vertex", "\"x\""}},
     {"index_decimal", kTriangle + "f 1 2 3.0\n", {":4:", "\"3.0\""}},
-    {"two_corners", kTriangle + "f 1 2\n", {":4:", "at least 3 corners", "found 2"}},
-    {"texture_missing", kTriangle + "f 1/1 2/1 3/1\n", {":4:", "texture coordinate"}},
-    {"texture_empty", kTriangle + "vt 0 0\nf 1/ 2/ 3/\n", {":5:", "texture coordinate"}},
-    {"normal_beyond", kTriangle + "vn 0 0 1\nf 1//1 2//2 3//1\n", {":5:", "normal", "\"2\""}},
-    {"mixed_corners", kTriangle + "vt 0 0\nf 1/1 2 3/1\n", {":5:", "like the first", "\"2\""}},
-    {"normal_of_two", kTriangle + "vn 0 0\nf 1 2 3\n", {":4:", "normal"}},
-    {"byte_order_mark", "\xEF\xBB\xBF" + kTriangle + "f 1 2 3\n", {":1:", "byte-order mark"}},
-    {"empty", "", {"no vertex"}},
+    {"two_corners", kTriangle + "f 1 2\n", {"no face"}},
+    {"empty", "", {"an empty file"}},
+    {"web_page", "\n<!DOCTYPE html>\n<html>", {"web page", "raw file"}},
+    {"lfs_pointer", "version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", {"Git LFS"}},
     {"no_faces", kTriangle, {"no face"}},
     {"binary", std::string("\x7f\x45\x4c\x46\x00\x01\x02\n v\n", 11), {":1:"}},
     {"words", "this is no mesh\nat all\n", {":1:", "OBJ statement", "\"this\""}},
-    {"unknown_statement", kTriangle + "face 1 2 3\n", {":4:", "OBJ statement", "\"face\""}},
-    {"continued_line", kTriangle + "f 1 2 \\\n3\n", {":4:", "continued"}},
-    {"old_mac", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", {}},
     {"nul_byte", kTriangle + std::string("f 1 2 3 \0\n", 10), {":4:"}},
 };
 
@@ -195,6 +190,86 @@ TEST_P(MalformedObj, IsRefusedWithItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, MalformedObj, ::testing::ValuesIn(kMalformed),
                          [](const auto& test) { return test.param.name; });
+
+struct Dialect {
+  std::string name;
+  std::string text;
+  std::string mended;  ///< what is left of it
+  std::string note;    ///< a part of what is said, or nothing
+};
+
+const std::string kUvs = "vt 0 0\nvt 1 0\nvt 0 1\n";
+const std::string kFace = "f 1 2 3\n";
+
+const std::vector<Dialect> kDialects = {
+    {"normal_beyond", kTriangle + "vn 0 0 1\nf 1//1 2//2 3//1\n", kTriangle + "\n" + kFace,
+     "normals"},
+    {"normal_none", kTriangle + "f 1//1 2//2 3//1\n", kTriangle + kFace, "normals"},
+    {"normal_zero", kTriangle + "vn 0 0 1\nf 1//0 2//1 3//1\n", kTriangle + "\n" + kFace,
+     "normals"},
+    {"normal_empty", kTriangle + "f 1// 2// 3//\n", kTriangle + kFace, "normals"},
+    {"normal_at_one_corner", kTriangle + "vn 0 0 1\nf 1//1 2 3\n", kTriangle + "\n" + kFace,
+     "normals"},
+    {"normal_nan", kTriangle + "vn nan -nan(ind) 0\nf 1//1 2//1 3//1\n",
+     kTriangle + "vn 0 0 1\nf 1//1 2//1 3//1\n", "normals"},
+    {"normal_of_two", kTriangle + "vn 0 0\n" + kFace, kTriangle + "vn 0 0 1\n" + kFace, "normals"},
+    {"normal_with_uv", kTriangle + kUvs + "f 1/1/7 2/2/7 3/3/7\n",
+     kTriangle + kUvs + "f 1/1 2/2 3/3\n", "normals"},
+    {"uv_none", kTriangle + "f 1/1 2/1 3/1\n", kTriangle + kFace, "texture coordinates"},
+    {"uv_empty", kTriangle + "f 1/ 2/ 3/\n", kTriangle + kFace, ""},
+    {"uv_at_two_corners", kTriangle + kUvs + "f 1/1 2 3/1\n", kTriangle + kUvs + kFace,
+     "texture coordinates"},
+    {"uv_nan", kTriangle + "vt nan 0\nf 1/1 2/1 3/1\n", kTriangle + "vt 0 0\n" + kFace,
+     "texture coordinates"},
+    {"continued_face", kTriangle + "f 1 2 \\\n3\n", kTriangle + "f 1 2  3\n\n", ""},
+    {"continued_vertex", "v 0 \\\r\n0 0\r\n" + kTriangle + kFace,
+     "v 0  0 0\r\n\n" + kTriangle + kFace, ""},
+    {"old_mac", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", kTriangle + "f 1 2 3\r", ""},
+    {"byte_order_mark", "\xEF\xBB\xBF" + kTriangle + kFace, kTriangle + kFace, ""},
+    {"padding", kTriangle + kFace + std::string(3, '\0'), kTriangle + kFace, ""},
+    {"comment_behind", "v 0 0 0 # nose\nv 1 0 0\nv 0 1 0\n" + kFace, kTriangle + kFace, ""},
+    {"edge", kTriangle + kFace + "f 1 2\n", kTriangle + kFace + "\n", "fewer than 3 corners"},
+    {"colours_nan", "v 0 0 0 nan nan nan\nv 1 0 0\nv 0 1 0\n" + kFace, kTriangle + kFace,
+     "colours"},
+    {"nine_numbers", "v 0 0 0 1 1 1 1 1 1\nv 1 0 0\nv 0 1 0\n" + kFace, kTriangle + kFace,
+     "colours"},
+};
+
+void PrintTo(const Dialect& dialect, std::ostream* out) {
+  *out << dialect.name;
+}
+
+class ObjDialect : public ::testing::TestWithParam<Dialect> {};
+
+TEST_P(ObjDialect, IsReadAsTheTextItStandsFor) {
+  const ObjFile file = read_obj_text(GetParam().text);
+  EXPECT_EQ(file.file.bytes(), GetParam().mended);
+  EXPECT_TRUE(file.is_mended);
+  EXPECT_EQ(file.topology.face_count(), 1);
+  EXPECT_EQ(file.notes.size(), GetParam().note.empty() ? 0U : 1U);
+  if (!file.notes.empty()) EXPECT_THAT(file.notes[0], ::testing::HasSubstr(GetParam().note));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ObjDialect, ::testing::ValuesIn(kDialects),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(ReadObj, NameMayEndInABackslash) {
+  const std::string text = kTriangle + "usemtl Eyes\\\nf 1 2 3\n";
+  const ObjFile file = read_obj_text(text);
+  EXPECT_FALSE(file.is_mended);
+  EXPECT_EQ(file.file.bytes(), text);
+  ASSERT_EQ(file.materials.size(), 1U);
+  EXPECT_EQ(file.materials[0].name, "Eyes\\");
+  EXPECT_EQ(read_obj_text(kTriangle + "usemtl Eyes \\\nleft\nf 1 2 3\n").materials[0].name,
+            "Eyes  left");
+}
+
+TEST(ReadObj, PassesOverStatementsOfOthersAndSaysSo) {
+  const ObjFile file = read_obj_text(kTriangle + "crease 1 2\n#MRGB ff00ff\ncrease 2 3\nf 1 2 3\n");
+  EXPECT_FALSE(file.is_mended);
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_THAT(file.notes[0], ::testing::HasSubstr("\"crease\" (line 4)"));
+}
 
 TEST(ReadObj, RefusesPolygonsThatTheLoaderMiscounts) {
   std::string text;

@@ -164,6 +164,94 @@ TEST(RegionWeights, AlphaIsIgnored) {
   EXPECT_THAT(message_of_masks(three(), {mask}, 4), HasSubstr("4 regions, found 3"));
 }
 
+Image named(Image image, const std::vector<std::string>& names) {
+  image.channel_names = names;
+  return image;
+}
+
+const std::vector<std::string> kThreeNames = {"top", "middle", "bottom"};
+
+TEST(RegionWeights, ChannelsThatAreCalledLikeRegionsAreThese) {
+  const auto weights = [&](const Image& image) {
+    return region_weights(three().topology, three().uvs, {MaskSource("m.exr", image)}, 3, {},
+                          kThreeNames);
+  };
+  const Image image = image_of(1, 1, 3, {1, 2, 3});
+  const Eigen::RowVector3d expected = Eigen::RowVector3d(3, 2, 1) / 6;
+  EXPECT_EQ(weights(named(image, {"bottom", "middle", "top"})).alpha.row(0), expected);
+  EXPECT_EQ(weights(named(image, {"mask.Bottom", "mask.Middle", "mask.Top"})).alpha.row(0),
+            expected);
+  EXPECT_EQ(weights(named(image, {"R", "G", "B"})).alpha.row(0), Eigen::RowVector3d(1, 2, 3) / 6);
+  try {
+    weights(named(image, {"a", "bottom1", "other"}));
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("m.exr"), HasSubstr("bottom1"),
+                                    HasSubstr("name channels like regions")));
+  }
+  try {
+    weights(named(image, {"top", "bottom", "other"}));
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("middle"));
+  }
+}
+
+TEST(RegionWeights, OneImageMayBeOneRegion) {
+  // Grey in three channels, and colours that are the same in both, with the mask in alpha.
+  const Image grey = image_of(2, 1, 3, {1, 1, 1, 0, 0, 0});
+  const Image alpha = image_of(2, 1, 4, {0.2F, 0.5F, 0.1F, 0, 0.2F, 0.6F, 0.1F, 1}, 3);
+  const Strip strip({{0.25, 0.5}, {0.75, 0.5}, {0.75, 0.25}});
+  const auto in_order = region_weights(strip.topology, strip.uvs,
+                                       {MaskSource("a/1.png", grey), MaskSource("a/2.png", alpha)},
+                                       2, {}, {"brow", "lip"});
+  EXPECT_EQ(in_order.alpha.row(0), Eigen::RowVector2d(1, 0));
+  EXPECT_EQ(in_order.alpha.row(1), Eigen::RowVector2d(0, 1));
+  const auto by_name = region_weights(
+      strip.topology, strip.uvs, {MaskSource("a/lip.png", grey), MaskSource("a/brow.png", alpha)},
+      2, {}, {"brow", "lip"});
+  EXPECT_EQ(by_name.alpha.row(0), Eigen::RowVector2d(0, 1));
+  const Image colours = image_of(1, 1, 3, {0.1F, 0.2F, 0.3F});
+  EXPECT_THAT(
+      message_of_masks(strip, {MaskSource("c.png", colours), MaskSource("d.png", colours)}, 2),
+      AllOf(HasSubstr("c.png"), HasSubstr("grey")));
+}
+
+TEST(RegionWeights, AlphaCountsWhereColoursTellNothingAndOneChannelLeavesARest) {
+  const Image white = image_of(2, 1, 4, {1, 1, 1, 0.25F, 1, 1, 1, 1}, 3);
+  const Strip strip({{0.25, 0.5}, {0.75, 0.5}, {0.75, 0.25}});
+  const auto weights = region_weights(strip.topology, strip.uvs, {MaskSource("m", white)}, 2);
+  EXPECT_EQ(weights.alpha.row(0), Eigen::RowVector2d(0.25, 0.75));
+  EXPECT_EQ(weights.alpha.row(1), Eigen::RowVector2d(1, 0));
+}
+
+TEST(RegionWeights, RowsOfVerticesNeedNoTextureCoordinates) {
+  Strip strip = three();
+  strip.topology.corner_uvs.clear();
+  const testing::TemporaryFolder folder;
+  const auto weights = [&](const char* name, const std::string& text) {
+    const std::string file = folder.write(name, text).string();
+    return region_weights(strip.topology, {}, {MaskSource(file)}, 2, {}, {"face", "rest"});
+  };
+  const auto plain = weights("w.txt", "# painted\n1 0\n0.5 0.5\n1 3\n");
+  EXPECT_EQ(plain.alpha.row(2), Eigen::RowVector2d(0.25, 0.75));
+  EXPECT_EQ(weights("w.csv", "rest,face\n0,1\n.5,.5\n3,1\n").alpha, plain.alpha);
+  for (const char* bad : {"1 0\n1 0\n", "1 0\n1\n1 0\n", "1 0\n-1 0\n1 0\n", "1 0\nnan 0\n1 0\n"}) {
+    EXPECT_THROW(weights("bad.txt", bad), RecoverableError) << bad;
+  }
+}
+
+TEST(RegionWeights, OnlyNeededVerticesNeedTextureCoordinates) {
+  Strip strip({{0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}, {0, 0}});
+  strip.topology.corner_uvs[5] = kNoIndex;
+  const MaskSource mask("m", image_of(1, 1, 2, {1, 1}));
+  EXPECT_THAT(message_of_masks(strip, {mask}, 2), HasSubstr("texture coordinate"));
+  const auto weights =
+      region_weights(strip.topology, strip.uvs, {mask}, 2, {true, true, true, false});
+  EXPECT_EQ(weights.alpha.row(0), Eigen::RowVector2d(0.5, 0.5));
+  EXPECT_EQ(weights.alpha.row(3), Eigen::RowVector2d(0, 1));
+}
+
 TEST(RegionWeights, ThreadCountChangesNothing) {
   Image image = image_of(16, 16, 3, {});
   for (int i = 0; i < 768; ++i)

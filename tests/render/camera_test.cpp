@@ -55,6 +55,20 @@ TEST(Camera, EveryHeadFitsWithItsMarginAndTouchesIt) {
   }
 }
 
+// Masks of faces, and busts that end at the throat, lost their chins.
+TEST(Camera, NeverCutsAChin) {
+  const auto lowest_shown = [](double front_of_lowest) {
+    Positions head(9, 3);
+    head << -2, 0, front_of_lowest, 2, 0, front_of_lowest, 0, 1, front_of_lowest,  //
+        -5, 5, 8.5, 5, 5, 8.5, 0, 9, 10, -7, 12, 0, 7, 12, 0, 0, 20, 6;
+    const Positions* heads[] = {&head};
+    const Camera camera = fit_camera(heads, {}, View::kFront, {.cut_below = 0.1});
+    return testing::project(camera, head.row(0).transpose()).y();
+  };
+  EXPECT_LE(lowest_shown(8), 0.94 + 1e-9);
+  EXPECT_GT(lowest_shown(3), 0.94 + 1e-9);
+}
+
 TEST(Camera, ShowsWhatIsBesideTheHeadsUnlessItIsTooLow) {
   const auto heads = two_heads();
   FramingOptions options = {.margin = 0.08, .cut_below = 0.2};

@@ -92,11 +92,12 @@ TEST_F(ScanFaults, ASkullThatStandsOutIsHair) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("hair")));
 }
 
-TEST_F(ScanFaults, ASkullFarFromTheScanIsHair) {
+// Scans that end below the skull were said to show hair that stands 0 mm out.
+TEST_F(ScanFaults, ASkullThatIsFarButDoesNotStandOutIsNoHair) {
   for (std::size_t v = 0; v < regions_.of_vertex.size(); ++v) {
     if (regions_.of_vertex[v] == 0 && v % 4 == 0) result_.distance_mm(static_cast<Index>(v)) = 5;
   }
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("--ignore")));
+  EXPECT_TRUE(faults().empty());
 }
 
 }  // namespace

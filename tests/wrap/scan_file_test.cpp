@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/file_mesh.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/wrap_template.h"
 #include "head_models/synth/synthetic_head.h"
@@ -18,6 +19,11 @@
 
 namespace crowdface::testing {
 namespace {
+
+Scan parse_glb(const std::string& bytes, const std::string& name) {
+  const FileMesh mesh = parse_gltf(bytes, name);
+  return {mesh.positions, triangles_of(mesh.topology)};
+}
 
 Scan cube() {
   return {cube_positions(), triangles_of(cube_topology())};
@@ -225,10 +231,9 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   refuse("many.ply", "ply\nformat ascii 1.0\nelement vertex 99999999\nend_header\n", "claims");
   refuse("cut.stl", stl.substr(0, stl.size() - 1), "claims 12 triangles");
   refuse("word.stl", "solid x\nvertex 1 2 three\n", "three");
-  refuse("cut.glb", whole.substr(0, whole.size() - 4), "ends too soon");
-  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "node 0 stands in two places");
-  refuse("twice.glb", glb(cube(), R"({"children":[1,1]})"), "node 1 stands in two places");
-  refuse("short.glb", glb(cube(), R"({"children":[1],"rotation":[0,0,1]})"), "incomplete");
+  refuse("cut.glb", whole.substr(0, whole.size() - 4), "cut off");
+  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "in a circle");
+  refuse("short.glb", glb(cube(), R"({"children":[1],"rotation":[0,0,1]})"), "does not have");
   refuse("other_end.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n", "middle");
   const std::string nan("\0\0\xc0\x7f", 4);
   refuse("nan.ply",
@@ -307,7 +312,7 @@ TEST(ScanFile, GlbPrimitivesThatNameTheSameDataTakeNoMoreThanTheFile) {
   const Scan scan = parse_glb(glb_of(2), "scan.glb");
   EXPECT_EQ(scan.positions.rows(), 8);
   EXPECT_EQ(scan.triangles.size(), 24U);
-  expect_error(ExitCode::kBadData, {"scan.glb", "more triangles than it has bytes"},
+  expect_error(ExitCode::kBadData, {"scan.glb", "more numbers than its buffers have bytes"},
                [&] { parse_glb(glb_of(100), "scan.glb"); });
 }
 
@@ -317,7 +322,25 @@ TEST(ScanFile, PlyElementsThatHoldNothingTakeNoTime) {
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
       "property float z\n";
   for (int i = 0; i < 100'000; ++i) ply += "element nothing 1000000\n";
-  EXPECT_TRUE(parse_ply(ply + "end_header\n", "empty.ply").triangles.empty());
+  EXPECT_EQ(parse_ply(ply + "end_header\n", "empty.ply").topology.face_count(), 0);
+}
+
+TEST(ScanFile, CoordinatesOfAMapInSinglePrecisionAreRefused) {
+  const TemporaryFolder folder;
+  Scan scan = cube();
+  scan.positions.array() += 5334568;
+  expect_error(ExitCode::kBadData, {"map.ply", "single precision", "near the origin"},
+               [&] { read_scan(folder.write("map.ply", encode_scan(scan))); });
+}
+
+TEST(ScanFile, VerticesWithoutAPlaceTakeTheirTrianglesAlong) {
+  const TemporaryFolder folder;
+  Scan scan = cube();
+  scan.positions(0, 1) = std::nan("");
+  const Scan read = read_scan(folder.write("nan.ply", encode_scan(scan)));
+  EXPECT_TRUE(read.positions.allFinite());
+  EXPECT_LT(read.triangles.size(), 12U);
+  EXPECT_GT(read.triangles.size(), 5U);
 }
 
 TEST(ScanFile, SmallPiecesAreLeftOut) {

@@ -78,7 +78,7 @@ TEST_P(WrapAtTwoSizes, FindsAHeadItHasNeverSeen) {
   EXPECT_EQ(result.flipped, 0);
   EXPECT_NEAR(result.pose.scale / truth.pose.scale, 1, 0.1);
   EXPECT_TRUE(result.positions.allFinite());
-  EXPECT_NO_THROW(refuse_bad_wrap(shape, result));
+  EXPECT_NO_THROW(refuse_bad_wrap(shape, result, {}));
 }
 INSTANTIATE_TEST_SUITE_P(Vertices, WrapAtTwoSizes, ::testing::Values(5000, 16000));
 
@@ -232,7 +232,7 @@ TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {
     landmarks[i].place = shape.positions.row(other.vertex).transpose();
   }
   expect_error(ExitCode::kBadData, {"do not belong together", "swapped"}, [&] {
-    refuse_bad_wrap(shape, wrap(shape, nullptr, scan, landmarks, std::nullopt));
+    refuse_bad_wrap(shape, wrap(shape, nullptr, scan, landmarks, std::nullopt), {});
   });
 }
 

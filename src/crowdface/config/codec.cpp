@@ -159,6 +159,17 @@ Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high) {
       concat("whole number, ", low, " … ", high));
 }
 
+Codec<LengthUnit> length_unit() {
+  return plain<LengthUnit>(
+      [](const YamlNode& node, Complaints& out) -> std::optional<LengthUnit> {
+        const bool is_scalar = node.kind == YamlNode::Kind::kScalar;
+        const auto unit = is_scalar ? parse_length_unit(node.text) : std::nullopt;
+        if (!unit) out.expected(node, "mm or cm or m or in, or a length such as \"243.84 cm\"");
+        return unit;
+      },
+      [](LengthUnit unit) { return name_of(unit); }, "`mm`, `cm`, `m`, `in`, or a length");
+}
+
 Codec<double> length(double high_mm) {
   return plain<double>(
       [=](const YamlNode& node, Complaints& out) -> std::optional<double> {

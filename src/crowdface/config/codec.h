@@ -9,6 +9,7 @@
 #include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_draft.h"
 #include "crowdface/config/config_values.h"
+#include "crowdface/core/units.h"
 
 namespace crowdface {
 
@@ -37,6 +38,8 @@ std::string without_article(std::string_view expected);
 Codec<double> number(double low, double high);
 /// A whole number, bounds included.
 Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
+/// What one unit of a mesh is: mm, cm, m, in, or a length.
+Codec<LengthUnit> length_unit();
 /// A length in millimetres from 0, or above it.
 Codec<double> length(double high_mm);
 Codec<double> positive_length(double high_mm);

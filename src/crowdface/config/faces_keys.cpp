@@ -7,8 +7,11 @@
 #include "crowdface/config/starter_config.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/mesh_format.h"
+#include "crowdface/io/mesh_as_obj.h"
 
 namespace crowdface {
 namespace {
@@ -16,14 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 using Faces = Config::Faces;
 
-/// Adds a head called like its file; refuses what would make a name mean two things.
-void add_head(const fs::path& file, const YamlNode& node, Faces& faces, ConfigDraft& draft) {
-  const std::string name = file.stem().string();
+/// Adds a head; refuses what would make a name mean two things.
+void add_head(const fs::path& file, const std::string& name, const YamlNode& node, Faces& faces,
+              ConfigDraft& draft) {
   const std::string shown = quoted(file.string());
   expect_file(node, file, draft);
   if (!is_name(name)) {
     draft.complaints.about(
-        node, concat("the head's name, ", quoted(name), ", is its file's name and may hold ",
+        node, concat("the head's name, ", quoted(name), ", is that of its file and may hold ",
                      "letters (a-z), digits, '_', '-' and '.', 64 at most; rename ", shown));
   } else if (name == "all" || name == "target") {
     draft.complaints.about(node, concat("no head can be called ", quoted(name),
@@ -37,6 +40,13 @@ void add_head(const fs::path& file, const YamlNode& node, Faces& faces, ConfigDr
   faces.tags.emplace_back();
 }
 
+void add_heads(const std::vector<fs::path>& files, const std::vector<const YamlNode*>& nodes,
+               Faces& faces, ConfigDraft& draft) {
+  const std::vector<std::string> names = names_of_heads(files);
+  for (std::size_t h = 0; h < files.size(); ++h)
+    add_head(files[h], names[h], *nodes[h], faces, draft);
+}
+
 bool expect_head_count(const YamlNode& node, std::size_t count, const std::string& where,
                        Complaints& out) {
   if (count >= kFewestHeads && count <= kMostHeads) return true;
@@ -45,31 +55,69 @@ bool expect_head_count(const YamlNode& node, std::size_t count, const std::strin
   return false;
 }
 
+/// What a folder without heads may hold instead: a pattern for one mesh in each of its folders.
+std::string pattern_below(const fs::path& folder) {
+  for (const fs::path& below : list_folder(folder)) {
+    if (!is_folder(below)) continue;
+    const std::vector<fs::path> heads = list_heads(below);
+    if (heads.empty()) continue;
+    const std::string pattern = concat("*/", heads.front().filename().string());
+    if (files_like(folder / pattern).size() < kFewestHeads) continue;
+    return concat("; for a head a folder: files: \"", (folder.filename() / pattern).string(), "\"");
+  }
+  return {};
+}
+
 void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
-  const auto folder = path("a folder of OBJ files").read(node, draft);
+  const auto folder = path("a folder of heads").read(node, draft);
   if (!folder) return;
   try {
     const std::vector<fs::path> files = list_heads(*folder);
-    draft.heads_known = expect_head_count(
-        node, files.size(), concat(" OBJ files in ", quoted(node.text)), draft.complaints);
-    for (const fs::path& file : files) add_head(file, node, faces, draft);
+    const std::string left_out = left_out_of_heads(*folder);
+    if (!left_out.empty()) log_warning(left_out);
+    std::string where = concat(" in ", quoted(node.text));
+    if (files.empty())
+      where += concat(" (OBJ, PLY, GLB, glTF, FBX, NumPy)", pattern_below(*folder));
+    draft.heads_known = expect_head_count(node, files.size(), where, draft.complaints);
+    add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
   } catch (const MissingInput& error) {
     draft.complaints.about(node, error.what(), error.code());
   }
 }
 
+void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
+  const auto pattern = path("a pattern").read(node, draft);
+  if (!pattern) return;
+  std::vector<fs::path> files = files_like(*pattern);
+  std::erase_if(files, [](const fs::path& file) { return !is_head_file(file); });
+  draft.heads_known = expect_head_count(
+      node, files.size(), concat(" that are like ", quoted(node.text)), draft.complaints);
+  add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
+}
+
 void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
-  if (!draft.complaints.expect_list(node, "a list of OBJ files, [a.obj, b.obj]")) return;
+  if (node.kind == YamlNode::Kind::kScalar && node.text.find_first_of("*?") != std::string::npos) {
+    return read_file_pattern(node, faces, draft);
+  }
+  if (!draft.complaints.expect_list(
+          node, "a list of meshes, [a.obj, b.obj], or a pattern, \"people/*/neutral.obj\""))
+    return;
   bool sound = true;
+  std::vector<fs::path> files;
+  std::vector<const YamlNode*> nodes;
   for (const YamlNode& item : node.items) {
-    const auto file = path("an OBJ file").read(item, draft);
-    if (file && mesh_format_of(*file) == MeshFormat::kObj) {
-      add_head(*file, item, faces, draft);
+    const auto file = path("a mesh").read(item, draft);
+    if (file && is_head_file(*file)) {
+      files.push_back(*file);
+      nodes.push_back(&item);
       continue;
     }
     sound = false;
-    if (file) draft.complaints.expected(item, "a file whose name ends in .obj");
+    if (file)
+      draft.complaints.expected(item,
+                                "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx or .npy");
   }
+  add_heads(files, nodes, faces, draft);
   draft.heads_known =
       sound && expect_head_count(node, node.items.size(), " files", draft.complaints);
 }
@@ -151,11 +199,11 @@ std::string name_some(std::vector<std::string> names) {
 
 StarterLines starter_units(const StarterFacts& facts) {
   const double height_cm = facts.head_height * mm_per(facts.units) / 10;
-  return {std::string(name_of(facts.units)), "",
-          concat("What one unit of the OBJ files is: mm, cm, m or in. Guessed, because the first "
-                 "mesh is ",
-                 format_fixed(facts.head_height, 2), " units\nhigh, which makes ",
-                 format_fixed(height_cm, 1), " cm. PLEASE CHECK: every size below rests on it.")};
+  return {name_of(facts.units), "",
+          concat("What one unit of the files is: mm, cm, m, in, or a length (243.84 cm). Guessed, "
+                 "because ",
+                 facts.units_reason, ",\nwhich makes the first mesh ", format_fixed(height_cm, 1),
+                 " cm high. PLEASE CHECK: every size below rests on it.")};
 }
 
 StarterLines starter_tags(const StarterFacts& facts) {
@@ -176,8 +224,9 @@ const Keys<Faces>& faces_keys() {
           .in_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(facts.heads.string())};
           }),
-      Key<Faces>{"files", read_files, write_files}.taking("list of OBJ files"),
-      word_key("units", &Faces::units, "what is one unit of the OBJ files: mm, cm, m or in?")
+      Key<Faces>{"files", read_files, write_files}.taking("list of meshes, or a pattern"),
+      key("units", &Faces::units, length_unit(),
+          "what is one unit of the files: mm, cm, m, in, or a length?")
           .in_starter(starter_units),
       key("up", &Faces::up, axis()).in_starter([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.up), "the axis that points to the top of the head"};
@@ -222,7 +271,7 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
   return StarterLines{starter_keys(faces_keys(), facts), "",
-                      concat("The heads: OBJ files that share one topology. This folder holds ",
+                      concat("The heads: meshes that share one topology. This folder holds ",
                              facts.names.size(), ": ", name_some(facts.names), ".")};
 }
 

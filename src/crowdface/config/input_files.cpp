@@ -2,6 +2,10 @@
 #include "crowdface/config/input_files.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -10,7 +14,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/mesh_format.h"
+#include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -23,19 +27,141 @@ void add_image(const fs::path& image, std::vector<fs::path>& files) {
   for (fs::path& tile : find_tiles(image)) files.push_back(std::move(tile));
 }
 
-bool is_head(const fs::path& path) {
-  return mesh_format_of(path) == MeshFormat::kObj && !path.filename().string().starts_with('.') &&
-         !is_folder(path);
+bool is_visible_file(const fs::path& path) {
+  return !path.filename().string().starts_with('.') && !is_folder(path);
+}
+
+std::vector<fs::path> visible_files(const fs::path& folder,
+                                    const std::function<bool(const fs::path&)>& is_wanted) {
+  std::error_code error;
+  std::vector<fs::path> files = list_files(
+      folder, [&](const fs::path& path) { return is_wanted(path) && is_visible_file(path); },
+      &error);
+  if (!error) return files;
+  throw MissingInput(
+      concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
+}
+
+/// Files of other programs that hold meshes, or may.
+bool may_hold_mesh(const fs::path& path) {
+  static const std::set<std::string> kEndings = {
+      ".3ds",  ".3mf",  ".abc", ".blend", ".bgeo", ".c4d", ".dae", ".gz",  ".lwo",
+      ".ma",   ".max",  ".mb",  ".npz",   ".off",  ".pkl", ".stl", ".usd", ".usdc",
+      ".usdz", ".vrml", ".wrl", ".x3d",   ".zip",  ".zpr", ".ztl"};
+  return kEndings.contains(lower_case(path.extension().string())) || is_head_file(path);
+}
+
+/// Whether a pattern's part, with * and ?, is that of a name.
+bool is_like(std::string_view pattern, std::string_view name) {
+  if (pattern.empty()) return name.empty();
+  if (pattern[0] != '*') {
+    return !name.empty() && (pattern[0] == '?' || pattern[0] == name[0]) &&
+           is_like(pattern.substr(1), name.substr(1));
+  }
+  const std::string_view rest =
+      pattern.substr(std::min(pattern.find_first_not_of('*'), pattern.size()));
+  for (std::size_t skipped = 0; skipped <= name.size(); ++skipped) {
+    if (is_like(rest, name.substr(skipped))) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 std::vector<fs::path> list_heads(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> files = list_files(folder, is_head, &error);
-  if (!error) return files;
-  throw MissingInput(
-      concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
+  const auto ending_of = [](const fs::path& file) {
+    const std::string ending = lower_case(file.extension().string());
+    return ending == ".gltf" ? ".glb" : ending;
+  };
+  std::vector<fs::path> files = visible_files(folder, is_head_file);
+  std::map<std::string, std::size_t> counts;
+  for (const fs::path& file : files) ++counts[ending_of(file)];
+  std::string kind = ".obj";
+  if (counts[kind] < kFewestHeads) {
+    for (const auto& [ending, count] : counts) {
+      if (count > counts[kind]) kind = ending;
+    }
+  }
+  std::set<std::string> named;
+  for (const fs::path& file : files) {
+    if (is_obj(file)) named.insert(file.stem().string());
+  }
+  std::erase_if(files, [&](const fs::path& file) {
+    return !is_obj(file) && (ending_of(file) != kind || named.contains(file.stem().string()));
+  });
+  return files;
+}
+
+std::string left_out_of_heads(const fs::path& folder) {
+  const std::vector<fs::path> heads = list_heads(folder);
+  std::vector<std::string> others;
+  for (const fs::path& file : visible_files(folder, may_hold_mesh)) {
+    if (std::ranges::find(heads, file) == heads.end()) {
+      others.push_back(file.filename().string());
+    }
+  }
+  if (others.empty()) return {};
+  constexpr std::size_t kNamed = 5;
+  const std::size_t count = others.size();
+  if (count > kNamed) {
+    others.resize(kNamed);
+    others.emplace_back("…");
+  }
+  return concat(
+      quoted(folder.string()), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
+      count, "): the heads of a folder are its OBJ files, or those of the kind that most are of; ",
+      "files: \"", (folder.filename() / "*").string(),
+      "\" takes OBJ, PLY, GLB, glTF, FBX and NumPy alike, and crowdface convert writes one as "
+      "another");
+}
+
+std::vector<fs::path> files_like(const fs::path& pattern) {
+  std::vector<fs::path> found = {fs::path()};
+  for (const fs::path& part : pattern) {
+    const std::string text = part.string();
+    std::vector<fs::path> next;
+    for (const fs::path& folder : found) {
+      if (text.find_first_of("*?") == text.npos) {
+        next.push_back(folder / part);
+        continue;
+      }
+      if (!is_folder(folder.empty() ? "." : folder)) continue;
+      for (const fs::path& entry : list_folder(folder.empty() ? "." : folder)) {
+        const std::string name = entry.filename().string();
+        if (!name.starts_with('.') && is_like(text, name)) next.push_back(folder / name);
+      }
+    }
+    found = std::move(next);
+  }
+  std::erase_if(found, [](const fs::path& path) { return !is_file(path); });
+  std::ranges::sort(found);
+  return found;
+}
+
+std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(file.stem().string());
+  const auto all_differ = [&] {
+    return std::set(names.begin(), names.end()).size() == names.size();
+  };
+  if (all_differ() || files.empty()) return names;
+  std::vector<std::vector<std::string>> parts;
+  for (const fs::path& file : files) {
+    const fs::path plain = file.lexically_normal();
+    std::vector<std::string>& of = parts.emplace_back();
+    for (const fs::path& part : plain.parent_path()) of.push_back(part.string());
+    of.push_back(plain.stem().string());
+    if (of.size() != parts[0].size()) return names;
+  }
+  const std::vector<std::string> stems = names;
+  names.assign(files.size(), "");
+  for (std::size_t p = 0; p < parts[0].size() && !all_differ(); ++p) {
+    if (std::ranges::all_of(parts, [&](const auto& of) { return of[p] == parts[0][p]; })) continue;
+    for (std::size_t h = 0; h < names.size(); ++h) {
+      names[h] += concat(names[h].empty() ? "" : "_", parts[h][p]);
+    }
+  }
+  return all_differ() ? names : stems;
 }
 
 std::vector<fs::path> input_files(const Config& config) {

@@ -18,7 +18,8 @@ namespace crowdface {
 struct StarterFacts {
   std::filesystem::path heads;     ///< the folder, relative to where the config will be written
   std::vector<std::string> names;  ///< of the heads
-  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess, from the height
+  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess
+  std::string units_reason;                    ///< "the first mesh is 27.3 units high"
   double head_height = 0;                      ///< of the first head, in its own units
   Eigen::Index vertices = 0;                   ///< of each head
   Axis up = {1, 1};

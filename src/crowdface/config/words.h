@@ -39,7 +39,6 @@ inline const auto& all_words() {
   using With = Config::Comparison::With;  // kFile is written as the file itself
   static const std::tuple words = {
       Words<bool>{{"true", true}, {"false", false}},
-      words_by_name(kLengthUnits),
       words_by_name(all_mesh_formats()),
       Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
       Words<Boundary>{{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}},

@@ -58,13 +58,16 @@ class MappedFile {
   /// then on they lie on the disk, and in memory as far as the system has room.
   /// \param folder  where; it is made if it is not there. \throws CannotCreate, IoError.
   static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
+  /// A text in memory that takes the place of a file.
+  static MappedFile of_text(std::string text);
   std::string_view bytes() const;
   /// Whether the file has become shorter: then some of the bytes may be zeros that it never held.
   bool was_cut() const;
 
  private:
   struct Mapping;
-  std::shared_ptr<const Mapping> mapping_;  ///< none of an empty file
+  std::shared_ptr<const Mapping> mapping_;   ///< none of an empty file
+  std::shared_ptr<const std::string> text_;  ///< instead of a mapping
 };
 
 /// Writes a file so that it is either whole under its final name or not there at all: temporary

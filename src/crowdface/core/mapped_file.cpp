@@ -159,7 +159,14 @@ MappedFile MappedFile::of_scratch(std::string_view bytes, const fs::path& folder
   return mapped;
 }
 
+MappedFile MappedFile::of_text(std::string text) {
+  MappedFile file;
+  file.text_ = std::make_shared<const std::string>(std::move(text));
+  return file;
+}
+
 std::string_view MappedFile::bytes() const {
+  if (text_) return *text_;
   if (!mapping_) return {};
   return {static_cast<const char*>(mapping_->data), mapping_->size};
 }

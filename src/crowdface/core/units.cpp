@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "crowdface/core/text.h"
 
@@ -10,28 +11,30 @@ namespace crowdface {
 
 namespace {
 
-struct Unit {
-  std::string_view name;
-  double mm;
-};
-/// By their numbers.
-constexpr std::array<Unit, 4> kUnits = {{{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
+constexpr std::array<std::string_view, kLengthUnits.size()> kNames = {"mm", "cm", "m", "in"};
+
+std::optional<LengthUnit> unit_called(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (name == kNames[i]) return kLengthUnits[i];
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
-double mm_per(LengthUnit unit) {
-  return kUnits[static_cast<std::size_t>(unit)].mm;
-}
-
-std::string_view name_of(LengthUnit unit) {
-  return kUnits[static_cast<std::size_t>(unit)].name;
-}
-
-std::optional<LengthUnit> parse_length_unit(std::string_view name) {
-  for (std::size_t i = 0; i < kUnits.size(); ++i) {
-    if (name == kUnits[i].name) return static_cast<LengthUnit>(i);
+std::string name_of(LengthUnit unit) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (unit == kLengthUnits[i]) return std::string(kNames[i]);
   }
-  return std::nullopt;
+  return concat(unit.mm, " mm");
+}
+
+std::optional<LengthUnit> parse_length_unit(std::string_view text) {
+  constexpr double kLeastMm = 1e-6, kMostMm = 1e9;
+  if (const auto unit = unit_called(text)) return unit;
+  const auto mm = parse_length_mm(text);
+  if (!mm || !(*mm >= kLeastMm && *mm <= kMostMm)) return std::nullopt;
+  return LengthUnit{*mm};
 }
 
 LengthUnit nearest_unit(double length, double typical_mm) {
@@ -43,9 +46,15 @@ LengthUnit nearest_unit(double length, double typical_mm) {
                   [&](LengthUnit a, LengthUnit b) { return distance(a) < distance(b); });
 }
 
+LengthUnit fitting_unit(double length, double typical_mm) {
+  const double mm = typical_mm / std::max(length, 1e-9);
+  const double step = std::pow(10, std::floor(std::log10(mm)) - 1);
+  return {std::round(mm / step) * step};
+}
+
 std::optional<double> parse_length_mm(std::string_view text) {
   const std::size_t unit_start = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
-  const auto unit = parse_length_unit(text.substr(unit_start));
+  const auto unit = unit_called(text.substr(unit_start));
   std::string_view number = text.substr(0, unit_start);
   while (number.ends_with(' ')) number.remove_suffix(1);
   const auto value = parse_double(number);

@@ -184,6 +184,13 @@ void load_shapes(const Config& config, const std::filesystem::path& cache, Input
   } else {
     load_heads(source, inputs, problems);
   }
+  for (const Shape& shape : inputs.shapes.shapes) {
+    if (shape.moves.vertices.empty()) {
+      inputs.warn(concat(
+          "the shape ", shape.name,
+          " moves no vertex of any head: is it the neutral? Take its file out of the folder"));
+    }
+  }
   if (problems.size() == before) inputs.shapes_digest = digest_of_shapes(inputs.shapes);
 }
 

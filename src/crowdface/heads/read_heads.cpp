@@ -2,8 +2,12 @@
 #include "crowdface/heads/read_heads.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -15,6 +19,8 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/seen_files.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/mesh/same_graph.h"
 
 namespace crowdface {
 namespace {
@@ -52,9 +58,9 @@ class MeshShelf {
     auto& place = meshes_[head.mesh_digest];
     if (!place) place = std::make_shared<HeadMesh>(std::move(mesh));
     head.mesh = place;
-    of_outline_[outline] = {head.mesh_digest, place};
+    if (!head.file.is_mended) of_outline_[outline] = {head.mesh_digest, place};
   }
-  /// The mesh that was read from another text with this outline; nothing if there is none.
+  /// The mesh that was read from another text with this outline; nothing if there is none, or that text was mended.
   void take(const Digest& outline, HeadFile& head) {
     const std::lock_guard lock(mutex_);
     const Known& known = of_outline_[outline];
@@ -84,7 +90,26 @@ bool fits(const ObjFile& head, const HeadMesh& mesh) {
 }
 
 bool is_worth_keeping(const ObjFile& file) {
-  return file.file.bytes().size() >= kLeastKeptBytes;
+  return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kLeastKeptBytes;
+}
+
+/// What readers have to say of files, once for all of which they say the same.
+void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  for (const std::optional<HeadFile>& head : files) {
+    if (!head) continue;
+    for (const std::string& note : head->file.notes) {
+      auto place = std::ranges::find(notes, note, [](const auto& known) { return known.first; });
+      if (place == notes.end()) place = notes.insert(notes.end(), {note, {}});
+      place->second.push_back(head->file.path.string());
+    }
+  }
+  for (auto& [note, paths] : notes) {
+    constexpr std::size_t kNamed = 3;
+    const std::size_t more = paths.size() - std::min(paths.size(), kNamed);
+    paths.resize(std::min(paths.size(), kNamed));
+    log_warning(concat(join(paths), more > 0 ? concat(" and ", more, " more") : "", ": ", note));
+  }
 }
 
 /// Fills in what the cache knows of a head. \return false if it does not.
@@ -108,13 +133,29 @@ struct HeadReading {
   ObjOutline outline;
 };
 
-void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
+/// Sorts what was read into the head and its mesh.
+void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
-  file = read_obj(fs::path(file.path), std::move(file.file), reading.outline);
+  file = std::move(read);
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);
   shelf.put(reading.outline.mesh, std::move(mesh), reading.head);
+}
+
+void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
+  ObjFile& file = reading.head.file;
+  take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.outline), shelf);
+}
+
+/// Arrays of positions may come without faces: then the head has no mesh.
+void read_other_format(HeadReading& reading, MeshShelf& shelf) {
+  ObjFile& file = reading.head.file;
+  FileMesh mesh = read_joined_mesh(file.path);
+  if (mesh.topology.face_count() > 0)
+    return take_mesh(reading, as_obj(std::move(mesh), fs::path(file.path)), shelf);
+  file.positions = std::move(mesh.positions);
+  file.is_mended = true;
 }
 
 /// Reads all but the mesh if another head has the same, which may not be there yet.
@@ -131,6 +172,10 @@ HeadReading begin_reading(const fs::path& path, const fs::path& cache, MeshShelf
     seen.remember(head.text);
     return reading;
   }
+  if (!is_obj(path)) {
+    read_other_format(reading, shelf);
+    return reading;
+  }
   reading.outline = outline_obj(head.file.file.bytes());
   if (shelf.is_first(reading.outline.mesh)) {
     read_with_mesh(reading, shelf);
@@ -143,9 +188,47 @@ HeadReading begin_reading(const fs::path& path, const fs::path& cache, MeshShelf
 
 /// Gives a head its mesh when that of the first that has the same is there, or could not be read.
 void end_reading(HeadReading& reading, MeshShelf& shelf) {
-  if (reading.head.mesh) return;
+  if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
+}
+
+/// The mesh of another head for one that has its vertices in the same order.
+void give_mesh(HeadFile& head, const HeadFile& other) {
+  FileMesh mesh;
+  mesh.topology = other.mesh->topology;
+  mesh.uvs = other.mesh->uvs;
+  mesh.materials = other.file.materials;
+  mesh.positions = head.file.positions;
+  ObjFile file = as_obj(std::move(mesh), head.file.path);
+  file.positions = std::move(head.file.positions);
+  file.material_libraries = std::move(head.file.material_libraries);
+  file.notes = std::move(head.file.notes);
+  file.topology = {};
+  file.uvs.resize(0, 2);
+  head.file = std::move(file);
+  head.mesh = other.mesh;
+  head.mesh_digest = other.mesh_digest;
+}
+
+/// Arrays of positions have the faces of the first mesh with as many vertices.
+void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
+                          std::vector<std::optional<Error>>& errors) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!files[i] || files[i]->mesh) continue;
+    const auto other = std::ranges::find_if(files, [&](const auto& file) {
+      return file && file->mesh && file->file.positions.rows() == files[i]->file.positions.rows();
+    });
+    if (other != files.end()) {
+      give_mesh(*files[i], **other);
+      continue;
+    }
+    errors[i] = InvalidInput(concat(files[i]->file.path.string(), ": expected a mesh, found ",
+                                    files[i]->file.positions.rows(),
+                                    " points and no face: put a mesh with as many vertices (OBJ) "
+                                    "beside, or faces.npy (n by 3 or 4)"));
+    files[i].reset();
+  }
 }
 
 }  // namespace
@@ -177,11 +260,96 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
     end_reading(readings[i], shelf);
     files[i] = std::move(readings[i].head);
   });
+  give_faces_to_points(files, errors);
   for (const auto& error : errors) {
     if (error) problems.add(*error);
   }
+  tell_notes(files);
   return files;
 }
+
+namespace {
+
+/// Least and greatest texture coordinates of each vertex, which tell layouts apart.
+std::vector<std::array<double, 4>> uv_bounds(const HeadMesh& mesh) {
+  constexpr double kFar = std::numeric_limits<double>::max();
+  std::vector<std::array<double, 4>> bounds(static_cast<std::size_t>(mesh.topology.vertex_count),
+                                            {kFar, kFar, -kFar, -kFar});
+  for (std::size_t c = 0; c < mesh.topology.corner_uvs.size(); ++c) {
+    if (mesh.topology.corner_uvs[c] == kNoIndex) continue;
+    std::array<double, 4>& of = bounds[mesh.topology.corner_vertices[c]];
+    for (Index k = 0; k < 2; ++k) {
+      const double uv = mesh.uvs(mesh.topology.corner_uvs[c], k);
+      const auto at = static_cast<std::size_t>(k);
+      of[at] = std::min(of[at], uv);
+      of[at + 2] = std::max(of[at + 2], uv);
+    }
+  }
+  return bounds;
+}
+
+bool has_same_uvs(const HeadMesh& first, const HeadMesh& found,
+                  const std::vector<std::uint32_t>& vertices) {
+  if (found.uvs.rows() == 0 || first.uvs.rows() == 0) return true;
+  constexpr double kTolerance = 1e-4;
+  const auto expected = uv_bounds(first), others = uv_bounds(found);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!(std::abs(expected[v][k] - others[vertices[v]][k]) <= kTolerance) &&
+          expected[v][k] != others[vertices[v]][k]) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The vertex of a head for each of the first one's, if it is the same mesh but for their order, or without polygons or
+/// texture coordinates; nothing otherwise.
+std::optional<std::vector<std::uint32_t>> vertices_in_order(const HeadFile& first,
+                                                            const HeadFile& head) {
+  const Topology &expected = first.mesh->topology, &found = head.mesh->topology;
+  if (first_difference(expected, found).empty()) {
+    if (head.mesh->uvs.rows() > 0 || first.mesh->uvs.rows() == 0) return std::nullopt;
+    std::vector<std::uint32_t> same(static_cast<std::size_t>(expected.vertex_count));
+    std::iota(same.begin(), same.end(), 0U);
+    return same;
+  }
+  if (expected.vertex_count != found.vertex_count) return std::nullopt;
+  const Positions &there = first.file.positions, &here = head.file.positions;
+  auto vertices = same_graph(expected, there, found, here);
+  for (std::uint32_t around = 0; around < 2 && !vertices; ++around) {
+    vertices = same_graph(triangulated(expected, around), there, found, here);
+  }
+  if (vertices && !has_same_uvs(*first.mesh, *head.mesh, *vertices)) return std::nullopt;
+  return vertices;
+}
+
+/// Heads that are the first one's mesh in another order are put in its order.
+void put_in_order(std::vector<HeadFile>& heads) {
+  std::vector<std::size_t> moved(heads.size(), 0);
+  parallel_for_each(heads.size(), [&](std::size_t h) {
+    HeadFile &head = heads[h], &first = heads[0];
+    if (head.mesh == first.mesh) return;
+    const auto vertices = vertices_in_order(first, head);
+    if (!vertices) return;
+    Positions positions(head.file.positions.rows(), 3);
+    for (std::size_t v = 0; v < vertices->size(); ++v) {
+      positions.row(static_cast<Index>(v)) = head.file.positions.row((*vertices)[v]);
+      moved[h] += (*vertices)[v] != v ? 1U : 0U;
+    }
+    head.file.positions = std::move(positions);
+    give_mesh(head, first);
+  });
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    if (moved[h] == 0) continue;
+    log_warning(concat(heads[h].file.path.string(), ": ", moved[h],
+                       " of its vertices stand in another order than those of ",
+                       heads[0].file.path.string(), ", and were put in that order"));
+  }
+}
+
+}  // namespace
 
 std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const fs::path& cache,
                                  Problems& problems) {
@@ -192,13 +360,14 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const fs::p
     kept += head->is_kept ? 1U : 0U;
     read.push_back(std::move(*head));
   }
+  if (!read.empty()) put_in_order(read);
   if (kept > 0)
     log_info(concat(kept, " of ", paths.size(), " heads came from the cache as they were read"));
   return read;
 }
 
 Positions read_positions(const fs::path& file, const Topology& topology, std::string_view others) {
-  ObjFile mesh = read_obj(file);
+  ObjFile mesh = read_mesh_as_obj(file);
   const std::string difference = first_difference(topology, mesh.topology);
   if (difference.empty()) return std::move(mesh.positions);
   refuse_file(file, concat("not the same mesh as ", others, ": ", difference));

@@ -12,6 +12,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/result_versions.h"
+#include "crowdface/core/text.h"
 #include "crowdface/heads/kept_lists.h"
 #include "crowdface/heads/named_parts.h"
 
@@ -59,12 +60,12 @@ std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs)
   add_skins(begin_key(key, Kind::kRegions, inputs), inputs)
       .add_array(std::span(inputs.faces.topology.corner_uvs))
       .add_array(numbers_of(inputs.faces.uvs))
-      .add(config.region_names().size())
+      .add(join(config.region_names()))
       .add(limits.image_pixels)
       .add(limits.image_bytes);
   for (const std::string& mask : config.regions.mask) {
     if (MaskSource(mask).tiled() || !is_file(mask)) return std::nullopt;
-    key.add(hash_file(mask).digest);
+    key.add(fs::path(mask).filename().string()).add(hash_file(mask).digest);
   }
   return key.digest();
 }
@@ -72,7 +73,8 @@ std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs)
 RegionWeights weights_of_masks(const Config& config, const Inputs& inputs) {
   return region_weights(inputs.faces.topology, inputs.faces.uvs,
                         {config.regions.mask.begin(), config.regions.mask.end()},
-                        static_cast<Index>(config.region_names().size()), skin_of(inputs));
+                        static_cast<Index>(config.region_names().size()), skin_of(inputs),
+                        config.region_names());
 }
 
 template <class Rows>

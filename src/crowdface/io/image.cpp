@@ -100,12 +100,10 @@ void check_png_claim(const path& file, std::string_view bytes, const PictureFact
 void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {
   if (spec.deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
   // Only OpenEXR has a window to lie in; the offsets of others say where the picture was cut from.
-  const bool moved = format == "openexr" && (spec.x != spec.full_x || spec.y != spec.full_y);
-  if (moved || spec.width != spec.full_width || spec.height != spec.full_height) {
+  const bool has_windows = format == "openexr";
+  if (!has_windows && (spec.width != spec.full_width || spec.height != spec.full_height)) {
     refuse_file(file, concat("expected all of the picture, found ", spec.width, " x ", spec.height,
-                             " pixels at ", spec.x, ", ", spec.y, " of a display window of ",
-                             spec.full_width, " x ", spec.full_height, " at ", spec.full_x, ", ",
-                             spec.full_y));
+                             " pixels of ", spec.full_width, " x ", spec.full_height));
   }
 }
 
@@ -188,15 +186,60 @@ OpenPicture open_checked(const path& file, const MappedFile& mapped, const Image
   return opened;
 }
 
+/// The display window of a picture whose data window is another: zero where it has no pixels.
+template <class T>
+std::vector<T> in_display_window(const std::vector<T>& pixels, const PictureFacts& facts) {
+  const auto channels = static_cast<std::size_t>(facts.channels);
+  const auto width = static_cast<std::size_t>(facts.full_width);
+  std::vector<T> out(width * static_cast<std::size_t>(facts.full_height) * channels, T{});
+  using Place = std::int64_t;  // windows may lie anywhere
+  const Place left = std::max(facts.x, facts.full_x);
+  const Place right =
+      std::min(Place{facts.x} + facts.width, Place{facts.full_x} + facts.full_width);
+  const Place bottom =
+      std::min(Place{facts.y} + facts.height, Place{facts.full_y} + facts.full_height);
+  if (left >= right) return out;
+  for (Place y = std::max(facts.y, facts.full_y); y < bottom; ++y) {
+    const auto from =
+        static_cast<std::size_t>(y - facts.y) * static_cast<std::size_t>(facts.width) +
+        static_cast<std::size_t>(left - facts.x);
+    const auto to = static_cast<std::size_t>(y - facts.full_y) * width +
+                    static_cast<std::size_t>(left - facts.full_x);
+    std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(from * channels),
+                static_cast<std::size_t>(right - left) * channels,
+                out.begin() + static_cast<std::ptrdiff_t>(to * channels));
+  }
+  return out;
+}
+
+void crop_to_display_window(const path& file, const PictureFacts& facts, const ImageLimits& limits,
+                            Image& image) {
+  if (facts.x == facts.full_x && facts.y == facts.full_y && facts.width == facts.full_width &&
+      facts.height == facts.full_height) {
+    return;
+  }
+  PictureFacts shown = facts;
+  shown.width = facts.full_width;
+  shown.height = facts.full_height;
+  check_size(file, shown, limits);
+  const ImageMemory memory = limits.ours ? nullptr : take_image_memory(file, pixel_bytes(shown));
+  std::visit([&](auto& pixels) { pixels = in_display_window(pixels, facts); }, image.pixels);
+  image.width = facts.full_width;
+  image.height = facts.full_height;
+  image.memory = memory;
+}
+
 Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const auto [codec, facts, picture] = open_checked(file, mapped, limits);
-  Image image{facts.width, facts.height, facts.channels, facts.alpha_channel, {}, {}};
+  Image image{facts.width, facts.height, facts.channels,     facts.alpha_channel,
+              {},          {},           facts.channel_names};
   if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(facts));
   std::string error;
   if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
     throw DamagedImage(file, concat(file.string(), ": is damaged or cut short: ", error));
   }
   check_finite(file, image);
+  crop_to_display_window(file, facts, limits, image);
   return image;
 }
 
@@ -243,7 +286,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
 ImageSize read_image_size(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
   const PictureFacts facts = open_checked(file, mapped, limits).facts;
-  return {facts.width, facts.height, facts.channels, facts.values == PictureFacts::Values::kBytes,
+  return {facts.full_width, facts.full_height, facts.channels,
+          facts.values == PictureFacts::Values::kBytes,
           facts.values == PictureFacts::Values::kFloats};
 }
 

@@ -32,6 +32,7 @@ struct Image {
   /// Row by row, first row on top, channels of a pixel side by side.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
   ImageMemory memory = {};
+  std::vector<std::string> channel_names = {};  ///< #channels, if the format has any
 
   bool of_floats() const { return pixels.index() == 0; }
 
@@ -68,10 +69,11 @@ class DamagedImage : public InvalidInput {
 };
 
 /// The (first) picture of a PNG, TIFF or OpenEXR file, told by its content and not by its name.
-/// Palettes are resolved; alpha and colours stay as they stand in the file.
+/// Palettes are resolved; alpha and colours stay as they stand in the file. Of an EXR the display window is read: outside
+/// the data window it is zero.
 /// \throws MissingInput if there is no such file; DamagedImage if its pixels cannot be read or one
 ///         is not finite (the first is named); InvalidInput if it is of another format, cut, beyond
-///         the limits, of integers of more than 16 bits, an EXR of which only a part is stored, a
+///         the limits, of integers of more than 16 bits, a
 ///         TIFF of another compression than none, LZW, Deflate and PackBits (with `jpeg`: JPEG
 ///         too), or if all images together would take more memory than they may.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace crowdface {
 
@@ -13,6 +14,7 @@ struct PictureFacts {
   int full_x = 0, full_y = 0, full_width = 0, full_height = 0;  ///< the display window
   int tile_width = 0, tile_height = 0;                          ///< 0: no tiles
   int alpha_channel = -1;
+  std::vector<std::string> channel_names;  ///< if the format has any
   bool deep = false;
   enum class Values { kBytes, kWords, kFloats, kOthers };
   Values values = Values::kOthers;  ///< as they are read: 8 or 16 bits, or single precision
@@ -47,10 +49,5 @@ struct ImageCodec {
 /// Opened the first time. Any thread may ask.
 /// \throws IoError if it is not where it was installed, or cannot be loaded.
 const ImageCodec& image_codec();
-
-/// From now on, while image_codec() loads these libraries, handlers of signals and of exit end the process with code
-/// 74 and a message if a library aborts, calls exit, or waits longer than a minute: without memory or threads the
-/// libraries do so. For programs, at their start: handlers and the alarm belong to the whole process.
-void guard_start_of_image_libraries();
 
 }  // namespace crowdface

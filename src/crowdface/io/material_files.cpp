@@ -12,6 +12,7 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/legacy_text.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/tile_files.h"
 
@@ -88,6 +89,12 @@ class Collector {
     return std::move(files_);
   }
   std::map<TextureKind, std::map<std::string, fs::path>> take_textures() {
+    // Faces without a material can have but the only one there is.
+    for (auto& [kind, of_material] : of_kind_) {
+      if (materials_.size() == 1 && of_material.size() == 1) {
+        of_material.emplace("", of_material.begin()->second);
+      }
+    }
     return std::move(of_kind_);
   }
 
@@ -155,7 +162,10 @@ class Collector {
     for (const std::string_view line : split_lines(text)) {
       const auto [word, rest] = material_statement(line);
       throw_if_interrupted();
-      if (word == "newmtl") material = rest;
+      if (word == "newmtl") {
+        material = rest;
+        materials_.insert(material);
+      }
       if (!is_texture_statement(word)) continue;
       const fs::path relative = texture_of(rest, name.parent_path());
       const Seen seen = see(relative, "texture", file, textures_);
@@ -185,6 +195,18 @@ class Collector {
       if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
+    // A path of another machine, or in the encoding of another system: what lies beside the head under that name.
+    for (const std::string_view tail : tails) {
+      std::vector<std::string> names = legacy_readings(tail);
+      names.emplace_back(tail);
+      for (const std::string& name : names) {
+        const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
+        if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
+          continue;
+        if (!exists(beside) && !exists(with_tile(beside, kFirstTile))) continue;
+        return known->second = beside;
+      }
+    }
     return known->second;
   }
 
@@ -202,6 +224,7 @@ class Collector {
   }
 
   fs::path mesh_, folder_;
+  std::set<std::string> materials_;  ///< that all libraries define
   Names libraries_, textures_;
   std::set<fs::path> destinations_;
   std::map<std::string, fs::path> textures_of_;  ///< by what a statement says; of one library

@@ -11,6 +11,8 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/foreign_file.h"
+#include "crowdface/io/obj_mend.h"
 
 namespace crowdface {
 namespace {
@@ -80,6 +82,23 @@ void take_places(ObjScan scan, ObjFile& result) {
   result.material_libraries = std::move(scan.material_libraries);
   result.materials = std::move(scan.materials);
   result.groups = std::move(scan.groups);
+  result.notes.insert(result.notes.end(), scan.notes.begin(), scan.notes.end());
+}
+
+/// The scan of a text, which becomes another one if it has to.
+ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
+  const std::string name = obj.path.string();
+  try {
+    return scan_obj(obj.file.bytes(), name, outline, ObjLines::kAll);
+  } catch (const InvalidInput&) {
+    refuse_foreign_file(obj.file.bytes(), obj.path);
+    auto mended = mend_obj(obj.file.bytes());
+    if (!mended) throw;
+    obj.file = MappedFile::of_text(std::move(mended->text));
+    obj.notes = std::move(mended->notes);
+    obj.is_mended = true;
+  }
+  return scan_obj(obj.file.bytes(), name, outline_obj(obj.file.bytes()), ObjLines::kAll);
 }
 
 }  // namespace
@@ -94,7 +113,7 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  ObjScan scan = scan_obj(result.file.bytes(), path.string(), outline, ObjLines::kAll);
+  ObjScan scan = scan_or_mend(result, outline);
 
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;

@@ -24,9 +24,12 @@ struct ObjFile {
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;
+  std::vector<std::string> notes;  ///< what was mended or passed over, a sentence each
+  bool is_mended = false;          ///< the text is not the file's own
 };
 
-/// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj).
+/// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj), which is mended where it
+/// does not pass (see mend_obj).
 /// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
 ObjFile read_obj(const std::filesystem::path& path);
 /// \param file     what is at the path, mapped.

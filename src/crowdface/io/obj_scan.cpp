@@ -2,12 +2,13 @@
 #include "crowdface/io/obj_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/obj_statements.h"
 
 namespace crowdface {
 namespace {
@@ -17,15 +18,8 @@ constexpr std::uint64_t kMostPerVertex = 8;
 constexpr std::size_t kLongestObjName = 1000;  // of a material, a group, a list of material files
 constexpr double kLargestCoordinate = 1e7;     // beyond, single precision keeps no tenth of a unit
 
-/// Statements that carry no geometry we blend; they are copied through.
-constexpr std::array<std::string_view, 31> kOtherStatements = {
-    "g",        "s",        "o",    "usemtl", "mtllib", "l",          "p",        "vp",
-    "cstype",   "deg",      "bmat", "step",   "curv",   "curv2",      "surf",     "parm",
-    "trim",     "hole",     "scrv", "sp",     "end",    "con",        "mg",       "bevel",
-    "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj", "trace_obj"};
-
 /// Splits a line into its words without copying.
-void split(std::string_view line, std::vector<std::string_view>& words) {
+void split_words(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
   for (std::size_t i = 0; i < line.size();) {
     if (is_blank(line[i])) {
@@ -147,6 +141,10 @@ class Scanner {
       ++line_number_;
       if (lines_ == ObjLines::kAll || !passes_over(line)) check(line);
     });
+    if (total_.vertices == 0 && first_other_line_ != 0) {
+      line_number_ = first_other_line_;
+      fail(concat("expected an OBJ statement, found ", quoted(first_other_)));
+    }
     if (total_.vertices == 0) {
       throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
     }
@@ -177,10 +175,12 @@ class Scanner {
   }
 
   void check(std::string_view line) {
-    split(line, words_);
+    split_words(line, words_);
     if (words_.empty() || words_[0].starts_with('#')) return;
     const std::string_view statement = words_[0];
-    if (line.ends_with('\\')) fail("expected a whole statement, found one continued with '\\'");
+    if (is_continued(text_, line)) {
+      fail("expected a whole statement, found one continued with '\\'");
+    }
     if (line.find('\r') != line.npos) {
       fail("expected lines that end in LF or CR LF, found a lone CR");
     }
@@ -195,9 +195,21 @@ class Scanner {
       scan_.groups.push_back({name_after(line, statement), scan_.face_count});
     } else if (statement == "mtllib") {
       scan_.material_libraries.push_back(name_after(line, statement));
-    } else if (std::ranges::find(kOtherStatements, statement) == kOtherStatements.end()) {
+    } else if (!is_obj_statement(statement)) {
+      other_statement(statement);
+    }
+  }
+
+  /// Programs add statements of their own, which readers pass over.
+  void other_statement(std::string_view statement) {
+    if (!is_name(lower_case(statement))) {
       fail(concat("expected an OBJ statement, found ", quoted(statement)));
     }
+    if (first_other_line_ != 0) return;
+    first_other_line_ = line_number_;
+    first_other_ = statement;
+    scan_.notes.push_back(concat("OBJ files have no statement ", quoted(statement), " (line ",
+                                 line_number_, "): lines like that are passed over"));
   }
 
   std::string name_after(std::string_view line, std::string_view statement) const {
@@ -208,11 +220,24 @@ class Scanner {
     return std::string(name);
   }
 
+  static std::string_view advice_on(std::string_view word) {
+    if (word.find(',') != word.npos) {
+      return "; set the program's or the system's number format to a decimal point and export "
+             "again";
+    }
+    if (word.find("nan") != word.npos || word.find("#IND") != word.npos ||
+        word.find("#QNAN") != word.npos || word.find("inf") != word.npos) {
+      return "; a vertex without a place: clean the mesh (delete it) before exporting";
+    }
+    return "";
+  }
+
   double number(std::string_view word, double largest) const {
     const auto value = parse_double(word);
-    if (!value) fail(concat("expected a finite number, found ", quoted(word)));
+    if (!value) fail(concat("expected a finite number, found ", quoted(word), advice_on(word)));
     if (std::abs(*value) > largest) {
-      fail(concat("expected a coordinate within ±", largest, ", found ", quoted(word)));
+      fail(concat("expected a coordinate within ±", largest, ", found ", quoted(word),
+                  "; move the mesh to the origin before exporting"));
     }
     return *value;
   }
@@ -245,7 +270,7 @@ class Scanner {
 
   void normal() {
     require_words(3, 3, "3 components of a normal");
-    for (std::size_t c = 1; c < 4; ++c) number(words_[c], kLargestCoordinate);
+    for (std::size_t c = 1; c < 4; ++c) number(words_[c], std::numeric_limits<double>::max());
     ++seen_.normals;
   }
 
@@ -258,7 +283,8 @@ class Scanner {
     const std::uint64_t available = relative ? so_far : total;
     if (*value == 0 || *value > available) {
       fail(concat("expected a ", what, " between ", relative ? "-" : "", 1, " and ",
-                  relative ? "-" : "", available, ", found ", quoted(digits)));
+                  relative ? "-" : "", available, ", found ", quoted(digits),
+                  *value == 0 ? "; OBJ counts from 1" : ""));
     }
   }
 
@@ -309,6 +335,8 @@ class Scanner {
   ObjLines lines_;
   ObjOutline total_, seen_;  ///< counts in the whole text, and in the lines checked so far
   ObjScan scan_;
+  std::string_view first_other_;  ///< statement that is none of OBJ
+  std::size_t first_other_line_ = 0;
 };
 
 }  // namespace

@@ -26,6 +26,7 @@ struct ObjScan {
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;  ///< ascending first_face; empty if none is used
   std::vector<MaterialRange> groups;     ///< the same of groups and objects (`g`, `o`)
+  std::vector<std::string> notes;        ///< what was passed over, a sentence each
 };
 
 /// What a first look at an OBJ text finds.
@@ -46,7 +47,7 @@ enum class ObjLines {
 /// Checks an OBJ text line by line, because the loader accepts what it should not: words where
 /// numbers belong, numbers that overflow, indices that point nowhere or wrap, polygons of more than
 /// 255 corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
-/// vertex colours are fine.
+/// vertex colours are fine; statements of other programs are passed over.
 /// \param name  the file's name, for messages.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
 /// \param outline  of the text

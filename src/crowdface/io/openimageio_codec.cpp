@@ -75,6 +75,8 @@ void* open(const std::string& format, const std::string& file, std::string_view 
     return nullptr;
   }
   facts = facts_of(spec);
+  // Other formats have an order of channels, whatever they are called.
+  if (format == "openexr") facts.channel_names = spec.channelnames;
   return picture.release();
 }
 

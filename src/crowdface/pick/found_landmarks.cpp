@@ -64,7 +64,7 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
       if (found == of_scan.end()) continue;
       const std::uint32_t there = found->second;
       if (length3(row3(placed, there) - row3(shape.positions, vertex)) > kFarMm) continue;
-      landmarks.push_back({name, vertex, row3(scan.positions, there)});
+      landmarks.push_back({name, vertex, row3(scan.positions, there), true});
     }
     drop_outliers(shape, landmarks);
     if (landmarks.size() > most.size()) most = std::move(landmarks);

@@ -5,8 +5,10 @@
 
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/yaml.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/pick/landmark_lists.h"
 
 namespace crowdface {
 namespace {
@@ -68,9 +70,15 @@ std::uint32_t nearest_vertex(const Positions& positions, const Eigen::Vector3d& 
 
 }  // namespace
 
-LandmarkFile read_landmarks(const std::filesystem::path& path) {
+LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of) {
   Complaints complaints;
   LandmarkFile file;
+  if (is_file(path)) {
+    if (auto list = parse_landmark_list(MappedFile(path).bytes(), path)) {
+      (of == LandmarksOf::kScan ? file.of_scan : file.of_template) = std::move(*list);
+      return file;
+    }
+  }
   const std::optional<YamlNode> root = read_yaml(path.string(), complaints);
   if (root && root->kind != YamlNode::Kind::kMap) {
     complaints.expected(*root, "a mapping of template and scan");

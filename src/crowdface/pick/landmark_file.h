@@ -10,29 +10,25 @@
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/pick/landmark_place.h"
 #include "crowdface/wrap/scan.h"
 #include "crowdface/wrap/shape_fit.h"
 
 namespace crowdface {
 
-inline constexpr double kFarthest =
-    1e9;  ///< that a landmark may be from the origin, along each axis
-
 /// Named places as a file of landmarks has them: numbers of vertices, from 0, or x y z.
 struct LandmarkFile {
-  struct Place {
-    bool is_vertex = false;
-    std::uint64_t vertex = 0;
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    std::string where;  ///< "file:line:column", for messages
-  };
+  using Place = LandmarkPlace;
   std::map<std::string, Place> of_template, of_scan;
 };
 
+/// Whose landmarks a file has that does not tell.
+enum class LandmarksOf { kTemplate, kScan };
+
 /// Reads a YAML file of `template: {chin: 966}` and `scan: {chin: [x, y, z]}`; either may lack, at most
-/// 100 names each.
+/// 100 names each; or a list as other programs write it (parse_landmark_list).
 /// \throws UsageError, MissingInput naming every place that is wrong.
-LandmarkFile read_landmarks(const std::filesystem::path& path);
+LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of = LandmarksOf::kScan);
 
 /// The row of the template that a place stands for: of a point the vertex nearest to it.
 /// \throws UsageError if a vertex has no such number.

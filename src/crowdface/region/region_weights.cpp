@@ -2,7 +2,9 @@
 #include "crowdface/region/region_weights.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -13,6 +15,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/tile_files.h"
 #include "crowdface/region/uv_samples.h"
+#include "crowdface/region/vertex_weights.h"
 
 namespace crowdface {
 namespace {
@@ -24,12 +27,17 @@ struct LoadedTile {
   std::vector<int> channels;  ///< those that hold masks
 };
 
-/// A mask with the tiles it needs in memory.
+/// A mask with the tiles it needs in memory, or weights of vertices.
 struct LoadedMask {
   bool tiled = false;
-  std::map<int, LoadedTile> tiles;  ///< a single picture stands as kFirstTile
+  std::map<int, LoadedTile> tiles;       ///< a single picture stands as kFirstTile
+  std::optional<VertexWeights> weights;  ///< instead of tiles
+  std::vector<std::string> names;        ///< #channels, if the file tells them
 
-  std::size_t channels() const { return tiles.empty() ? 0 : tiles.begin()->second.channels.size(); }
+  std::size_t channels() const {
+    if (weights) return weights->rows.width();
+    return tiles.empty() ? 0 : tiles.begin()->second.channels.size();
+  }
   /// Zero where no image is needed and none is there.
   double at(const UvSample& sample, std::size_t channel) const {
     const auto found = tiles.find(tiled ? sample.tile : kFirstTile);
@@ -39,13 +47,98 @@ struct LoadedMask {
     const int column = number % 10, row = number / 10;
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
+  /// The mean over the places of a vertex; nothing if it has none.
+  std::optional<double> at_vertex(Index vertex, std::span<const UvSample> samples,
+                                  std::size_t channel) const {
+    if (weights) {
+      return weights->rows.values[static_cast<std::size_t>(vertex) * channels() + channel];
+    }
+    if (samples.empty()) return std::nullopt;
+    double sum = 0;
+    for (const UvSample& sample : samples) sum += at(sample, channel);
+    return sum / static_cast<double>(samples.size());
+  }
 };
+
+/// Whether a channel has one value in all tiles; likewise whether two have the same values.
+bool is_constant(const LoadedMask& mask, int channel) {
+  const Image& first = mask.tiles.begin()->second.image;
+  return std::ranges::all_of(mask.tiles, [&](const auto& tile) {
+    const Image& image = tile.second.image;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        if (image.at(x, y, channel) != first.at(0, 0, channel)) return false;
+      }
+    }
+    return true;
+  });
+}
+bool are_same(const LoadedMask& mask, int one, int other) {
+  return std::ranges::all_of(mask.tiles, [&](const auto& tile) {
+    const Image& image = tile.second.image;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        if (image.at(x, y, one) != image.at(x, y, other)) return false;
+      }
+    }
+    return true;
+  });
+}
+
+int alpha_of(const LoadedMask& mask) {
+  return mask.tiles.empty() ? -1 : mask.tiles.begin()->second.image.alpha_channel;
+}
+
+void take_one_channel(LoadedMask& mask, int channel) {
+  for (auto& [number, tile] : mask.tiles) tile.channels = {channel};
+  mask.names.clear();
+}
+
+/// Where colours tell nothing, alpha does.
+void take_alpha_if_it_is_all(LoadedMask& mask) {
+  const int alpha = alpha_of(mask);
+  if (alpha < 0 || is_constant(mask, alpha)) return;
+  for (const int channel : mask.tiles.begin()->second.channels) {
+    if (!is_constant(mask, channel)) return;
+  }
+  take_one_channel(mask, alpha);
+}
+
+/// Of an image that is one region's: its grey, or else its alpha.
+void take_grey(LoadedMask& mask, const std::string& path) {
+  if (mask.channels() < 2 || mask.tiles.empty()) return;
+  const std::vector<int> channels = mask.tiles.begin()->second.channels;
+  const int alpha = alpha_of(mask);
+  const bool is_grey = std::ranges::all_of(
+      channels, [&](int channel) { return are_same(mask, channels[0], channel); });
+  if (is_grey) return take_one_channel(mask, channels[0]);
+  if (alpha >= 0 && !is_constant(mask, alpha)) return take_one_channel(mask, alpha);
+  throw InvalidInput(
+      concat(path,
+             ": expected a grey image, as there is one for each region, found one in colours: save "
+             "each mask in grey, or all of them as channels of one image"));
+}
 
 /// \param needed  those of the used tiles that must be there.
 LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::set<int>& needed,
-                Problems& problems) {
+                Index vertices, Problems& problems) {
   LoadedMask mask;
   mask.tiled = source.tiled();
+  if (holds_vertex_weights(source.path())) {
+    try {
+      mask.weights = read_vertex_weights(source.path());
+      mask.names = mask.weights->names;
+      const std::size_t rows = mask.weights->rows.rows();
+      if (rows != static_cast<std::size_t>(vertices)) {
+        problems.add(ExitCode::kBadData,
+                     concat("mask ", source.path(), ": expected a row for each of ", vertices,
+                            " vertices, found ", rows));
+      }
+    } catch (const RecoverableError& error) {
+      problems.add(error);
+    }
+    return mask;
+  }
   for (const int tile : mask.tiled ? used : std::set<int>{kFirstTile}) {
     try {
       Image image = source.read(tile);
@@ -68,7 +161,15 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::
     problems.add(ExitCode::kBadData, concat("mask ", source.path(), ": expected ", mask.channels(),
                                             " channels as in tile ", mask.tiles.begin()->first,
                                             ", found ", tile.channels.size(), " in tile ", number));
+    return mask;
   }
+  if (mask.tiles.empty()) return mask;
+  const Image& first = mask.tiles.begin()->second.image;
+  for (const int channel : mask.tiles.begin()->second.channels) {
+    if (first.channel_names.empty()) break;
+    mask.names.push_back(first.channel_names[static_cast<std::size_t>(channel)]);
+  }
+  take_alpha_if_it_is_all(mask);
   return mask;
 }
 
@@ -85,29 +186,146 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
     }
     channels += static_cast<Index>(masks[i].channels());
   }
-  if (channels < regions) {
+  const bool leaves_a_rest = channels == 1 && regions == 2;
+  if (channels < regions && !leaves_a_rest) {
     throw InvalidInput(concat("expected a mask channel for each of ", regions, " regions, found ",
                               channels, " in ", masks.empty() ? "no image" : join(found)));
   }
 }
 
-/// The mean of every region's mask over the places of one vertex, scaled to sum to one. False, and
-/// nothing written, where no mask covers it.
-bool normalised_mean(const std::vector<LoadedMask>& masks, std::span<const UvSample> samples,
-                     Eigen::Ref<Eigen::RowVectorXd> row) {
-  Index k = 0;
-  double sum = 0;
-  Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(row.size());
-  for (const LoadedMask& mask : masks) {
-    for (std::size_t c = 0; c < mask.channels() && k < row.size(); ++c, ++k) {
-      for (const UvSample& sample : samples) values[k] += mask.at(sample, c);
-      values[k] /= static_cast<double>(samples.size());
-      sum += values[k];
+/// Where a region's weights come from.
+struct RegionChannel {
+  std::size_t mask = 0, channel = 0;
+};
+
+/// What a channel is called: "top", and of "top.R" or "masks.top" the part that is no colour.
+std::vector<std::string> names_of_channel(const std::string& name) {
+  std::vector<std::string> names;
+  for (const std::string_view part : split(name, '.')) names.push_back(lower_case(part));
+  return names;
+}
+
+bool is_colour_name(const std::string& name) {
+  static const std::set<std::string> kColours = {"r",   "g",     "b",    "a", "y", "l",
+                                                 "red", "green", "blue", "z", "x", "value"};
+  return kColours.contains(lower_case(name));
+}
+
+/// Channels that are called like regions, in the regions' order; nothing if none is.
+/// \throws InvalidInput if channels have names, and they are no regions.
+std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
+    const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
+    const std::vector<std::string>& regions) {
+  std::vector<std::optional<RegionChannel>> found(regions.size());
+  bool any = false;
+  for (std::size_t m = 0; m < masks.size(); ++m) {
+    const std::vector<std::string>& channels = masks[m].names;
+    bool of_this = false;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const std::vector<std::string> names = names_of_channel(channels[c]);
+      for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (std::ranges::find(names, lower_case(regions[r])) == names.end()) continue;
+        of_this = true;
+        if (!found[r]) found[r] = RegionChannel{m, c};
+      }
+    }
+    any = any || of_this;
+    const bool are_named = !std::ranges::all_of(channels, is_colour_name);
+    if (of_this || !are_named || channels.size() < 2) continue;
+    throw InvalidInput(concat(
+        sources[m].path(), ": its channels are called ", join(channels), ", and the regions ",
+        join(regions), ": name channels like regions, as their order in the file tells nothing"));
+  }
+  if (!any) return std::nullopt;
+  return found;
+}
+
+/// Which image is which region, if there is one for each.
+std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& sources,
+                                           const std::vector<std::string>& regions) {
+  std::vector<std::size_t> by_name, by_order;
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    by_order.push_back(r);
+    for (std::size_t m = 0; m < sources.size() && r < regions.size(); ++m) {
+      const std::string file = std::filesystem::path(sources[m].path()).stem().string();
+      if (lower_case(file) == lower_case(regions[r])) by_name.push_back(m);
     }
   }
+  return by_name.size() == sources.size() ? by_name : by_order;
+}
+
+/// #regions; what has no channel is what the others leave.
+std::vector<std::optional<RegionChannel>> channels_of_regions(
+    const std::vector<MaskSource>& sources, std::vector<LoadedMask>& masks, Index regions,
+    const std::vector<std::string>& names) {
+  const auto count = static_cast<std::size_t>(regions);
+  if (auto named = channels_by_name(sources, masks, names)) {
+    for (std::size_t r = 0; r + 1 < count; ++r) {
+      if ((*named)[r]) continue;
+      std::vector<std::string> channels;
+      for (const LoadedMask& mask : masks) {
+        channels.insert(channels.end(), mask.names.begin(), mask.names.end());
+      }
+      throw InvalidInput(concat("no channel of the masks is called like the region ", names[r],
+                                " (they are called ", join(channels), ")"));
+    }
+    return *named;
+  }
+  std::size_t channels = 0;
+  for (const LoadedMask& mask : masks) channels += mask.channels();
+  std::vector<std::optional<RegionChannel>> found;
+  if (count > 1 && masks.size() == count && channels >= count) {
+    for (std::size_t m = 0; m < masks.size(); ++m) take_grey(masks[m], sources[m].path());
+    for (const std::size_t m : images_of_regions(sources, names)) {
+      found.emplace_back(RegionChannel{m, 0});
+    }
+    return found;
+  }
+  check_channels(sources, masks, regions);
+  for (std::size_t m = 0; m < masks.size(); ++m) {
+    for (std::size_t c = 0; c < masks[m].channels() && found.size() < count; ++c) {
+      found.emplace_back(RegionChannel{m, c});
+    }
+  }
+  found.resize(count);
+  return found;
+}
+
+/// The mean of every region's mask over the places of one vertex, scaled to sum to one. False, and
+/// nothing written, where no mask covers it.
+bool normalised_mean(const std::vector<LoadedMask>& masks,
+                     const std::vector<std::optional<RegionChannel>>& channels, Index vertex,
+                     std::span<const UvSample> samples, Eigen::Ref<Eigen::RowVectorXd> row) {
+  double sum = 0;
+  Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(row.size());
+  for (Index k = 0; k < row.size(); ++k) {
+    const auto& channel = channels[static_cast<std::size_t>(k)];
+    if (channel) {
+      const auto value = masks[channel->mask].at_vertex(vertex, samples, channel->channel);
+      if (!value) return false;
+      values[k] = *value;
+    } else {
+      values[k] = std::max(0.0, 1 - sum);
+    }
+    sum += values[k];
+  }
   if (!(sum > 0)) return false;
-  for (k = 0; k < row.size(); ++k) row[k] = values[k] / sum;  // Σ_k α_k = 1, as Eq. 7 needs
+  for (Index k = 0; k < row.size(); ++k) row[k] = values[k] / sum;  // Σ_k α_k = 1, as Eq. 7 needs
   return true;
+}
+
+/// The places of all vertices; none, where weights of vertices need none.
+UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
+                      const std::vector<MaskSource>& masks, const std::vector<bool>& needed) {
+  const bool by_vertex = std::ranges::all_of(
+      masks, [](const MaskSource& mask) { return holds_vertex_weights(mask.path()); });
+  if (by_vertex && !masks.empty()) {
+    UvSamples none;
+    none.offsets.assign(static_cast<std::size_t>(topology.vertex_count) + 1, 0);
+    return none;
+  }
+  const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.tiled(); });
+  return gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne, needed);
 }
 
 }  // namespace
@@ -133,11 +351,11 @@ RegionWeights whole_head(const Topology& topology) {
 
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions,
-                             const std::vector<bool>& needed) {
+                             const std::vector<bool>& needed,
+                             const std::vector<std::string>& names) {
   require(regions >= 1, "region: weights of ", regions, " regions");
   if (masks.empty() && regions == 1) return whole_head(topology);
-  const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.tiled(); });
-  const UvSamples samples = gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne);
+  const UvSamples samples = samples_for(topology, uvs, masks, needed);
   const std::set<int> used = tiles_of(samples);
   const auto is_needed = [&](Index v) {
     return needed.empty() || needed[static_cast<std::size_t>(v)];
@@ -150,15 +368,17 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
   std::vector<LoadedMask> loaded;
   loaded.reserve(masks.size());
   Problems problems;
-  for (const MaskSource& mask : masks) loaded.push_back(load(mask, used, needed_tiles, problems));
+  for (const MaskSource& mask : masks) {
+    loaded.push_back(load(mask, used, needed_tiles, topology.vertex_count, problems));
+  }
   problems.throw_if_any();
-  check_channels(masks, loaded, regions);
+  const auto channels = channels_of_regions(masks, loaded, regions, names);
 
   RegionWeights weights{RegionWeights::Alpha::Zero(topology.vertex_count, regions), 0};
   std::vector<std::uint8_t> uncovered(static_cast<std::size_t>(topology.vertex_count), 0);
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
     const auto places = samples.of(i);
-    if (!places.empty() && normalised_mean(loaded, places, weights.alpha.row(i))) return;
+    if (normalised_mean(loaded, channels, i, places, weights.alpha.row(i))) return;
     weights.alpha(i, regions - 1) = 1;
     uncovered[static_cast<std::size_t>(i)] = places.empty() || !is_needed(i) ? 0 : 1;
   });
@@ -167,22 +387,16 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
 }
 
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
-                                const MaskSource& mask) {
-  const UvSamples samples =
-      gather_uv_samples(topology, uvs, mask.tiled() ? Tiles::kUdim : Tiles::kOne);
+                                const MaskSource& mask, const std::vector<bool>& needed) {
+  const UvSamples samples = samples_for(topology, uvs, {mask}, needed);
   Problems problems;
   const std::set<int> used = tiles_of(samples);
-  const LoadedMask loaded = load(mask, used, used, problems);
+  const LoadedMask loaded = load(mask, used, used, topology.vertex_count, problems);
   problems.throw_if_any();
   check_channels({mask}, {loaded}, 1);
   std::vector<double> values(static_cast<std::size_t>(topology.vertex_count), 0.0);
   for (Index i = 0; i < topology.vertex_count; ++i) {
-    const auto places = samples.of(i);
-    double sum = 0;
-    for (const UvSample& sample : places) sum += loaded.at(sample, 0);
-    if (!places.empty()) {
-      values[static_cast<std::size_t>(i)] = sum / static_cast<double>(places.size());
-    }
+    values[static_cast<std::size_t>(i)] = loaded.at_vertex(i, samples.of(i), 0).value_or(0);
   }
   return values;
 }

@@ -47,13 +47,14 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
   return grouped<UvSample>(static_cast<std::size_t>(topology.vertex_count), for_each_sample);
 }
 
-void check_every_used_vertex(const Topology& topology, const UvSamples& samples) {
+void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
+                             const std::vector<bool>& needed) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     for (const std::uint32_t vertex : topology.face(f)) {
-      if (!samples.of(vertex).empty()) continue;
-      throw InvalidInput(concat("masks need texture coordinates: vertex ",
-                                std::uint64_t{vertex} + 1, " of face ", f + 1,
-                                " has no texture coordinate"));
+      if (!samples.of(vertex).empty() || (!needed.empty() && !needed[vertex])) continue;
+      throw InvalidInput(concat(
+          "masks need texture coordinates: vertex ", std::uint64_t{vertex} + 1, " of face ", f + 1,
+          " has no texture coordinate (weights of vertices, as text or .npy, need none)"));
     }
   }
 }
@@ -65,14 +66,15 @@ double tile_step(double coordinate, double polygon_mean) {
   return whole == coordinate ? std::floor(polygon_mean) : whole;
 }
 
-UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
+UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
+                            const std::vector<bool>& needed) {
   require(uvs.allFinite() && std::ranges::all_of(topology.corner_uvs,
                                                  [&](std::uint32_t uv) {
                                                    return uv == kNoIndex || uv < uvs.rows();
                                                  }),
           "region: texture coordinates that are not finite or not there");
   UvSamples corners = samples_by_vertex(topology, uvs, tiles);
-  check_every_used_vertex(topology, corners);
+  check_every_used_vertex(topology, corners, needed);
   constexpr Index kBlock = 16384;
   std::vector<std::size_t> kept(static_cast<std::size_t>(topology.vertex_count));
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {

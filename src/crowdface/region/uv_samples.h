@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <set>
+#include <vector>
 
 #include "crowdface/core/grouped.h"
 #include "crowdface/mesh/topology.h"
@@ -30,9 +31,11 @@ double tile_step(double coordinate, double polygon_mean);
 enum class Tiles { kOne, kUdim };
 
 /// The places of every vertex; a vertex in no face has none.
-/// \throws InvalidInput if a vertex of a face has no texture coordinate at any of its corners, or one
+/// \param needed  #V, the vertices that must have one; empty: all.
+/// \throws InvalidInput if a needed vertex of a face has no texture coordinate at any of its corners, or one
 ///         outside all UDIM tiles (where there are tiles).
-UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles);
+UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
+                            const std::vector<bool>& needed = {});
 
 /// The tiles that some sample lies in.
 std::set<int> tiles_of(const UvSamples& samples);

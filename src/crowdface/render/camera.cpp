@@ -87,6 +87,43 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
   return heights;
 }
 
+/// Extent of some vertices along the sides and to the front.
+struct Slab {
+  double left = std::numeric_limits<double>::infinity(), right = -left, front = -left, back = left;
+  void add(double side, double ahead) {
+    left = std::min(left, side);
+    right = std::max(right, side);
+    front = std::max(front, ahead);
+    back = std::min(back, ahead);
+  }
+};
+
+/// Whether a face ends in what a cut would take away, as masks and heads without a neck do: it reaches as far to the
+/// front as what is above, and is no pair of shoulders.
+bool cuts_a_chin(std::span<const Positions* const> heads, const HeadFrame& frame,
+                 const Heights& heights, double cut_below) {
+  constexpr double kFaceEnds = 0.4, kBehind = 0.1, kShoulders = 0.75;
+  const Eigen::Vector3d up = unit_vector(frame.up), front = unit_vector(frame.front);
+  const Eigen::Vector3d side = up.cross(front);
+  const double cut = heights.at(cut_below), face = heights.at(kFaceEnds);
+  Slab all, below, above;
+  for (const Positions* head : heads) {
+    for (Index i = 0; i < head->rows(); ++i) {
+      const Eigen::Vector3d point = head->row(i);
+      const double height = point.dot(up), at = point.dot(side), ahead = point.dot(front);
+      all.add(at, ahead);
+      if (height < cut) {
+        below.add(at, ahead);
+      } else if (height < face) {
+        above.add(at, ahead);
+      }
+    }
+  }
+  if (above.front < above.back) return false;
+  return below.right - below.left < kShoulders * (all.right - all.left) &&
+         below.front > above.front - kBehind * (all.front - all.back);
+}
+
 }  // namespace
 
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
@@ -95,7 +132,9 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
   const double slope = camera.half_tangent * (1 - 2 * options.margin);
   Wedge across{slope}, along{slope}, head_across{slope};
   const Heights heights = heights_of(heads, camera.up);
-  const double lowest = heights.at(options.cut_below), neck = heights.at(kNeck);
+  const bool whole =
+      options.cut_below == 0 || cuts_a_chin(heads, frame, heights, options.cut_below);
+  const double lowest = heights.at(whole ? 0 : options.cut_below), neck = heights.at(kNeck);
   double nearest = -std::numeric_limits<double>::infinity();
   double furthest = std::numeric_limits<double>::infinity();
   for (const Positions* head : heads) {

@@ -36,7 +36,7 @@ struct FramingOptions {
   double field_of_view_degrees = 20;
   double margin = 0.06;  ///< left free on each side, as a fraction of the image's side
   double cut_below = 0;  ///< share of the heads' height, from the lowest vertex of all, that may
-                         ///< leave the picture: a portrait of a bust that shows the face larger
+      ///< leave the picture: a portrait of a bust that shows the face larger; but never a chin
   /// Points that are shown beside the heads, such as hair; those too low to be shown of a head are not.
   std::vector<Eigen::Vector3d> beside = {};
 };

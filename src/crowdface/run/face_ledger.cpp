@@ -40,7 +40,7 @@ Digest digest_of_output(const Job& job, const FaceExtras& extras) {
     hasher.add(kLevelsVersion);
     for (const MeasuredLevel& level : job.inputs.levels) hasher.add(level.level.share);
   }
-  hasher.add(static_cast<int>(config.faces.units));
+  hasher.add(config.faces.units.mm);
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/guess_pose.h"
 
-#include <array>
+#include <initializer_list>
 
 #include <Eigen/Geometry>
 
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/scan.h"
 #include "crowdface/wrap/shape_fit.h"
 
@@ -29,10 +30,10 @@ Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool
   return extent;
 }
 
-}  // namespace
-
-Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
-                      const ScanSurface& scan, const PoseHint& hint) {
+/// \param lowers  shares of the head's height by which the tops may differ
+ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
+                  const ScanSurface& scan, const PoseHint& hint,
+                  std::initializer_list<double> lowers) {
   const Eigen::Matrix3d from = frame_of(axes.up, axes.front), to = frame_of(hint.up, hint.front);
   const Eigen::AlignedBox3d head =
       extent_of(rest, std::vector<bool>(static_cast<std::size_t>(rest.rows()), true), from);
@@ -44,7 +45,7 @@ Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxe
   // Width is what scans agree in; of height they show more or less. The top of the head, and where the
   // face is farthest in front, are put on each other.
   for (const double wider : {1.0, 0.85, 1.15}) {
-    for (const double lower : {0.0, 0.12, -0.12}) {
+    for (const double lower : lowers) {
       Similarity pose;
       pose.rotation = to * from.transpose();
       pose.scale = wider * found.sizes().x() / head.sizes().x();
@@ -58,7 +59,36 @@ Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxe
       if (fit.residual < best.residual) best = fit;
     }
   }
-  return best.pose;
+  return best;
+}
+
+}  // namespace
+
+Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
+                      const ScanSurface& scan, const PoseHint& hint) {
+  return best_fit(skin, rest, axes, scan, hint, {0.0, 0.12, -0.12}).pose;
+}
+
+std::optional<ScanBearing> better_bearing(const SkinMesh& skin, const Positions& rest,
+                                          const HeadAxes& axes, const ScanSurface& scan,
+                                          const PoseHint& said) {
+  constexpr double kClearly = 0.7;
+  double least = kClearly * best_fit(skin, rest, axes, scan, said, {0.0}).residual;
+  std::optional<ScanBearing> better;
+  for (const int up : {0, 1, 2}) {
+    for (const int front : {0, 1, 2}) {
+      for (const int signs : {0, 1, 2, 3}) {
+        if (up == front) continue;
+        const ScanBearing bearing{{up, signs % 2 == 0 ? 1 : -1}, {front, signs / 2 == 0 ? 1 : -1}};
+        const PoseHint hint{unit_vector(bearing.up), unit_vector(bearing.front)};
+        const double residual = best_fit(skin, rest, axes, scan, hint, {0.0}).residual;
+        if (residual >= least) continue;
+        least = residual;
+        better = bearing;
+      }
+    }
+  }
+  return better;
 }
 
 }  // namespace crowdface

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +13,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/io/image.h"
+#include "crowdface/mesh/vector3.h"
 #include "crowdface/render/contact_sheet.h"
 #include "crowdface/render/face_renderer.h"
 #include "crowdface/render/heat_colours.h"
@@ -68,6 +71,55 @@ std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
   return text;
 }
 
+/// How far the tip of the nose stands out beyond the cheeks beside it, mm; nothing where the template has no nose.
+std::optional<double> nose_length(const WrapTemplate& shape, const SkinRegions& regions,
+                                  const Positions& positions) {
+  constexpr double kNearestMm = 20, kFarthestMm = 45;  // of cheeks, to the side
+  constexpr std::size_t kFewest = 4;
+  const auto& skin = shape.skin.vertices;
+  const auto of_rest = [&](std::uint32_t v) { return row3(shape.positions, skin[v]); };
+  std::uint32_t tip = kNoIndex;
+  for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
+    if (!regions.is(v, "nose")) continue;
+    if (tip == kNoIndex ||
+        dot3(of_rest(v), shape.axes.front) > dot3(of_rest(tip), shape.axes.front)) {
+      tip = v;
+    }
+  }
+  if (tip == kNoIndex) return std::nullopt;
+  const Eigen::Vector3d normal_side = shape.axes.side();
+  std::vector<double> cheeks;
+  for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
+    const Eigen::Vector3d from_tip = of_rest(v) - of_rest(tip);
+    const double aside = std::abs(dot3(from_tip, normal_side));
+    if (!regions.is(v, "nose") || aside < kNearestMm || aside > kFarthestMm ||
+        std::abs(dot3(from_tip, shape.axes.up)) > kNearestMm ||
+        dot3(from_tip, shape.axes.front) < -2 * kFarthestMm) {
+      continue;
+    }
+    cheeks.push_back(dot3(row3(positions, skin[v]), shape.axes.front));
+  }
+  if (cheeks.size() < kFewest) return std::nullopt;
+  return dot3(row3(positions, skin[tip]), shape.axes.front) - percentile(cheeks, 0.5);
+}
+
+/// Whether a place that nobody picked has a nose where the template has one.
+void refuse_face_without_nose(const WrapTemplate& shape, const WrapResult& result,
+                              const SkinRegions& regions) {
+  constexpr double kLeastShare = 0.4;
+  const bool is_picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape) >=
+                         static_cast<std::ptrdiff_t>(kFewestLandmarks);
+  if (is_picked) return;
+  const auto before = nose_length(shape, regions, shape.positions),
+             after = nose_length(shape, regions, result.positions);
+  if (!before || !after || *after >= kLeastShare * *before) return;
+  throw InvalidInput(
+      concat("no face is found where the template has it: the nose would stand out by ",
+             format_fixed(*after, 1), " mm, the template's by ", format_fixed(*before, 1),
+             "; pick four landmarks or more (crowdface wrap --pick), or see whether --scan-up and "
+             "--scan-front are right"));
+}
+
 nlohmann::ordered_json rounded(double value) {
   return nlohmann::ordered_json::parse(format_fixed(value, 3));
 }
@@ -121,6 +173,13 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   std::vector<std::string> warnings;
   for (const LandmarkResidual& landmark : result.landmarks) {
     if (!landmark.outlier) continue;
+    if (landmark.by_shape) {
+      warnings.push_back(
+          concat("the place ", quoted(landmark.name), ", found by shape, ends ",
+                 format_fixed(landmark.final_mm, 1),
+                 " mm away, far more than the others: pick it if the picture is wrong"));
+      continue;
+    }
     warnings.push_back(concat("landmark ", quoted(landmark.name), " ends ",
                               format_fixed(landmark.final_mm, 1),
                               " mm from where it was picked, far more than the others: look at it "
@@ -150,7 +209,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   return warnings;
 }
 
-void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
+void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
+                     const SkinRegions& regions) {
   if (share_without_data(shape, result) > 1 - kLeastWithData) {
     throw InvalidInput(
         "the scan shows nothing of the skin: is it a head, and do the landmarks, or --scan-up and "
@@ -165,12 +225,14 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result) {
         "; are left and right swapped, or vertices counted from 1?"));
   }
   if (const double far = distances_of(shape, result).percentile_95; !(far <= kMostDistanceMm)) {
-    throw InvalidInput(
-        concat("5 % of the skin stay more than ", format_fixed(far, 1),
-               " mm off the scan, expected less than ", kMostDistanceMm,
-               ": check the landmarks, pick more of them, or leave out with --ignore "
-               "what the scan does not show as skin"));
+    throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
+                              " mm off the scan, expected less than ", kMostDistanceMm,
+                              farthest_region(shape, result, regions),
+                              result.landmarks.empty() ? ": pick four landmarks or more"
+                                                       : ": check the landmarks, pick more of them",
+                              ", or leave out with --ignore what the scan does not show as skin"));
   }
+  refuse_face_without_nose(shape, result, regions);
 }
 
 std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,

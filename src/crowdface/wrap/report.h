@@ -26,7 +26,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
                                        const SkinRegions& regions, std::size_t model_heads);
 
 /// \throws InvalidInput, saying what to do, if the result is no wrap of this scan.
-void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result);
+void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
+                     const SkinRegions& regions);
 
 /// What stands in the report beside what was measured.
 struct WrapFacts {

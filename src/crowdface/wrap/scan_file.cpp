@@ -2,17 +2,15 @@
 #include "crowdface/wrap/scan_file.h"
 
 #include <algorithm>
-#include <bit>
+
+#include <Eigen/Geometry>
 
 #include "crowdface/core/error.h"
-#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/obj_file.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
-
-static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
@@ -22,6 +20,28 @@ bool has_area(const Scan& scan) {
   return std::ranges::any_of(scan.triangles, [&](const Triangle& triangle) {
     return length3(area_vector(scan.positions, triangle)) > 0;
   });
+}
+
+/// Coordinates of a map in single precision are steps and no surface.
+void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
+  constexpr double kMostOfSize = 1e-3, kStep = 0x1p-23;
+  const std::vector<bool> used = used_vertices(scan);
+  Eigen::AlignedBox3d box;
+  double farthest = 0;
+  for (Index v = 0; v < scan.positions.rows(); ++v) {
+    if (!used[static_cast<std::size_t>(v)]) continue;
+    const Eigen::Vector3d place = row3(scan.positions, v);
+    if (place.cast<float>().cast<double>() != place) return;  // finer than single precision
+    box.extend(place);
+    farthest = std::max(farthest, place.cwiseAbs().maxCoeff());
+  }
+  const double size = box.diagonal().norm();
+  if (!(farthest * kStep > kMostOfSize * size)) return;
+  refuse_file(
+      path, concat("numbers of ", format_fixed(farthest, 0), " in single precision go in steps of ",
+                   format_fixed(farthest * kStep, 3), ", of a scan that is ", format_fixed(size, 1),
+                   " large: move the scan near the origin before exporting it, or export doubles "
+                   "(PLY, OBJ)"));
 }
 
 /// A fan of slivers is a surface to no search: near their vertex they all lie everywhere.
@@ -39,23 +59,25 @@ void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
                      " triangles at one vertex, at (", at.x(), ", ", at.y(), ", ", at.z(), ")"));
 }
 
+/// Vertices that no triangle has may be anywhere, and vertices that are no place take their triangles along.
+void leave_out_unplaced(Scan& scan) {
+  const auto is_placed = [&](std::uint32_t v) { return scan.positions.row(v).allFinite(); };
+  if (scan.positions.allFinite()) return;
+  std::erase_if(scan.triangles, [&](const Triangle& triangle) {
+    return !std::ranges::all_of(triangle, is_placed);
+  });
+  if (scan.triangles.empty()) return;
+  for (std::uint32_t v = 0; v < scan.positions.rows(); ++v) {
+    if (!is_placed(v)) scan.positions.row(v) = scan.positions.row(scan.triangles[0][0]);
+  }
+}
+
 }  // namespace
 
 Scan read_scan(const std::filesystem::path& path) {
-  const std::string ending = lower_case(path.extension().string()), name = path.string();
-  Scan scan;
-  if (ending == ".obj") {
-    const ObjFile file = read_obj(path);
-    scan = {file.positions, triangles_of(file.topology)};
-  } else if (ending == ".ply") {
-    scan = parse_ply(MappedFile(path).bytes(), name);
-  } else if (ending == ".stl") {
-    scan = parse_stl(MappedFile(path).bytes(), name);
-  } else if (ending == ".glb") {
-    scan = parse_glb(MappedFile(path).bytes(), name);
-  } else {
-    refuse_file(path, "expected a scan whose name ends in .obj, .ply, .stl or .glb");
-  }
+  FileMesh mesh = read_mesh(path);
+  Scan scan{std::move(mesh.positions), triangles_of(mesh.topology)};
+  leave_out_unplaced(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),
                              " points and no face"));
@@ -64,6 +86,7 @@ Scan read_scan(const std::filesystem::path& path) {
     refuse_file(path, concat("expected finite positions, none farther than ", kFarthest,
                              " from the origin, found another"));
   }
+  refuse_coarse_numbers(scan, path);
   if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
   weld(scan);
   refuse_fan(scan, path);

@@ -16,6 +16,7 @@ struct WrapLandmark {
   std::string name;
   std::uint32_t vertex = 0;  ///< row of the skin (of the template, before wrapping)
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< on the scan
+  bool by_shape = false;                            ///< found by the program, picked by nobody
 };
 
 /// The similarity that carries a template's landmarks nearest to the scan's.

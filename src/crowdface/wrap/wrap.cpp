@@ -14,6 +14,7 @@
 #include "crowdface/parts/follower.h"
 #include "crowdface/wrap/bend_skin.h"
 #include "crowdface/wrap/detail.h"
+#include "crowdface/wrap/mirrored_landmarks.h"
 #include "crowdface/wrap/shape_regression.h"
 #include "crowdface/wrap/unfold.h"
 
@@ -29,7 +30,7 @@ std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
   std::vector<WrapLandmark> result;
   for (const WrapLandmark& landmark : landmarks) {
     const std::uint32_t row = place_in(skin.vertices, landmark.vertex);
-    if (row != kNoIndex) result.push_back({landmark.name, row, landmark.place});
+    if (row != kNoIndex) result.push_back({landmark.name, row, landmark.place, landmark.by_shape});
   }
   return result;
 }
@@ -41,6 +42,7 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
     result.push_back({landmark.name, length3(carried(pose, point) - landmark.place) / pose.scale});
+    result.back().by_shape = landmark.by_shape;
   }
   return result;
 }
@@ -110,7 +112,10 @@ Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel*
 Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTemplate& shape,
                       const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
                       const std::optional<PoseHint>& hint) {
-  if (landmarks.size() >= kFewestLandmarks) return pose_of_landmarks(rest, landmarks);
+  if (landmarks.size() >= kFewestLandmarks) {
+    refuse_mirrored_landmarks(rest, landmarks);
+    return pose_of_landmarks(rest, landmarks);
+  }
   if (!hint) {
     throw InvalidInput(concat("expected at least ", kFewestLandmarks,
                               " landmarks on template and scan, or which way the scan looks "

@@ -16,9 +16,10 @@ namespace crowdface {
 /// How far a landmark of the template is from that of the scan.
 struct LandmarkResidual {
   std::string name;
-  double pose_mm = 0;    ///< after the similarity
-  double final_mm = 0;   ///< after the wrap
-  bool outlier = false;  ///< in the end far beyond the others: most likely misplaced
+  double pose_mm = 0;     ///< after the similarity
+  double final_mm = 0;    ///< after the wrap
+  bool by_shape = false;  ///< as of the landmark
+  bool outlier = false;   ///< in the end far beyond the others: most likely misplaced
 };
 
 struct WrapResult {

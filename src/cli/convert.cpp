@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/mesh_format.h"
+#include "crowdface/io/npy.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/io/ply_template.h"
+#include "crowdface/io/usda_template.h"
+#include "crowdface/mesh/normals.h"
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace crowdface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertOptions : CommonOptions {
+  std::string in, out, units = "m", like;
+  bool force = false;
+};
+
+GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
+  GlbOptions written;
+  const auto unit = parse_length_unit(options.units);
+  if (!unit) {
+    throw UsageError(
+        concat("--units: expected mm, cm, m, in, or a length, found ", quoted(options.units)));
+  }
+  written.unit = *unit;
+  if (mesh.materials.empty()) return written;
+  FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());
+  for (std::string& name : materials.names) written.materials.push_back({std::move(name)});
+  written.face_materials = std::move(materials.of_face);
+  return written;
+}
+
+void write_mesh(const FileMesh& mesh, MeshFormat format, const fs::path& out,
+                const ConvertOptions& options) {
+  const std::string name = out.stem().string();
+  const auto normals = [&] { return vertex_normals(mesh.topology, mesh.positions); };
+  switch (format) {
+    case MeshFormat::kObj:
+      return encode_obj(mesh, {}, mesh.materials).write(out);
+    case MeshFormat::kPly: {
+      const PlyTemplate form(mesh.topology);
+      return form.encode(mesh.positions, {}, name).write(out);
+    }
+    case MeshFormat::kGlb: {
+      const GlbTemplate form(mesh.topology, mesh.uvs, materials_of(mesh, options));
+      return form.encode(mesh.positions, normals(), name).write(out);
+    }
+    case MeshFormat::kUsd: {
+      const UsdaTemplate form(mesh.topology, mesh.uvs, materials_of(mesh, options),
+                              Subdivision::kNone);
+      return form.encode(mesh.positions, normals(), name).write(out);
+    }
+    case MeshFormat::kPoints:
+      encode_npy(mesh.positions, name).write(out);
+      write_topology_arrays(mesh.topology, mesh.uvs, {},
+                            fs::absolute(out).parent_path() / "topology");
+  }
+}
+
+/// The faces of another mesh for an array of positions.
+void take_faces(const std::string& like, FileMesh& mesh) {
+  FileMesh other = read_joined_mesh(like);
+  if (other.positions.rows() != mesh.positions.rows()) {
+    refuse_file(like, concat("expected as many vertices as there are positions, ",
+                             mesh.positions.rows(), ", found ", other.positions.rows()));
+  }
+  mesh.topology = std::move(other.topology);
+  mesh.uvs = std::move(other.uvs);
+  mesh.materials = std::move(other.materials);
+}
+
+void convert(const ConvertOptions& options) {
+  const auto format = mesh_format_of(options.out);
+  if (!format) {
+    throw UsageError(
+        concat("--output: expected a name that ends in .obj, .ply, .glb, .usda or .npy, found ",
+               quoted(options.out)));
+  }
+  const fs::path out = output_file(options.out);
+  refuse_to_write_over({options.in}, {out});
+  if (!options.force && is_there(out)) {
+    throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
+  }
+  FileMesh mesh = read_joined_mesh(options.in);
+  if (!options.like.empty()) take_faces(options.like, mesh);
+  if (mesh.topology.face_count() == 0 && format != MeshFormat::kPoints) {
+    refuse_file(options.in,
+                concat("expected a mesh, found ", mesh.positions.rows(),
+                       " points and no face: --like names a mesh with the same vertices"));
+  }
+  for (const std::string& note : mesh.notes) log_warning(concat(options.in, ": ", note));
+  if (mesh.has_textures) {
+    log_warning(concat(options.in, ": its textures are not carried along"));
+  }
+  if (mesh.colours.rows() > 0) {
+    log_warning(concat(options.in, ": its colours at vertices are not carried along"));
+  }
+  write_mesh(mesh, *format, out, options);
+  log_info(concat(options.in, ": ", mesh.positions.rows(), " vertices and ",
+                  mesh.topology.face_count(), " faces, now in ", out.string()));
+}
+
+void declare_convert(CLI::App& command, ConvertOptions& options) {
+  add_option(command, "input", options.in, "IN", "A mesh: OBJ, PLY, STL, GLB, glTF, FBX or NumPy")
+      .required();
+  add_option(command, "-o,--output", options.out, "OUT.{obj,ply,glb,usda,npy}", "The file to write")
+      .required();
+  add_option(command, "--units", options.units, "UNIT", "What one unit is, for GLB and USD");
+  add_option(command, "--like", options.like, "MESH", "Whose faces an array of positions has");
+  add_flag(command, "--force", options.force, "Replace an existing file");
+}
+
+}  // namespace
+
+Run add_convert(CLI::App& program) {
+  return add_command(program, "convert", "Write a mesh of one format as another", declare_convert,
+                     convert);
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <exception>
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include "crowdface/io/fbx_reader.h"
+
+namespace crowdface {
+namespace {
+
+struct Collected {
+  FileMesh& mesh;
+  std::vector<double> points, uvs, colours;
+  std::uint32_t piece = 0;
+  bool any_colours = false;
+};
+
+void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::string& material,
+                  Collected& all) {
+  constexpr unsigned kLeastCorners = 3;
+  FileMesh& mesh = all.mesh;
+  const auto first = static_cast<std::uint32_t>(all.points.size() / 3);
+  const bool has_uvs = from.HasTextureCoords(0), has_colours = from.HasVertexColors(0);
+  all.any_colours = all.any_colours || has_colours;
+  for (unsigned v = 0; v < from.mNumVertices; ++v) {
+    const aiVector3D point = place * from.mVertices[v];
+    all.points.insert(all.points.end(), {point.x, point.y, point.z});
+    const aiVector3D uv = has_uvs ? from.mTextureCoords[0][v] : aiVector3D();
+    all.uvs.insert(all.uvs.end(), {uv.x, uv.y});
+    const aiColor4D colour = has_colours ? from.mColors[0][v] : aiColor4D(1, 1, 1, 1);
+    for (const float c : {colour.r, colour.g, colour.b}) {
+      all.colours.push_back(std::clamp<double>(c, 0, 1));
+    }
+    mesh.pieces.push_back(all.piece);
+  }
+  const bool mirrored = aiMatrix3x3(place).Determinant() < 0;
+  if (mesh.materials.empty() || mesh.materials.back().name != material) {
+    mesh.materials.push_back({material, mesh.topology.face_count()});
+  }
+  for (unsigned f = 0; f < from.mNumFaces; ++f) {
+    const aiFace& face = from.mFaces[f];
+    if (face.mNumIndices < kLeastCorners) continue;
+    for (unsigned c = 0; c < face.mNumIndices; ++c) {
+      const std::uint32_t vertex = first + face.mIndices[mirrored ? face.mNumIndices - 1 - c : c];
+      mesh.topology.corner_vertices.push_back(vertex);
+      mesh.topology.corner_uvs.push_back(has_uvs ? vertex : kNoIndex);
+    }
+    mesh.topology.face_offsets.push_back(
+        static_cast<std::uint32_t>(mesh.topology.corner_vertices.size()));
+  }
+}
+
+void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, int depth,
+                  Collected& all) {
+  constexpr int kDeepest = 256;
+  if (depth > kDeepest) throw std::runtime_error("its nodes stand too deep");
+  const aiMatrix4x4 place = above * node.mTransformation;
+  for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];
+    const aiString name = mesh.mMaterialIndex < scene.mNumMaterials
+                              ? scene.mMaterials[mesh.mMaterialIndex]->GetName()
+                              : mesh.mName;
+    collect_mesh(mesh, place, name.C_Str(), all);
+  }
+  if (node.mNumMeshes > 0) ++all.piece;
+  for (unsigned c = 0; c < node.mNumChildren; ++c) {
+    collect_node(scene, *node.mChildren[c], place, depth + 1, all);
+  }
+}
+
+bool has_textures(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
+    if (scene.mMaterials[m]->GetTextureCount(aiTextureType_DIFFUSE) > 0) return true;
+  }
+  return scene.HasTextures();
+}
+
+void read(std::string_view bytes, FileMesh& mesh) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx");
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw std::runtime_error(importer.GetErrorString());
+  }
+  Collected all{mesh, {}, {}, {}};
+  collect_node(*scene, *scene->mRootNode, aiMatrix4x4(), 0, all);
+  const auto rows = static_cast<Index>(mesh.pieces.size());
+  mesh.topology.vertex_count = rows;
+  mesh.positions = Eigen::Map<const Positions>(all.points.data(), rows, 3);
+  mesh.uvs = Eigen::Map<const TextureCoordinates>(all.uvs.data(), rows, 2);
+  if (all.any_colours) mesh.colours = Eigen::Map<const Positions>(all.colours.data(), rows, 3);
+  const auto& corners = mesh.topology.corner_uvs;
+  if (std::ranges::count(corners, kNoIndex) == std::ssize(corners)) {
+    mesh.topology.corner_uvs.clear();
+    mesh.uvs.resize(0, 2);
+  }
+  mesh.has_textures = has_textures(*scene);
+}
+
+}  // namespace
+}  // namespace crowdface
+
+extern "C" __attribute__((visibility("default"))) bool crowdface_read_fbx(std::string_view bytes,
+                                                                          crowdface::FileMesh& mesh,
+                                                                          std::string& error) {
+  try {
+    crowdface::read(bytes, mesh);
+    return true;
+  } catch (const std::exception& failure) {
+    error = failure.what();
+    return false;
+  }
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "crowdface/io/file_mesh.h"
+
+namespace crowdface {
+
+/// Reads FBX files. A function, and no types but ours: Assimp stands in a shared library (assimp_reader.cpp), which is
+/// opened when a file of this kind is met.
+using ReadFbx = bool(std::string_view bytes, FileMesh& mesh, std::string& error);
+
+/// All meshes where their nodes stand, with polygons as they are. Assimp gives each corner a vertex of its own: their
+/// order is lost, and join_split_vertices joins them. \throws InvalidInput; IoError if the library cannot be loaded.
+FileMesh parse_fbx(std::string_view bytes, const std::string& name);
+
+}  // namespace crowdface

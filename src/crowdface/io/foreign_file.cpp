@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/foreign_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Known {
+  std::string_view begin;  ///< of the file, in lower case
+  std::string_view what;
+};
+
+/// Told by the first bytes as they are.
+constexpr std::array kBinary = {
+    Known{"PK\x03\x04"sv, "a ZIP archive: unpack it and name the mesh in it"},
+    Known{"Rar!"sv, "a RAR archive: unpack it and name the mesh in it"},
+    Known{"7z\xBC\xAF"sv, "a 7-Zip archive: unpack it and name the mesh in it"},
+    Known{"\x1f\x8b"sv, "compressed with gzip: unpack it (gunzip)"},
+    Known{"\x28\xB5\x2F\xFD"sv,
+          "compressed with Zstandard, as Blender's scenes are: export the mesh as OBJ"},
+    Known{"BLENDER"sv, "a scene of Blender: export the mesh as OBJ (File > Export > Wavefront)"},
+    Known{"//Maya"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
+    Known{"FOR4"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
+    Known{"FOR8"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
+    Known{"PXR-USDC"sv, "a binary USD file: write it as text first (usdcat -o mesh.usda FILE)"},
+    Known{"\xff\xfe"sv, "text in UTF-16: save it as UTF-8"},
+    Known{"\xfe\xff"sv, "text in UTF-16: save it as UTF-8"},
+    Known{"\x89PNG"sv, "a picture"},
+    Known{"\xff\xd8\xff"sv, "a picture"},
+    Known{"%PDF"sv, "a PDF document"}};
+
+/// Told by how the text begins, in any case, after blanks and a byte-order mark.
+constexpr std::array kText = {
+    Known{"<!doctype"sv,
+          "a web page, which a browser saved instead of the file: download the raw file"},
+    Known{"<html"sv,
+          "a web page, which a browser saved instead of the file: download the raw file"},
+    Known{"<head"sv,
+          "a web page, which a browser saved instead of the file: download the raw file"},
+    Known{"<?xml"sv,
+          "XML and no mesh: if it is a web page or a server's answer, download the raw file; if "
+          "it is COLLADA, export OBJ, FBX or GLB"},
+    Known{"version https://git-lfs"sv,
+          "a pointer of Git LFS and not the file itself: fetch it (git lfs pull)"},
+    Known{"404"sv, "the answer of a web server that has no such file: check the address"},
+    Known{"403"sv,
+          "the answer of a web server that refused the file: log in and download it again"},
+    Known{"{\"error"sv, "the answer of a web server and no mesh: download the file again"},
+    Known{"{\"message"sv, "the answer of a web server and no mesh: download the file again"}};
+
+}  // namespace
+
+void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& path) {
+  const auto refuse = [&](std::string_view what) {
+    refuse_file(path, concat("expected a mesh, found ", what));
+  };
+  if (bytes.empty()) refuse("an empty file");
+  for (const Known& known : kBinary) {
+    if (bytes.starts_with(known.begin)) refuse(known.what);
+  }
+  constexpr std::size_t kLooked = 200;
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  const std::string text = lower_case(bytes.substr(0, kLooked));
+  for (const Known& known : kText) {
+    if (text.starts_with(known.begin)) refuse(known.what);
+  }
+}
+
+}  // namespace crowdface

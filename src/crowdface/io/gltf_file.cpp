@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/gltf_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/glb_container.h"
+#include "crowdface/io/gltf_compression.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+namespace {
+
+using namespace gltf;
+using GltfJson = GltfFile::Json;
+
+constexpr double kFarthestNode = 1e6;  ///< of what a matrix holds: a thousand kilometres
+constexpr std::size_t kOften = 4;      ///< numbers that may be read of a byte
+
+std::size_t size_of_type(int type) {
+  if (type == kUnsignedByte || type == kByte) return 1;
+  if (type == kUnsignedShort || type == kShort) return 2;
+  return 4;
+}
+
+/// What an integer is divided by that stands for a number up to 1.
+double full_of_type(int type) {
+  if (type == kUnsignedByte) return 255;
+  if (type == kByte) return 127;
+  if (type == kUnsignedShort) return 65535;
+  if (type == kShort) return 32767;
+  return 1;
+}
+
+std::string decoded_base64(std::string_view text) {
+  std::string out;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t digit = kDigits.find(c);
+    if (digit == kDigits.npos) break;
+    bits = bits << 6U | static_cast<std::uint32_t>(digit);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    out += static_cast<char>(bits >> static_cast<unsigned>(count) & 0xffU);
+  }
+  return out;
+}
+
+/// %20 and the like.
+std::string decoded_uri(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned value = 0;
+    const bool escaped = text[i] == '%' && i + 2 < text.size() &&
+                         std::from_chars(text.data() + i + 1, text.data() + i + 3, value, 16).ptr ==
+                             text.data() + i + 3;
+    out += escaped ? static_cast<char>(value) : text[i];
+    if (escaped) i += 2;
+  }
+  return out;
+}
+
+Eigen::Matrix4d local_matrix(const GltfJson& node) {
+  if (node.contains("matrix")) return matrix_from(node.at("matrix").get<std::vector<double>>());
+  const auto t = node.value("translation", std::vector<double>{0, 0, 0});
+  const auto q = node.value("rotation", std::vector<double>{0, 0, 0, 1});
+  const auto s = node.value("scale", std::vector<double>{1, 1, 1});
+  const double x = q.at(0), y = q.at(1), z = q.at(2), w = q.at(3);
+  Eigen::Matrix4d matrix;
+  matrix << s.at(0) * (1 - 2 * (y * y + z * z)), s.at(1) * 2 * (x * y - z * w),
+      s.at(2) * 2 * (x * z + y * w), t.at(0),  //
+      s.at(0) * 2 * (x * y + z * w), s.at(1) * (1 - 2 * (x * x + z * z)),
+      s.at(2) * 2 * (y * z - x * w), t.at(1),  //
+      s.at(0) * 2 * (x * z - y * w), s.at(1) * 2 * (y * z + x * w),
+      s.at(2) * (1 - 2 * (x * x + y * y)), t.at(2),  //
+      0, 0, 0, 1;
+  return matrix;
+}
+
+}  // namespace
+
+Eigen::Matrix4d matrix_from(const std::vector<double>& columns) {
+  Eigen::Matrix4d matrix;
+  for (Index c = 0; c < 4; ++c) {
+    for (Index r = 0; r < 4; ++r) matrix(r, c) = columns.at(static_cast<std::size_t>(4 * c + r));
+  }
+  return matrix;
+}
+
+Eigen::Matrix4d times(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b) {
+  Eigen::Matrix4d product;
+  for (Index r = 0; r < 4; ++r) {
+    for (Index c = 0; c < 4; ++c) {
+      product(r, c) = a(r, 0) * b(0, c) + a(r, 1) * b(1, c) + a(r, 2) * b(2, c) + a(r, 3) * b(3, c);
+    }
+  }
+  return product;
+}
+
+Eigen::Vector3d moved(const Eigen::Matrix4d& by, const double* point) {
+  Eigen::Vector3d to;
+  for (Index r = 0; r < 3; ++r) {
+    to[r] = by(r, 0) * point[0] + by(r, 1) * point[1] + by(r, 2) * point[2] + by(r, 3);
+  }
+  return to;
+}
+
+GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)) {
+  if (bytes.starts_with("glTF")) {
+    if (bytes.size() >= glb::kFileHeader && number_at<std::uint32_t>(bytes.data() + 4) == 1) {
+      fail("expected glTF 2.0, found version 1: export it again, or gltf-transform copy");
+    }
+    const auto chunks = glb_chunks(bytes);
+    if (!chunks)
+      fail("expected a binary glTF 2.0 file (GLB), found one that is cut off or damaged");
+    scene_ = parse_shallow_json(chunks->json);
+    binary_ = chunks->binary;
+  } else {
+    scene_ = parse_shallow_json(bytes);
+  }
+  if (!scene_.is_object()) fail("expected a glTF 2.0 file, found that its JSON cannot be read");
+  room_ = kOften * binary_.size();
+}
+
+void GltfFile::fail(const std::string& what) const {
+  refuse_file(path_, what);
+}
+
+std::string_view GltfFile::buffer(std::size_t number) {
+  const Json& json = scene_.at("buffers").at(number);
+  if (!json.contains("uri")) {
+    if (number != 0) fail(concat("its buffer ", number, " has no data"));
+    return binary_;
+  }
+  const auto [known, is_new] = own_buffers_.try_emplace(number);
+  if (!is_new) return known->second;
+  const auto uri = json.at("uri").get<std::string>();
+  if (uri.starts_with("data:")) {
+    const std::size_t comma = uri.find(',');
+    if (comma == uri.npos) fail(concat("its buffer ", number, " has no data"));
+    known->second = decoded_base64(std::string_view(uri).substr(comma + 1));
+    room_ += kOften * known->second.size();
+    return known->second;
+  }
+  const std::filesystem::path file = decoded_uri(uri);
+  const bool inside = file.is_relative() && !file.lexically_normal().string().starts_with("..");
+  if (!inside) fail(concat("its data lie outside its folder, at ", quoted(uri)));
+  if (!is_file(path_.parent_path() / file)) {
+    throw MissingInput(concat((path_.parent_path() / file).string(), ": is missing; ",
+                              path_.string(),
+                              " keeps its data there (export GLB, which is one file)"));
+  }
+  known->second = read_file(path_.parent_path() / file);
+  room_ += kOften * known->second.size();
+  return known->second;
+}
+
+std::string_view GltfFile::view(std::size_t number) {
+  const Json& json = scene_.at("bufferViews").at(number);
+  const auto part = [&](const Json& of) {
+    const std::string_view all = buffer(of.value("buffer", std::size_t{0}));
+    const auto begin = of.value("byteOffset", std::size_t{0});
+    const auto length = of.at("byteLength").get<std::size_t>();
+    if (begin > all.size() || length > all.size() - begin) {
+      fail(concat("its view ", number, " reaches beyond its data"));
+    }
+    return all.substr(begin, length);
+  };
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (!json.contains("extensions") || !json["extensions"].contains(name)) continue;
+    const auto [known, is_new] = own_views_.try_emplace(number);
+    if (!is_new) return known->second;
+    const Json& packed = json["extensions"][name];
+    auto bytes = decode_meshopt(
+        part(packed),
+        {packed.at("count").get<std::size_t>(), packed.at("byteStride").get<std::size_t>(),
+         packed.value("mode", std::string()), packed.value("filter", std::string())});
+    if (!bytes) {
+      fail(concat("it is compressed with ", name, ", and its view ", number,
+                  " cannot be unpacked; gltf-transform copy in.glb out.glb writes it without"));
+    }
+    known->second = std::move(*bytes);
+    room_ += kOften * known->second.size();
+    return known->second;
+  }
+  return part(json);
+}
+
+/// A mesh may stand at many nodes, and many names may stand for the same numbers.
+void GltfFile::require_room(std::size_t more) {
+  if (more > room_) {
+    fail("its meshes and skins have more numbers than its buffers have bytes, several times over");
+  }
+  room_ -= more;
+}
+
+std::vector<double> GltfFile::numbers_in(std::size_t number, std::size_t begin, int type,
+                                         std::size_t count, std::size_t width,
+                                         std::size_t accessor) {
+  const std::string_view bytes = view(number);
+  const std::size_t size = size_of_type(type);
+  const std::size_t stride = scene_.at("bufferViews").at(number).value("byteStride", size * width);
+  if (begin > bytes.size() || stride < size * width ||
+      count > (bytes.size() - begin) / stride + 1 ||
+      (count > 0 && (count - 1) * stride + size * width > bytes.size() - begin)) {
+    fail(concat("accessor ", accessor, " reaches beyond its data"));
+  }
+  require_room(count * width);
+  std::vector<double> numbers;
+  numbers.reserve(count * width);
+  const auto take = [&]<class T>(T) {
+    for (std::size_t row = 0; row < count; ++row) {
+      const char* at = bytes.data() + begin + row * stride;
+      for (std::size_t c = 0; c < width; ++c) {
+        numbers.push_back(static_cast<double>(number_at<T>(at + c * sizeof(T))));
+      }
+    }
+  };
+  if (type == kUnsignedByte) {
+    take(std::uint8_t{});
+  } else if (type == kByte) {
+    take(std::int8_t{});
+  } else if (type == kUnsignedShort) {
+    take(std::uint16_t{});
+  } else if (type == kShort) {
+    take(std::int16_t{});
+  } else if (type == kUnsignedInt) {
+    take(std::uint32_t{});
+  } else if (type == kFloat) {
+    take(float{});
+  } else {
+    fail(concat("accessor ", accessor, " has numbers of the unexpected type ", type));
+  }
+  return numbers;
+}
+
+std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
+  const Json& json = scene_.at("accessors").at(accessor);
+  const auto type = json.at("componentType").get<int>();
+  const std::size_t count = json.at("count").get<std::size_t>();
+  std::vector<double> numbers;
+  if (json.contains("bufferView")) {
+    numbers = numbers_in(json.at("bufferView").get<std::size_t>(),
+                         json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
+  } else {
+    if (json.contains("sparse")) {
+      view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());  // makes room
+    }
+    if (count > room_ / width) require_room(room_ + 1);
+    require_room(count * width);
+    numbers.resize(count * width, 0);
+  }
+  if (json.contains("sparse")) {
+    const Json& sparse = json["sparse"];
+    const Json &rows = sparse.at("indices"), &values = sparse.at("values");
+    const auto some = sparse.at("count").get<std::size_t>();
+    const std::vector<double> at = numbers_in(
+        rows.at("bufferView").get<std::size_t>(), rows.value("byteOffset", std::size_t{0}),
+        rows.at("componentType").get<int>(), some, 1, accessor);
+    const std::vector<double> moved =
+        numbers_in(values.at("bufferView").get<std::size_t>(),
+                   values.value("byteOffset", std::size_t{0}), type, some, width, accessor);
+    for (std::size_t i = 0; i < some; ++i) {
+      if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
+        fail(concat("accessor ", accessor, " names row ", at[i], " of ", count));
+      }
+      std::copy_n(moved.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                  numbers.begin() +
+                      static_cast<std::ptrdiff_t>(at[i]) * static_cast<std::ptrdiff_t>(width));
+    }
+  }
+  if (json.value("normalized", false)) {
+    for (double& number : numbers) number = std::max(number / full_of_type(type), -1.0);
+  }
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
+    fail(concat("accessor ", accessor, " has numbers that are not finite"));
+  }
+  return numbers;
+}
+
+std::vector<std::uint32_t> GltfFile::whole_numbers(std::size_t accessor, std::size_t width) {
+  std::vector<std::uint32_t> whole;
+  for (const double number : numbers(accessor, width)) {
+    if (number < 0 || number >= kNoIndex) {
+      fail(concat("accessor ", accessor, ": expected whole numbers, found ", number));
+    }
+    whole.push_back(static_cast<std::uint32_t>(number));
+  }
+  return whole;
+}
+
+std::vector<std::uint32_t> GltfFile::parents() const {
+  const Json& nodes = scene_.at("nodes");
+  std::vector<std::uint32_t> parents(nodes.size(), kNoIndex);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    for (const Json& child : nodes[n].value("children", Json::array())) {
+      parents.at(child.get<std::size_t>()) = n;
+    }
+  }
+  return parents;
+}
+
+/// From the roots down, each node once.
+std::vector<Eigen::Matrix4d> GltfFile::worlds(const std::vector<std::uint32_t>& parents) const {
+  const Json& nodes = scene_.at("nodes");
+  std::vector<Eigen::Matrix4d> worlds(parents.size());
+  std::vector<bool> known(parents.size(), false);
+  std::vector<std::uint32_t> above;
+  for (std::uint32_t node = 0; node < parents.size(); ++node) {
+    for (std::uint32_t n = node; n != kNoIndex && !known[n]; n = parents[n]) {
+      if (above.size() == parents.size()) fail("its nodes hang on each other in a circle");
+      above.push_back(n);
+    }
+    for (; !above.empty(); above.pop_back()) {
+      const std::uint32_t n = above.back(), parent = parents[n];
+      const Eigen::Matrix4d local = local_matrix(nodes[n]);
+      worlds[n] = parent == kNoIndex ? local : times(worlds[parent], local);
+      if (!(worlds[n].array().abs() < kFarthestNode).all()) {
+        fail(concat("expected its node ", n, " at a place, found it beyond all measure"));
+      }
+      known[n] = true;
+    }
+  }
+  return worlds;
+}
+
+}  // namespace crowdface

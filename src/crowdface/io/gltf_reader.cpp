@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/file_mesh.h"
+#include "crowdface/io/gltf_compression.h"
+#include "crowdface/io/gltf_file.h"
+
+namespace crowdface {
+namespace {
+
+using GltfJson = GltfFile::Json;
+
+constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
+
+/// The rows that a primitive's triangles name, and the triangles, corner by corner.
+struct Primitive {
+  std::vector<double> places, uvs, colours;
+  std::size_t colour_width = 3;
+  std::vector<std::uint32_t> ids, corners;
+};
+
+/// How a texture lies on its coordinates (KHR_texture_transform).
+struct UvTransform {
+  std::size_t set = 0;
+  double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
+};
+
+/// The vertices of an accessor among all.
+struct Rows {
+  std::uint32_t first = 0, count = 0;
+};
+
+class GltfMeshReader {
+ public:
+  GltfMeshReader(std::string_view bytes, const std::filesystem::path& path) : file_(bytes, path) {}
+
+  FileMesh read() {
+    const GltfJson& scene = file_.scene();
+    const GltfJson& nodes = scene.at("nodes");
+    const std::vector<std::uint32_t> parents = file_.parents();
+    const std::vector<Eigen::Matrix4d> worlds = file_.worlds(parents);
+    std::vector<bool> shown = nodes_of_scene(parents);
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      if (!shown[n] || !nodes[n].contains("mesh")) continue;
+      // Where a mesh is bound to joints its node's place counts for nothing (glTF 2.0, section 3.7.3).
+      const bool bound = nodes[n].contains("skin");
+      add_mesh(nodes[n], bound ? Eigen::Matrix4d::Identity() : worlds[n]);
+    }
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::vector<bool> nodes_of_scene(const std::vector<std::uint32_t>& parents) const {
+    const GltfJson& scene = file_.scene();
+    if (!scene.contains("scenes") || scene["scenes"].empty()) {
+      return std::vector<bool>(parents.size(), true);
+    }
+    std::vector<bool> shown(parents.size(), false);
+    const GltfJson& roots = scene["scenes"].at(scene.value("scene", std::size_t{0}));
+    for (const GltfJson& node : roots.value("nodes", GltfJson::array())) {
+      shown.at(node.get<std::size_t>()) = true;
+    }
+    for (std::uint32_t n = 0; n < parents.size(); ++n) {
+      for (std::uint32_t above = n; above != kNoIndex && !shown[n]; above = parents[above]) {
+        if (shown[above]) shown[n] = true;
+      }
+    }
+    return shown;
+  }
+
+  UvTransform uv_transform(const GltfJson& primitive) const {
+    UvTransform transform;
+    if (!primitive.contains("material")) return transform;
+    const GltfJson& material =
+        file_.scene().at("materials").at(primitive["material"].get<std::size_t>());
+    const GltfJson* texture = nullptr;
+    if (material.contains("pbrMetallicRoughness") &&
+        material["pbrMetallicRoughness"].contains("baseColorTexture")) {
+      texture = &material["pbrMetallicRoughness"]["baseColorTexture"];
+    }
+    if (texture == nullptr) return transform;
+    transform.set = texture->value("texCoord", std::size_t{0});
+    if (!texture->contains("extensions") ||
+        !(*texture)["extensions"].contains("KHR_texture_transform")) {
+      return transform;
+    }
+    const GltfJson& by = (*texture)["extensions"]["KHR_texture_transform"];
+    transform.set = by.value("texCoord", transform.set);
+    const auto offset = by.value("offset", std::vector<double>{0, 0});
+    const auto scale = by.value("scale", std::vector<double>{1, 1});
+    transform.x = offset.at(0);
+    transform.y = offset.at(1);
+    transform.scale_x = scale.at(0);
+    transform.scale_y = scale.at(1);
+    transform.rotation = by.value("rotation", 0.0);
+    return transform;
+  }
+
+  std::string material_name(const GltfJson& primitive, const std::string& mesh) const {
+    if (!primitive.contains("material")) return mesh;
+    const auto number = primitive["material"].get<std::size_t>();
+    return file_.scene().at("materials").at(number).value("name", concat("material_", number));
+  }
+
+  void add_mesh(const GltfJson& node, const Eigen::Matrix4d& place) {
+    const auto number = node["mesh"].get<std::size_t>();
+    const GltfJson& mesh = file_.scene().at("meshes").at(number);
+    const std::string name = node.value("name", mesh.value("name", concat("mesh_", number)));
+    std::map<std::size_t, Rows> known;
+    for (const GltfJson& primitive : mesh.at("primitives")) {
+      const int mode = primitive.value("mode", kTriangles);
+      if (mode < kTriangles || mode > kFan) continue;  // points and lines
+      add_primitive(primitive, mode, place, material_name(primitive, name), known);
+    }
+    ++piece_;
+  }
+
+  /// \param known  the vertices of each accessor that another primitive of the node has named
+  void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& place,
+                     const std::string& material, std::map<std::size_t, Rows>& known) {
+    const GltfJson& attributes = json.at("attributes");
+    const auto accessor = attributes.at("POSITION").get<std::size_t>();
+    const UvTransform transform = uv_transform(json);
+    const std::string uv_set = concat("TEXCOORD_", transform.set);
+    const bool packed =
+        json.contains("extensions") && json["extensions"].contains("KHR_draco_mesh_compression");
+    Rows rows{static_cast<std::uint32_t>(pieces()), 0};
+    Primitive part;
+    if (!packed && known.contains(accessor)) {
+      rows = known[accessor];
+      part.corners = corners_of(json, rows.count);
+    } else {
+      part = packed ? unpack(json, uv_set) : read(json, uv_set);
+      rows.count = static_cast<std::uint32_t>(part.places.size() / 3);
+      add_rows(part, place, transform);
+      if (!packed) known.emplace(accessor, rows);
+    }
+    for (const std::uint32_t corner : part.corners) {
+      if (corner >= rows.count) {
+        file_.fail(concat("a triangle names vertex ", corner, " of ", rows.count));
+      }
+    }
+    add_faces(part.corners, mode, rows.first, place, material);
+  }
+
+  std::size_t pieces() const { return mesh_.pieces.size(); }
+
+  Primitive read(const GltfJson& json, const std::string& uv_set) {
+    const GltfJson& attributes = json.at("attributes");
+    const auto rows = [&](const std::string& name, std::size_t width) {
+      return file_.numbers(attributes.at(name).get<std::size_t>(), width);
+    };
+    Primitive part;
+    part.places = rows("POSITION", 3);
+    if (attributes.contains(uv_set)) part.uvs = rows(uv_set, 2);
+    if (attributes.contains("COLOR_0")) {
+      const GltfJson& accessor =
+          file_.scene().at("accessors").at(attributes.at("COLOR_0").get<std::size_t>());
+      part.colour_width = accessor.value("type", std::string()) == "VEC4" ? 4 : 3;
+      part.colours = rows("COLOR_0", part.colour_width);
+    }
+    if (attributes.contains("_VERTEX_ID")) {
+      part.ids = file_.whole_numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
+    }
+    part.corners = corners_of(json, static_cast<std::uint32_t>(part.places.size() / 3));
+    return part;
+  }
+
+  std::vector<std::uint32_t> corners_of(const GltfJson& json, std::uint32_t count) {
+    if (json.contains("indices")) {
+      return file_.whole_numbers(json.at("indices").get<std::size_t>(), 1);
+    }
+    std::vector<std::uint32_t> corners(count);
+    std::iota(corners.begin(), corners.end(), 0U);
+    return corners;
+  }
+
+  Primitive unpack(const GltfJson& json, const std::string& uv_set) {
+    const GltfJson& packed = json["extensions"]["KHR_draco_mesh_compression"];
+    const GltfJson& ids = packed.at("attributes");
+    std::vector<DracoAttribute> wanted = {{ids.at("POSITION").get<std::uint32_t>(), 3}};
+    if (ids.contains(uv_set)) wanted.push_back({ids[uv_set].get<std::uint32_t>(), 2});
+    auto mesh = decode_draco(file_.view(packed.at("bufferView").get<std::size_t>()), wanted);
+    if (!mesh) {
+      file_.fail(
+          "it is compressed with Draco (KHR_draco_mesh_compression), and cannot be unpacked; "
+          "gltf-transform copy in.glb out.glb writes it without");
+    }
+    Primitive part;
+    part.places = std::move(mesh->attributes[0]);
+    if (wanted.size() > 1) part.uvs = std::move(mesh->attributes[1]);
+    part.corners = std::move(mesh->corners);
+    return part;
+  }
+
+  void add_rows(const Primitive& part, const Eigen::Matrix4d& place, const UvTransform& uv) {
+    const std::size_t count = part.places.size() / 3;
+    const bool has_uvs = part.uvs.size() == 2 * count;
+    const bool has_colours = part.colours.size() == part.colour_width * count;
+    const double cos = std::cos(uv.rotation), sin = std::sin(uv.rotation);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d point = moved(place, &part.places[3 * i]);
+      points_.insert(points_.end(), point.data(), point.data() + 3);
+      mesh_.pieces.push_back(piece_);
+      uv_rows_.push_back(has_uvs ? static_cast<std::uint32_t>(uvs_.size() / 2) : kNoIndex);
+      if (has_uvs) {
+        const double u = part.uvs[2 * i] * uv.scale_x, v = part.uvs[2 * i + 1] * uv.scale_y;
+        uvs_.push_back(cos * u + sin * v + uv.x);
+        uvs_.push_back(1 - (-sin * u + cos * v + uv.y));  // v upwards, as in OBJ
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        colours_.push_back(
+            has_colours ? std::clamp(part.colours[part.colour_width * i + c], 0.0, 1.0) : 1);
+      }
+    }
+    any_colours_ = any_colours_ || has_colours;
+    has_ids_ = has_ids_ && part.ids.size() == count;
+    mesh_.vertex_ids.insert(mesh_.vertex_ids.end(), part.ids.begin(), part.ids.end());
+  }
+
+  void add_faces(const std::vector<std::uint32_t>& corners, int mode, std::uint32_t first,
+                 const Eigen::Matrix4d& place, const std::string& material) {
+    const bool mirrored = place.topLeftCorner<3, 3>().determinant() < 0;
+    if (mesh_.materials.empty() || mesh_.materials.back().name != material) {
+      mesh_.materials.push_back({material, mesh_.topology.face_count()});
+    }
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      if (mirrored) std::swap(b, c);
+      for (const std::uint32_t corner : {a, b, c}) {
+        mesh_.topology.corner_vertices.push_back(first + corner);
+        mesh_.topology.corner_uvs.push_back(uv_rows_[first + corner]);
+      }
+      mesh_.topology.face_offsets.push_back(
+          static_cast<std::uint32_t>(mesh_.topology.corner_vertices.size()));
+    };
+    for (std::size_t i = 0; i + 2 < corners.size(); i += mode == kTriangles ? 3 : 1) {
+      if (mode == kTriangles) {
+        add(corners[i], corners[i + 1], corners[i + 2]);
+      } else if (mode == kFan) {
+        add(corners[0], corners[i + 1], corners[i + 2]);
+      } else {
+        const std::size_t odd = i % 2;
+        const std::uint32_t a = corners[i], b = corners[i + 1 + odd], c = corners[i + 2 - odd];
+        if (a != b && b != c && c != a) add(a, b, c);
+      }
+    }
+  }
+
+  void finish() {
+    const auto rows = static_cast<Index>(pieces());
+    mesh_.topology.vertex_count = rows;
+    mesh_.positions = Eigen::Map<const Positions>(points_.data(), rows, 3);
+    mesh_.uvs =
+        Eigen::Map<const TextureCoordinates>(uvs_.data(), static_cast<Index>(uvs_.size() / 2), 2);
+    if (uvs_.empty()) mesh_.topology.corner_uvs.clear();
+    if (any_colours_) mesh_.colours = Eigen::Map<const Positions>(colours_.data(), rows, 3);
+    if (!has_ids_) mesh_.vertex_ids.clear();
+    mesh_.has_textures = !file_.scene().value("images", GltfJson::array()).empty();
+  }
+
+  GltfFile file_;
+  FileMesh mesh_;
+  std::vector<double> points_, uvs_, colours_;
+  std::vector<std::uint32_t> uv_rows_;  ///< of vertices
+  std::uint32_t piece_ = 0;
+  bool any_colours_ = false, has_ids_ = true;
+};
+
+}  // namespace
+
+FileMesh parse_gltf(std::string_view bytes, const std::filesystem::path& path) {
+  try {
+    return GltfMeshReader(bytes, path).read();
+  } catch (const GltfJson::exception& error) {
+    refuse_file(path, concat("not a scene that glTF 2.0 allows: ", error.what()));
+  } catch (const std::out_of_range&) {
+    refuse_file(path, "it speaks of nodes or numbers that it does not have");
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/legacy_text.h"
+
+#include <iconv.h>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// Empty if the bytes are no text of that encoding.
+std::string converted(std::string_view bytes, const char* encoding) {
+  const iconv_t converter = ::iconv_open("UTF-8", encoding);
+  if (converter == reinterpret_cast<iconv_t>(-1)) return {};
+  constexpr std::size_t kMostPerByte = 4;
+  std::string in(bytes), out(kMostPerByte * bytes.size(), '\0');
+  char *from = in.data(), *to = out.data();
+  std::size_t left = in.size(), room = out.size();
+  const bool failed = ::iconv(converter, &from, &left, &to, &room) == static_cast<std::size_t>(-1);
+  ::iconv_close(converter);
+  if (failed) return {};
+  out.resize(out.size() - room);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> legacy_readings(std::string_view bytes) {
+  std::vector<std::string> readings;
+  constexpr std::size_t kLongest = 4096;
+  if (is_utf8(bytes) || bytes.size() > kLongest) return readings;
+  for (const char* encoding : {"GB18030", "SHIFT_JIS", "WINDOWS-1252"}) {
+    std::string text = converted(bytes, encoding);
+    if (!text.empty()) readings.push_back(std::move(text));
+  }
+  return readings;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/mesh_as_obj.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/io/read_mesh.h"
+
+namespace crowdface {
+
+bool is_obj(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".obj";
+}
+
+bool is_head_file(const std::filesystem::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  const std::string name = lower_case(path.stem().string());
+  const bool is_faces = name == "faces" || name == "triangles" || name == "quads";
+  return !(is_faces && ending == ".npy") && ending != ".stl" &&
+         std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
+}
+
+ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path) {
+  if (mesh.topology.face_count() == 0) {
+    refuse_file(path,
+                concat("expected a mesh, found ", mesh.positions.rows(), " points and no face"));
+  }
+  for (MaterialRange& material : mesh.materials) {
+    constexpr std::size_t kLongest = 200;
+    material.name.resize(std::min(material.name.size(), kLongest));
+    std::ranges::replace_if(
+        material.name, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; },
+        '_');
+    if (material.name.empty()) material.name = "material";
+  }
+  MappedFile text = MappedFile::of_text(encode_obj(mesh, {}, mesh.materials).text());
+  const ObjOutline outline = outline_obj(text.bytes());
+  ObjFile file = read_obj(path, std::move(text), outline);
+  file.notes = std::move(mesh.notes);
+  file.is_mended = true;
+  if (mesh.has_textures) {
+    file.notes.emplace_back(
+        "textures inside the file are not read: export OBJ with a material file to have them");
+  }
+  return file;
+}
+
+FileMesh read_joined_mesh(const std::filesystem::path& path) {
+  FileMesh mesh = read_mesh(path);
+  const Index split = mesh.positions.rows();
+  join_split_vertices(mesh);
+  if (mesh.positions.rows() < split) {
+    mesh.notes.emplace_back("vertices that the export split at seams are joined again");
+  }
+  return mesh;
+}
+
+ObjFile read_mesh_as_obj(const std::filesystem::path& path) {
+  if (is_obj(path)) return read_obj(path);
+  return as_obj(read_joined_mesh(path), path);
+}
+
+}  // namespace crowdface

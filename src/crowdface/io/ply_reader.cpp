@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/input_limits.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/file_mesh.h"
+
+namespace crowdface {
+namespace {
+
+enum class Coding { kText, kLittleEndian, kBigEndian };
+
+template <class T>
+double number_in(const std::array<char, 8>& raw) {
+  T number;
+  std::memcpy(&number, raw.data(), sizeof number);
+  return static_cast<double>(number);
+}
+
+/// What a number is, as long as it takes in a binary file.
+struct Type {
+  std::string_view name, other;
+  std::size_t bytes;
+  double full;  ///< what stands for 1 where it is a colour
+  double (*read)(const std::array<char, 8>&);
+};
+constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},
+                                          {"uchar", "uint8", 1, 255, number_in<std::uint8_t>},
+                                          {"short", "int16", 2, 32767, number_in<std::int16_t>},
+                                          {"ushort", "uint16", 2, 65535, number_in<std::uint16_t>},
+                                          {"int", "int32", 4, 255, number_in<std::int32_t>},
+                                          {"uint", "uint32", 4, 255, number_in<std::uint32_t>},
+                                          {"float", "float32", 4, 1, number_in<float>},
+                                          {"double", "float64", 8, 1, number_in<double>},
+                                          {"long", "int64", 8, 255, number_in<std::int64_t>},
+                                          {"ulong", "uint64", 8, 255, number_in<std::uint64_t>}}};
+
+struct Property {
+  std::string name;
+  Type type;
+  std::optional<Type> count = {};  ///< of a list: of its count
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
+
+/// Reads a PLY file from its first byte to its last.
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  FileMesh read() {
+    read_header();
+    for (const Element& element : elements_) {
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else {
+        read_faces(element);
+      }
+    }
+    mesh_.topology.vertex_count = mesh_.positions.rows();
+    for (const std::uint32_t v : mesh_.topology.corner_vertices) {
+      if (v >= mesh_.topology.vertex_count) {
+        fail(concat("a face names vertex ", v, " of ", mesh_.topology.vertex_count));
+      }
+    }
+    finish_uvs();
+    if (flat_faces_ > 0) {
+      mesh_.notes.push_back(
+          concat(flat_faces_, " of its faces have fewer than 3 corners and are left out"));
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& found) const {
+    throw InvalidInput(concat(name_, ": expected a PLY file, found that ", found));
+  }
+
+  /// Lines of the header end in LF, CR LF or CR, all of them like the first.
+  std::string_view line() {
+    const char last = ends_in_cr_ ? '\r' : '\n';
+    const std::size_t end = bytes_.find(last, at_);
+    if (end == std::string_view::npos) fail("its header does not end");
+    const std::string_view text = bytes_.substr(at_, end - at_);
+    at_ = end + 1;
+    return text;
+  }
+
+  Type type_of(const std::string& word) const {
+    for (const Type& known : kTypes) {
+      if (word == known.name || word == known.other) return known;
+    }
+    fail(concat("a property is of type ", quoted(word)));
+  }
+
+  Coding coding_of(const std::string& word) const {
+    if (word == "ascii") return Coding::kText;
+    if (word == "binary_little_endian") return Coding::kLittleEndian;
+    if (word == "binary_big_endian") return Coding::kBigEndian;
+    fail(concat("its format is ", quoted(word)));
+  }
+
+  void read_header() {
+    if (bytes_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    const std::size_t end = bytes_.find_first_of("\r\n", at_);
+    ends_in_cr_ =
+        end != bytes_.npos && bytes_[end] == '\r' && !bytes_.substr(end + 1).starts_with('\n');
+    if (words_of(line()) != std::vector<std::string>{"ply"}) fail("it does not begin with ply");
+    for (;;) {
+      const std::vector<std::string> words = words_of(line());
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") break;
+      if (words[0] == "format" && words.size() >= 2) {
+        coding_ = coding_of(words[1]);
+      } else if (words[0] == "element" && words.size() == 3 && parse_unsigned(words[2])) {
+        elements_.push_back({words[1], *parse_unsigned(words[2]), {}});
+      } else if (words[0] == "property" && words.size() == 3 && !elements_.empty()) {
+        elements_.back().properties.push_back({words[2], type_of(words[1])});
+      } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" &&
+                 !elements_.empty()) {
+        elements_.back().properties.push_back({words[4], type_of(words[3]), type_of(words[2])});
+      } else {
+        fail(concat("its header says ", quoted(join(words, " "))));
+      }
+    }
+    for (const Element& element : elements_) {
+      if (element.count > bytes_.size()) fail(concat("it claims ", element.count, " elements"));
+    }
+  }
+
+  double value(const Type& type) {
+    if (coding_ == Coding::kText) return word();
+    if (bytes_.size() - at_ < type.bytes) fail("it ends too soon");
+    std::array<char, 8> raw{};
+    std::memcpy(raw.data(), bytes_.data() + at_, type.bytes);
+    at_ += type.bytes;
+    if (coding_ == Coding::kBigEndian) std::reverse(raw.data(), raw.data() + type.bytes);
+    return type.read(raw);
+  }
+
+  /// Normals and qualities may be no numbers.
+  double word() {
+    const std::size_t begin = bytes_.find_first_not_of(" \t\r\n", at_);
+    if (begin == std::string_view::npos) fail("it ends too soon");
+    at_ = std::min(bytes_.find_first_of(" \t\r\n", begin), bytes_.size());
+    const std::string_view word = bytes_.substr(begin, at_ - begin);
+    if (const auto number = parse_double(word)) return *number;
+    const std::string lower = lower_case(word);
+    for (const std::string_view none : {"nan", "inf", "1.#"}) {
+      if (lower.find(none) != lower.npos) return std::numeric_limits<double>::quiet_NaN();
+    }
+    fail(concat("a number reads ", quoted(word)));
+  }
+
+  static std::size_t column_of(const Element& element, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+      const auto found = std::ranges::find(element.properties, name, &Property::name);
+      if (found != element.properties.end() && !found->count) {
+        return static_cast<std::size_t>(found - element.properties.begin());
+      }
+    }
+    return kNoColumn;
+  }
+
+  void read_vertices(const Element& element) {
+    if (mesh_.positions.rows() > 0) fail("it has vertices twice");
+    if (element.count > input_limits().vertices) {
+      fail(concat("it has ", element.count, " vertices, more than ", input_limits().vertices,
+                  " (--limit)"));
+    }
+    const std::array<std::size_t, 3> place = {column_of(element, {"x"}), column_of(element, {"y"}),
+                                              column_of(element, {"z"})};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (place[c] == kNoColumn) fail(concat("its vertices have no ", std::string(1, "xyz"[c])));
+    }
+    const std::array<std::size_t, 3> colour = {column_of(element, {"red", "diffuse_red", "r"}),
+                                               column_of(element, {"green", "diffuse_green", "g"}),
+                                               column_of(element, {"blue", "diffuse_blue", "b"})};
+    const std::array<std::size_t, 2> uv = {column_of(element, {"s", "u", "texture_u"}),
+                                           column_of(element, {"t", "v", "texture_v"})};
+    const bool has_colours = std::ranges::find(colour, kNoColumn) == colour.end();
+    has_vertex_uvs_ = uv[0] != kNoColumn && uv[1] != kNoColumn;
+    const auto count = static_cast<Index>(element.count);
+    mesh_.positions.resize(count, 3);
+    mesh_.colours.resize(has_colours ? count : 0, 3);
+    mesh_.uvs.resize(has_vertex_uvs_ ? count : 0, 2);
+    std::vector<double> values(element.properties.size());
+    for (Index v = 0; v < count; ++v) {
+      for (std::size_t p = 0; p < values.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (property.count) {
+          skip_list(property);
+        } else {
+          values[p] = value(property.type);
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto column = static_cast<Index>(c);
+        mesh_.positions(v, column) = values[place[c]];
+        if (has_colours) {
+          const double full = element.properties[colour[c]].type.full;
+          mesh_.colours(v, column) = std::clamp(values[colour[c]] / full, 0.0, 1.0);
+        }
+        if (has_vertex_uvs_ && c < 2) mesh_.uvs(v, column) = values[uv[c]];
+      }
+    }
+  }
+
+  std::uint64_t list_count(const Property& property) {
+    const double count = value(*property.count);
+    if (!(count >= 0 && count <= static_cast<double>(bytes_.size()))) {
+      fail(concat("a list has ", count, " entries"));
+    }
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void skip_list(const Property& property) {
+    for (std::uint64_t i = list_count(property); i > 0; --i) value(property.type);
+  }
+
+  void read_faces(const Element& element) {
+    if (element.properties.empty()) return;  // however many there are
+    const bool faces = element.name == "face", strips = element.name == "tristrips";
+    for (std::uint64_t f = 0; f < element.count; ++f) {
+      std::vector<std::int64_t> corners;
+      std::vector<double> uvs;
+      for (const Property& property : element.properties) {
+        const bool is_corners =
+            (faces || strips) && property.count &&
+            (property.name == "vertex_indices" || property.name == "vertex_index");
+        const bool is_uvs = faces && property.count && property.name == "texcoord";
+        if (!property.count) {
+          value(property.type);
+        } else if (!is_corners && !is_uvs) {
+          skip_list(property);
+        }
+        if (!is_corners && !is_uvs) continue;
+        for (std::uint64_t i = list_count(property); i > 0; --i) {
+          const double number = value(property.type);
+          if (is_uvs) {
+            uvs.push_back(number);
+          } else if (number >= 0 && number < 4e9) {
+            corners.push_back(static_cast<std::int64_t>(number));
+          } else if (strips && number < 0) {
+            corners.push_back(-1);
+          } else {
+            fail(concat("a face names vertex ", number));
+          }
+        }
+      }
+      if (strips) {
+        add_strips(corners);
+      } else if (faces) {
+        add_face(corners, uvs);
+      }
+    }
+  }
+
+  void add_face(const std::vector<std::int64_t>& corners, const std::vector<double>& uvs) {
+    constexpr std::size_t kLeast = 3;
+    if (corners.size() < kLeast) {
+      ++flat_faces_;
+      return;
+    }
+    Topology& topology = mesh_.topology;
+    const bool has_uvs = uvs.size() == 2 * corners.size() &&
+                         std::ranges::all_of(uvs, [](double uv) { return std::isfinite(uv); });
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      topology.corner_vertices.push_back(static_cast<std::uint32_t>(corners[c]));
+      if (has_uvs) {
+        topology.corner_uvs.resize(topology.corner_vertices.size() - 1, kNoIndex);
+        topology.corner_uvs.push_back(static_cast<std::uint32_t>(corner_uvs_.size() / 2));
+        corner_uvs_.push_back(uvs[2 * c]);
+        corner_uvs_.push_back(uvs[2 * c + 1]);
+      }
+    }
+    topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+  }
+
+  void add_strips(const std::vector<std::int64_t>& strip) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < strip.size(); ++i) {
+      if (strip[i] < 0) first = i + 1;
+      if (i < first + 2) continue;
+      const bool odd = (i - first) % 2 != 0;
+      const std::int64_t a = strip[i - 2], b = strip[odd ? i : i - 1], c = strip[odd ? i - 1 : i];
+      if (a != b && b != c && c != a) add_face({a, b, c}, {});
+    }
+  }
+
+  /// Corners that have none of their own have those of their vertices.
+  void finish_uvs() {
+    Topology& topology = mesh_.topology;
+    if (!topology.corner_uvs.empty()) {
+      topology.corner_uvs.resize(topology.corner_vertices.size(), kNoIndex);
+      mesh_.uvs.resize(static_cast<Index>(corner_uvs_.size() / 2), 2);
+      std::copy(corner_uvs_.begin(), corner_uvs_.end(), mesh_.uvs.data());
+    } else if (has_vertex_uvs_ && mesh_.uvs.allFinite()) {
+      // Programs split vertices at seams, as only these can have texture coordinates.
+      topology.corner_uvs = topology.corner_vertices;
+      mesh_.pieces.assign(static_cast<std::size_t>(topology.vertex_count), 0);
+    } else if (has_vertex_uvs_) {
+      mesh_.uvs.resize(0, 2);
+      mesh_.notes.emplace_back("its texture coordinates are no numbers: it has none");
+    }
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  bool ends_in_cr_ = false, has_vertex_uvs_ = false;
+  Coding coding_ = Coding::kText;
+  std::vector<Element> elements_;
+  std::vector<double> corner_uvs_;
+  std::size_t flat_faces_ = 0;
+  FileMesh mesh_;
+};
+
+}  // namespace
+
+FileMesh parse_ply(std::string_view bytes, const std::string& name) {
+  return PlyReader(bytes, name).read();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/read_mesh.h"
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/input_limits.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/fbx_reader.h"
+#include "crowdface/io/foreign_file.h"
+#include "crowdface/io/npy.h"
+#include "crowdface/io/npy_array.h"
+#include "crowdface/io/obj_file.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+FileMesh mesh_of_obj(ObjFile file) {
+  FileMesh mesh;
+  mesh.topology = std::move(file.topology);
+  mesh.positions = std::move(file.positions);
+  mesh.uvs = std::move(file.uvs);
+  mesh.materials = std::move(file.materials);
+  mesh.notes = std::move(file.notes);
+  return mesh;
+}
+
+Index rows_of(const NpyArray& array) {
+  return static_cast<Index>(array.rows());
+}
+
+/// Faces that lie beside arrays of positions: as crowdface writes them (topology/corners.npy, offsets.npy, …), or as an
+/// array of triangles or quads.
+void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
+  Topology& topology = mesh.topology;
+  const auto index_of = [&](double number, Index rows, const fs::path& file) {
+    if (number >= 0 && number < static_cast<double>(rows))
+      return static_cast<std::uint32_t>(number);
+    refuse_file(file, concat("expected numbers from 0 to ", rows - 1, ", found ", number));
+  };
+  const fs::path corners = folder / "topology" / kTopologyArrays[0];
+  const fs::path offsets = folder / "topology" / kTopologyArrays[1];
+  if (is_file(corners) && is_file(offsets)) {
+    for (const double v : read_npy_array(corners).values) {
+      topology.corner_vertices.push_back(index_of(v, mesh.positions.rows(), corners));
+    }
+    topology.face_offsets.clear();
+    for (const double offset : read_npy_array(offsets).values) {
+      const auto end = index_of(offset, topology.corner_count() + 1, offsets);
+      if (!topology.face_offsets.empty() && end < topology.face_offsets.back() + 3) {
+        refuse_file(offsets, "expected faces of three corners or more, found another");
+      }
+      topology.face_offsets.push_back(end);
+    }
+    if (topology.face_offsets.empty() || topology.face_offsets[0] != 0 ||
+        topology.face_offsets.back() != topology.corner_vertices.size()) {
+      refuse_file(offsets,
+                  concat("expected the corners of ", corners.string(), " in faces, found others"));
+    }
+    const fs::path uvs = folder / "topology" / kTopologyArrays[2];
+    const fs::path corner_uvs = folder / "topology" / kTopologyArrays[3];
+    if (!is_file(uvs) || !is_file(corner_uvs)) return;
+    const NpyArray rows = read_npy_array(uvs);
+    if (rows.width() != 2) refuse_file(uvs, "expected two numbers a row");
+    mesh.uvs = Eigen::Map<const TextureCoordinates>(rows.values.data(), rows_of(rows), 2);
+    for (const double row : read_npy_array(corner_uvs).values) {
+      topology.corner_uvs.push_back(row == -1 ? kNoIndex
+                                              : index_of(row, mesh.uvs.rows(), corner_uvs));
+    }
+    if (topology.corner_uvs.size() != topology.corner_vertices.size()) {
+      refuse_file(corner_uvs, concat("expected ", topology.corner_vertices.size(), " rows, found ",
+                                     topology.corner_uvs.size()));
+    }
+    return;
+  }
+  for (const char* name : {"faces.npy", "triangles.npy", "quads.npy"}) {
+    const fs::path file = folder / name;
+    if (!is_file(file)) continue;
+    const NpyArray faces = read_npy_array(file);
+    const bool sound = faces.shape.size() == 2 && (faces.width() == 3 || faces.width() == 4);
+    if (!sound) refuse_file(file, "expected an array of n by 3 or n by 4");
+    for (std::size_t f = 0; f < faces.rows(); ++f) {
+      for (std::size_t c = 0; c < faces.width(); ++c) {
+        topology.corner_vertices.push_back(
+            index_of(faces.values[f * faces.width() + c], mesh.positions.rows(), file));
+      }
+      topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+    }
+    return;
+  }
+}
+
+/// Positions, and faces if some lie beside.
+FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
+  const NpyArray array = parse_npy(bytes, path.string());
+  const bool is_list = array.shape.size() == 3 && array.shape[0] != 1;
+  if (is_list) {
+    refuse_file(path, concat("expected the positions of one head (n by 3), found ", array.shape[0],
+                             " of them: save each as a file"));
+  }
+  const std::size_t width = array.shape.empty() ? 0 : array.shape.back();
+  if (width != 3 || array.shape.size() < 2) {
+    refuse_file(path, "expected positions (n by 3), found an array of another shape");
+  }
+  FileMesh mesh;
+  const auto rows = static_cast<Index>(array.values.size() / 3);
+  mesh.positions = Eigen::Map<const Positions>(array.values.data(), rows, 3);
+  mesh.topology.vertex_count = rows;
+  read_faces_beside(path.parent_path(), mesh);
+  return mesh;
+}
+
+/// What the file is, whatever it is called; its ending if that does not show.
+std::string kind_of(std::string_view bytes, const fs::path& path) {
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ".ply";
+  if (bytes.starts_with("glTF")) return ".glb";
+  if (bytes.starts_with("Kaydara FBX")) return ".fbx";
+  if (bytes.starts_with("\x93NUMPY")) return ".npy";
+  return lower_case(path.extension().string());
+}
+
+void require_limits(const FileMesh& mesh, const fs::path& path) {
+  const InputLimits& limits = input_limits();
+  const auto vertices = static_cast<std::uint64_t>(mesh.positions.rows());
+  const auto faces = static_cast<std::uint64_t>(mesh.topology.face_count());
+  if (vertices <= limits.vertices && faces <= limits.faces) return;
+  refuse_file(path, concat("expected at most ", limits.vertices, " vertices and ", limits.faces,
+                           " faces (--limit), found ", vertices, " and ", faces));
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& mesh_endings() {
+  static const std::vector<std::string_view> endings = {".obj",  ".ply", ".stl", ".glb",
+                                                        ".gltf", ".fbx", ".npy"};
+  return endings;
+}
+
+FileMesh read_mesh(const fs::path& path) {
+  const MappedFile file(path);
+  const std::string kind = kind_of(file.bytes(), path);
+  if (kind != ".obj") refuse_foreign_file(file.bytes(), path);
+  FileMesh mesh;
+  if (kind == ".obj") {
+    mesh = mesh_of_obj(read_obj(path));
+  } else if (kind == ".ply") {
+    mesh = parse_ply(file.bytes(), path.string());
+  } else if (kind == ".stl") {
+    mesh = parse_stl(file.bytes(), path.string());
+  } else if (kind == ".glb" || kind == ".gltf") {
+    mesh = parse_gltf(file.bytes(), path);
+  } else if (kind == ".fbx") {
+    mesh = parse_fbx(file.bytes(), path.string());
+  } else if (kind == ".npy") {
+    mesh = mesh_of_npy(file.bytes(), path);
+  } else {
+    std::vector<std::string> endings(mesh_endings().begin(), mesh_endings().end());
+    refuse_file(path, concat("expected a mesh whose name ends in ", join(endings)));
+  }
+  require_limits(mesh, path);
+  return mesh;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/mesh/same_graph.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <unordered_map>
+
+#include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/grouping.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kRounds = 12;                   ///< of refining colours
+constexpr std::size_t kMostCandidates = 256;  ///< that a component is tried at
+constexpr std::size_t kMostSteps = 64;  ///< corners that are walked in all, of each that a mesh has
+
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ x >> 30U) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ x >> 27U) * 0x94d049bb133111ebU;
+  return x ^ x >> 31U;
+}
+
+/// A mesh whose corners can be walked.
+class Graph {
+ public:
+  explicit Graph(const Topology& topology)
+      : topology_(topology), face_of_(static_cast<std::size_t>(topology.corner_count())) {
+    for (Index f = 0; f < topology.face_count(); ++f) {
+      const auto [begin, end] = topology.corners(f);
+      for (std::uint32_t c = begin; c < end; ++c) face_of_[c] = static_cast<std::uint32_t>(f);
+    }
+    twins_.assign(face_of_.size(), kNoIndex);
+    std::unordered_map<std::uint64_t, std::uint32_t> edges;
+    edges.reserve(face_of_.size());
+    for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
+      is_manifold_ = edges.emplace(edge(vertex(c), vertex(next(c))), c).second && is_manifold_;
+    }
+    for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
+      const auto twin = edges.find(edge(vertex(next(c)), vertex(c)));
+      if (twin != edges.end()) twins_[c] = twin->second;
+    }
+    refine();
+  }
+
+  bool is_manifold() const { return is_manifold_; }
+  const Topology& topology() const { return topology_; }
+  std::uint32_t vertex(std::uint32_t corner) const { return topology_.corner_vertices[corner]; }
+  std::uint32_t next(std::uint32_t corner) const {
+    const auto [begin, end] = topology_.corners(face_of_[corner]);
+    return corner + 1 == end ? begin : corner + 1;
+  }
+  /// The corner on the other side of the edge that begins here, or kNoIndex.
+  std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
+  std::uint32_t face_size(std::uint32_t corner) const {
+    const auto [begin, end] = topology_.corners(face_of_[corner]);
+    return end - begin;
+  }
+  std::uint32_t face(std::uint32_t corner) const { return face_of_[corner]; }
+  const std::vector<std::uint64_t>& colours() const { return colours_; }
+
+ private:
+  static std::uint64_t edge(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{a} << 32U | b;
+  }
+
+  /// What a vertex sees of its faces, whatever order they stand in.
+  void refine() {
+    colours_.assign(static_cast<std::size_t>(topology_.vertex_count), 0);
+    for (int round = 0; round < kRounds; ++round) {
+      std::vector<std::uint64_t> sums(colours_.size(), mixed(static_cast<std::uint64_t>(round)));
+      for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
+        // Around the face from this corner on.
+        std::uint64_t seen = face_size(c) + (twins_[c] == kNoIndex ? 1000U : 0U);
+        std::uint32_t at = c;
+        for (std::uint32_t k = face_size(c); k > 1; --k) {
+          at = next(at);
+          seen = mixed(seen ^ colours_[vertex(at)]);
+        }
+        sums[vertex(c)] += mixed(seen);
+      }
+      for (std::size_t v = 0; v < colours_.size(); ++v) colours_[v] = mixed(colours_[v] ^ sums[v]);
+    }
+  }
+
+  const Topology& topology_;
+  std::vector<std::uint32_t> face_of_, twins_;
+  std::vector<std::uint64_t> colours_;
+  bool is_manifold_ = true;
+};
+
+class Matcher {
+ public:
+  Matcher(const Graph& a, const Positions& at_a, const Graph& b, const Positions& at_b)
+      : a_(a),
+        b_(b),
+        at_a_(at_a),
+        at_b_(at_b),
+        placed_(at_b.rowwise() + (at_a.colwise().mean() - at_b.colwise().mean())),
+        steps_left_(kMostSteps * a.topology().corner_vertices.size()) {}
+
+  std::optional<std::vector<std::uint32_t>> match() {
+    const auto count = static_cast<std::size_t>(a_.topology().vertex_count);
+    std::vector<std::uint64_t> of_a = a_.colours(), of_b = b_.colours();
+    std::ranges::sort(of_a);
+    std::ranges::sort(of_b);
+    if (of_a != of_b) return std::nullopt;
+    to_b_.assign(count, kNoIndex);
+    to_a_.assign(count, kNoIndex);
+    corners_at_b_ = grouped<std::uint32_t>(count, [&](const auto& put) {
+      for (std::uint32_t c = 0; c < b_.topology().corner_vertices.size(); ++c) put(b_.vertex(c), c);
+    });
+    for (std::uint32_t v = 0; v < count; ++v) with_colour_[b_.colours()[v]].push_back(v);
+    for (const std::uint32_t seed : seeds()) {
+      if (!match_from(seed)) return std::nullopt;
+    }
+    if (!match_loose()) return std::nullopt;
+    return std::move(to_b_);
+  }
+
+ private:
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  ///< vertices of a and b
+
+  /// A corner of all faces that hang together by edges, at the vertex of the rarest colour; larger components first.
+  std::vector<std::uint32_t> seeds() const {
+    const Topology& topology = a_.topology();
+    Grouping groups(static_cast<std::size_t>(topology.face_count()));
+    for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
+      if (a_.twin(c) != kNoIndex) groups.join(a_.face(c), a_.face(a_.twin(c)));
+    }
+    struct Component {
+      std::size_t corners = 0, rarity = std::numeric_limits<std::size_t>::max();
+      std::uint32_t seed = kNoIndex;
+    };
+    std::vector<Component> components(static_cast<std::size_t>(topology.face_count()));
+    for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
+      Component& component = components[groups.root(a_.face(c))];
+      ++component.corners;
+      const std::size_t rarity = with_colour_.at(a_.colours()[a_.vertex(c)]).size();
+      if (rarity < component.rarity) component = {component.corners, rarity, c};
+    }
+    std::erase_if(components, [](const Component& one) { return one.seed == kNoIndex; });
+    std::ranges::stable_sort(components, std::greater(), &Component::corners);
+    std::vector<std::uint32_t> seeds;
+    for (const Component& component : components) seeds.push_back(component.seed);
+    return seeds;
+  }
+
+  bool match_from(std::uint32_t seed) {
+    const std::uint32_t known = to_b_[a_.vertex(seed)];  // another component shares the vertex
+    double best = std::numeric_limits<double>::infinity();
+    std::optional<Pairs> nearest;
+    std::size_t tried = 0;
+    for (const std::uint32_t candidate : with_colour_.at(a_.colours()[a_.vertex(seed)])) {
+      if (known != kNoIndex ? candidate != known : to_a_[candidate] != kNoIndex) continue;
+      for (const std::uint32_t corner : corners_at_b_.of(candidate)) {
+        if (++tried > kMostCandidates) break;
+        auto pairs = walk(seed, corner);
+        if (!pairs) continue;
+        const double distance = distance_of(*pairs);
+        if (distance < best) {
+          best = distance;
+          nearest = std::move(pairs);
+        }
+      }
+    }
+    if (!nearest) return false;
+    for (const auto& [in_a, in_b] : *nearest) {
+      to_b_[in_a] = in_b;
+      to_a_[in_b] = in_a;
+    }
+    if (!is_aligned_) align(*nearest);
+    return true;
+  }
+
+  /// Pairs of vertices that follow from one pair of corners; nothing if they contradict each other.
+  std::optional<Pairs> walk(std::uint32_t from_a, std::uint32_t from_b) {
+    Pairs pairs, open = {{from_a, from_b}};
+    std::vector<std::uint32_t> faces;
+    seen_.resize(static_cast<std::size_t>(a_.topology().face_count()), false);
+    bool fits = true;
+    const auto pair = [&](std::uint32_t v, std::uint32_t w) {
+      if (to_b_[v] == w && to_a_[w] == v) return true;
+      if (to_b_[v] != kNoIndex || to_a_[w] != kNoIndex || a_.colours()[v] != b_.colours()[w])
+        return false;
+      to_b_[v] = w;
+      to_a_[w] = v;
+      pairs.emplace_back(v, w);
+      return true;
+    };
+    while (fits && !open.empty()) {
+      auto [c, d] = open.back();
+      open.pop_back();
+      if (seen_[a_.face(c)]) continue;
+      seen_[a_.face(c)] = true;
+      faces.push_back(a_.face(c));
+      const std::uint32_t size = a_.face_size(c);
+      fits = size == b_.face_size(d) && steps_left_ > size;
+      steps_left_ -= std::min<std::size_t>(steps_left_, size);
+      for (std::uint32_t k = 0; fits && k < size; ++k, c = a_.next(c), d = b_.next(d)) {
+        const std::uint32_t e = a_.twin(c), g = b_.twin(d);
+        fits = pair(a_.vertex(c), b_.vertex(d)) && (e == kNoIndex) == (g == kNoIndex);
+        if (fits && e != kNoIndex) open.emplace_back(e, g);
+      }
+    }
+    for (const std::uint32_t f : faces) seen_[f] = false;
+    for (const auto& [v, w] : pairs) {
+      to_b_[v] = kNoIndex;
+      to_a_[w] = kNoIndex;
+    }
+    if (!fits) return std::nullopt;
+    return pairs;
+  }
+
+  double distance_of(const Pairs& pairs) const {
+    double sum = 0;
+    for (const auto& [v, w] : pairs) sum += (at_a_.row(v) - placed_.row(w)).squaredNorm();
+    return sum;
+  }
+
+  void align(const Pairs& pairs) {
+    Positions from(static_cast<Index>(pairs.size()), 3), to(static_cast<Index>(pairs.size()), 3);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      to.row(static_cast<Index>(i)) = at_a_.row(pairs[i].first);
+      from.row(static_cast<Index>(i)) = at_b_.row(pairs[i].second);
+    }
+    is_aligned_ = true;
+    placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
+  }
+
+  /// Vertices of no face come in their order.
+  bool match_loose() {
+    std::uint32_t w = 0;
+    for (std::uint32_t& in_b : to_b_) {
+      if (in_b != kNoIndex) continue;
+      while (w < to_a_.size() && to_a_[w] != kNoIndex) ++w;
+      if (w == to_a_.size() || !corners_at_b_.of(w).empty()) return false;
+      in_b = w++;
+    }
+    return true;
+  }
+
+  const Graph &a_, &b_;
+  const Positions &at_a_, &at_b_;
+  Positions placed_;         ///< b's vertices in a's frame
+  bool is_aligned_ = false;  ///< … by the first component and not by the middle of all alone
+  std::size_t steps_left_;
+  std::vector<std::uint32_t> to_b_, to_a_;
+  Grouped<std::uint32_t> corners_at_b_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> with_colour_;
+  std::vector<bool> seen_;  ///< faces of a
+};
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> same_graph(const Topology& expected,
+                                                     const Positions& expected_positions,
+                                                     const Topology& found,
+                                                     const Positions& found_positions) {
+  if (expected.vertex_count != found.vertex_count || expected.face_count() != found.face_count() ||
+      expected.corner_count() != found.corner_count()) {
+    return std::nullopt;
+  }
+  const Graph a(expected), b(found);
+  if (!a.is_manifold() || !b.is_manifold()) return std::nullopt;
+  return Matcher(a, expected_positions, b, found_positions).match();
+}
+
+Topology triangulated(const Topology& topology, std::uint32_t around) {
+  Topology triangles;
+  triangles.vertex_count = topology.vertex_count;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const std::span<const std::uint32_t> face = topology.face(f);
+    const auto size = static_cast<std::uint32_t>(face.size());
+    const std::uint32_t first = size == 4 ? around % size : 0;
+    for (std::uint32_t c = 1; c + 1 < size; ++c) {
+      triangles.add_face(
+          std::array{face[first], face[(first + c) % size], face[(first + c + 1) % size]});
+    }
+  }
+  return triangles;
+}
+
+}  // namespace crowdface

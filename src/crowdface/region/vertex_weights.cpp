@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/region/vertex_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+VertexWeights read_rows(const std::filesystem::path& path) {
+  VertexWeights weights;
+  NpyArray& rows = weights.rows;
+  std::size_t line_number = 0, count = 0, width = 0;
+  const MappedFile file(path);
+  for (std::string_view line : split_lines(file.bytes())) {
+    ++line_number;
+    std::string text(line.substr(0, line.find('#')));
+    std::ranges::replace_if(
+        text, [](char c) { return c == ',' || c == ';'; }, ' ');
+    const std::vector<std::string> words = words_of(text);
+    if (words.empty()) continue;
+    if (count == 0 && weights.names.empty() && !parse_double(words[0])) {
+      weights.names = words;
+      continue;
+    }
+    if (count == 0) width = words.size();
+    const auto fail = [&](const std::string& what) {
+      throw InvalidInput(concat(path.string(), ':', line_number, ": ", what));
+    };
+    if (words.size() != width) fail(concat("expected ", width, " numbers, found ", words.size()));
+    for (const std::string& word : words) {
+      const auto number = parse_double(word);
+      if (!number) fail(concat("expected a number, found ", quoted(word)));
+      rows.values.push_back(*number);
+    }
+    ++count;
+  }
+  rows.shape = {count, width};
+  if (!weights.names.empty() && weights.names.size() != width) {
+    refuse_file(path, concat("expected a name for each of ", width, " columns, found ",
+                             weights.names.size()));
+  }
+  return weights;
+}
+
+}  // namespace
+
+bool holds_vertex_weights(const std::filesystem::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  return ending == ".npy" || ending == ".txt" || ending == ".csv";
+}
+
+VertexWeights read_vertex_weights(const std::filesystem::path& path) {
+  VertexWeights weights;
+  if (lower_case(path.extension().string()) == ".npy") {
+    weights.rows = read_npy_array(path);
+  } else {
+    weights = read_rows(path);
+  }
+  const auto bad = std::ranges::find_if(
+      weights.rows.values, [](double value) { return !(value >= 0) || !std::isfinite(value); });
+  if (bad != weights.rows.values.end()) {
+    refuse_file(path, concat("expected weights of zero or more, found ", *bad, " for vertex ",
+                             (bad - weights.rows.values.begin()) /
+                                 static_cast<std::ptrdiff_t>(weights.rows.width())));
+  }
+  return weights;
+}
+
+}  // namespace crowdface

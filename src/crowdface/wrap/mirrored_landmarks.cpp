@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/wrap/mirrored_landmarks.h"
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kLeastMm = 6;  ///< people differ by as much
+constexpr double kTimesWorse = 2.5;
+
+/// Median distance after a similarity, mm.
+double residual_of(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
+  const Similarity pose = pose_of_landmarks(positions, landmarks);
+  std::vector<double> off;
+  for (const WrapLandmark& landmark : landmarks) {
+    const Eigen::Vector3d there = carried(pose, row3(positions, landmark.vertex));
+    off.push_back(length3(there - landmark.place) / pose.scale);
+  }
+  const std::size_t middle = off.size() / 2;
+  return value_of_rank(std::move(off), middle);
+}
+
+/// "eye_left" for "eye_right"; the name itself if it has no side.
+std::string other_side(const std::string& name) {
+  static const std::array<std::pair<const char*, const char*>, 6> kSides = {{{"left", "right"},
+                                                                             {"Left", "Right"},
+                                                                             {"LEFT", "RIGHT"},
+                                                                             {"_l", "_r"},
+                                                                             {"_L", "_R"},
+                                                                             {".L", ".R"}}};
+  for (const auto& [left, right] : kSides) {
+    const bool is_suffix = left[0] == '_' || left[0] == '.';
+    for (const auto& [from, to] : {std::pair(left, right), std::pair(right, left)}) {
+      const std::size_t at = name.rfind(from);
+      if (at == name.npos || (is_suffix && !name.ends_with(from))) continue;
+      std::string other = name;
+      return other.replace(at, std::string(from).size(), to);
+    }
+  }
+  return name;
+}
+
+std::vector<WrapLandmark> with_sides_exchanged(const std::vector<WrapLandmark>& landmarks) {
+  std::map<std::string, Eigen::Vector3d> places;
+  for (const WrapLandmark& landmark : landmarks) places[landmark.name] = landmark.place;
+  std::vector<WrapLandmark> exchanged;
+  for (WrapLandmark landmark : landmarks) {
+    const auto other = places.find(other_side(landmark.name));
+    if (other == places.end()) continue;
+    landmark.place = other->second;
+    exchanged.push_back(std::move(landmark));
+  }
+  return exchanged;
+}
+
+}  // namespace
+
+void refuse_mirrored_landmarks(const Positions& positions,
+                               const std::vector<WrapLandmark>& landmarks) {
+  constexpr std::size_t kFewest = 5;  // four points in general position do not tell
+  if (landmarks.size() < kFewest) return;
+  const double as_they_are = residual_of(positions, landmarks);
+  if (!(as_they_are > kLeastMm)) return;
+  std::vector<WrapLandmark> mirrored = landmarks;
+  for (WrapLandmark& landmark : mirrored) landmark.place.x() = -landmark.place.x();
+  const double reflected = residual_of(positions, mirrored);
+  if (!(reflected * kTimesWorse < as_they_are)) return;
+  const std::vector<WrapLandmark> exchanged = with_sides_exchanged(landmarks);
+  const double swapped =
+      exchanged.size() < kFewest ? as_they_are : residual_of(positions, exchanged);
+  const std::string numbers = concat(format_fixed(std::min(reflected, swapped), 1),
+                                     " mm, without to ", format_fixed(as_they_are, 1), " mm");
+  if (swapped < reflected) {
+    throw InvalidInput(
+        concat("left and right are exchanged in the names of the scan's landmarks: with them "
+               "exchanged they fit to ",
+               numbers, " (left is the head's own left); or the scan is mirrored"));
+  }
+  throw InvalidInput(concat("the scan is mirrored: with a reflection the landmarks fit to ",
+                            numbers,
+                            "; mirror it back (scale it by -1 along one axis, and turn its faces "
+                            "over) before wrapping, or check that left "
+                            "and right are not exchanged in the landmarks' names"));
+}
+
+}  // namespace crowdface

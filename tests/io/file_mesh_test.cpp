@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/file_mesh.h"
+
+#include <cstring>
+
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/read_mesh.h"
+
+#include "support/expect_error.h"
+#include "support/meshes.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface::testing {
+namespace {
+
+template <class T>
+std::string bytes_of_all(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+const std::string kPlyHead =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+
+TEST(ParsePly, ReadsPolygonsColoursAndTextureCoordinates) {
+  const FileMesh mesh = parse_ply(
+      "ply\r\nformat ascii 1.0\r\ncomment made by a program\r\nelement vertex 4\r\n"
+      "property double x\r\nproperty double y\r\nproperty double z\r\nproperty float nx\r\n"
+      "property uchar red\r\nproperty uchar green\r\nproperty uchar blue\r\nproperty float s\r\n"
+      "property float t\r\nelement face 2\r\nproperty int flags\r\n"
+      "property list uchar int vertex_indices\r\nend_header\r\n"
+      "0 0 0 nan 255 0 51 0 0\r\n1 0 0 -nan(ind) 0 0 0 1 0\r\n1 1 0 0 0 0 0 1 1\r\n"
+      "0 1 0 0 0 0 0 0 1\r\n7 4 0 1 2 3\r\n7 3 0 2 1\r\n",
+      "head.ply");
+  EXPECT_EQ(mesh.topology.face_offsets, (std::vector<std::uint32_t>{0, 4, 7}));
+  EXPECT_EQ(mesh.topology.corner_vertices, (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 2, 1}));
+  EXPECT_EQ(mesh.topology.corner_uvs, mesh.topology.corner_vertices);
+  EXPECT_EQ(mesh.uvs.row(3), Eigen::RowVector2d(0, 1));
+  EXPECT_EQ(mesh.colours.row(0), Eigen::RowVector3d(1, 0, 0.2));
+}
+
+TEST(ParsePly, ReadsStripsAndLinesThatEndInCr) {
+  std::string text = "ply\nformat ascii 1.0\n" + kPlyHead +
+                     "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+                     "0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 0 1 3\n";
+  for (const char end : {'\n', '\r'}) {
+    std::ranges::replace(text, '\n', end);
+    const FileMesh mesh = parse_ply(text, "strip.ply");
+    EXPECT_EQ(mesh.topology.corner_vertices,
+              (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2, 0, 1, 3}));
+  }
+}
+
+TEST(ParsePly, ReadsTextureCoordinatesOfCorners) {
+  const FileMesh mesh =
+      parse_ply("ply\nformat ascii 1.0\ncomment TextureFile skin.png\n" + kPlyHead +
+                    "element face 1\nproperty list uchar int vertex_indices\n"
+                    "property list uchar float texcoord\nend_header\n"
+                    "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 6 0.5 0 1 0 0 1\n",
+                "wedge.ply");
+  EXPECT_EQ(mesh.topology.corner_uvs, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(mesh.uvs.row(0), Eigen::RowVector2d(0.5, 0));
+}
+
+std::string text_stl_of(const std::string& name, bool capitals) {
+  std::string text = "solid " + name +
+                     "\n facet normal nan 0 0\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n"
+                     " vertex 0 1 1e-2\n endloop\n endfacet\nendsolid " +
+                     name + "\n";
+  if (capitals)
+    std::ranges::transform(text, text.begin(),
+                           [](char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+TEST(ParseStl, TakesAnyNameCaseAndLineEnd) {
+  const FileMesh good = parse_stl(text_stl_of("head", false), "a.stl");
+  ASSERT_EQ(good.topology.face_count(), 1);
+  EXPECT_EQ(good.positions.row(2), Eigen::RowVector3d(0, 1, 0.01));
+  std::string crlf = text_stl_of("head", false);
+  for (std::size_t at = 0; (at = crlf.find('\n', at)) != crlf.npos; at += 2) crlf.insert(at, "\r");
+  for (const std::string& text :
+       {text_stl_of("HEAD", true), text_stl_of("head with vertex colour", false), crlf,
+        "\n" + text_stl_of("", false)}) {
+    const FileMesh mesh = parse_stl(text, "b.stl");
+    EXPECT_EQ(mesh.positions, good.positions);
+    EXPECT_EQ(mesh.topology.corner_vertices, good.topology.corner_vertices);
+  }
+}
+
+TEST(ParseStl, BinaryFilesMayClaimOtherCounts) {
+  std::string bytes = "solid made by a program";
+  bytes.resize(80, '\0');
+  bytes += bytes_of_all(std::vector<std::uint32_t>{2});
+  for (int t = 0; t < 2; ++t) {
+    bytes +=
+        bytes_of_all(std::vector<float>{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(2, '\0');
+  }
+  EXPECT_TRUE(parse_stl(bytes, "exact.stl").notes.empty());
+  const FileMesh trailing = parse_stl(bytes + "xx", "trailing.stl");
+  EXPECT_EQ(trailing.topology.face_count(), 2);
+  EXPECT_EQ(trailing.notes.size(), 1U);
+  for (const char claimed : {'\0', '\x09'}) {
+    std::string other = bytes;
+    other[80] = claimed;
+    EXPECT_EQ(parse_stl(other, "count.stl").topology.face_count(), 2);
+  }
+  expect_error(ExitCode::kBadData, {"cut.stl", "claims"},
+               [&] { parse_stl(bytes.substr(0, bytes.size() - 1), "cut.stl"); });
+}
+
+/// A glTF file of one triangle strip or so, its buffer as base64 beside the JSON.
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (unsigned k = 0; k < 4; ++k) {
+      out += i + k > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63U];
+    }
+  }
+  return out;
+}
+
+struct GltfParts {
+  std::string node = R"({"mesh":0})", primitive = R"({"attributes":{"POSITION":0},"indices":1})",
+              accessors, views, more;
+  std::string data;
+};
+
+FileMesh mesh_of(const GltfParts& parts) {
+  return parse_gltf(
+      concat(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)",
+             parts.node, R"(],"meshes":[{"primitives":[)", parts.primitive, R"(]}],"accessors":[)",
+             parts.accessors, R"(],"bufferViews":[)", parts.views, R"(],)", parts.more,
+             R"("buffers":[{"uri":"data:application/octet-stream;base64,)", base64(parts.data),
+             R"(","byteLength":)", parts.data.size(), "}]}"),
+      "scene.gltf");
+}
+
+const std::vector<float> kPlaces = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5F};
+const std::vector<std::uint16_t> kCorners = {0, 1, 2, 2, 1, 3};
+const std::string kIndices = R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":6})";
+
+GltfParts plain_parts() {
+  GltfParts parts;
+  parts.accessors = R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":4},)" + kIndices;
+  parts.data = bytes_of_all(kPlaces) + bytes_of_all(kCorners);
+  parts.views = R"({"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12})";
+  return parts;
+}
+
+void expect_square(const FileMesh& mesh, double tolerance) {
+  ASSERT_EQ(mesh.positions.rows(), 4);
+  for (Index i = 0; i < 12; ++i) {
+    EXPECT_NEAR(mesh.positions.data()[i], static_cast<double>(kPlaces[static_cast<std::size_t>(i)]),
+                tolerance);
+  }
+  EXPECT_EQ(mesh.topology.corner_vertices, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3}));
+}
+
+TEST(ParseGltf, ReadsIntegersThatANodeScales) {
+  expect_square(mesh_of(plain_parts()), 0);
+  GltfParts parts = plain_parts();
+  std::vector<std::int16_t> whole;
+  for (std::size_t v = 0; v < 4; ++v) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      whole.push_back(static_cast<std::int16_t>(c < 3 ? kPlaces[3 * v + c] * 32767 : 0));
+    }
+  }
+  parts.data = bytes_of_all(whole) + bytes_of_all(kCorners);
+  parts.views =
+      R"({"buffer":0,"byteLength":32,"byteStride":8},{"buffer":0,"byteOffset":32,"byteLength":12})";
+  const std::string accessor = R"({"bufferView":0,"componentType":5122,"type":"VEC3","count":4)";
+  parts.accessors = accessor + R"(,"normalized":true},)" + kIndices;
+  expect_square(mesh_of(parts), 1e-4);
+  parts.accessors = accessor + "}," + kIndices;
+  parts.node =
+      concat(R"({"mesh":0,"scale":[)", 1.0 / 32767, ',', 1.0 / 32767, ',', 1.0 / 32767, "]}");
+  expect_square(mesh_of(parts), 1e-4);
+}
+
+TEST(ParseGltf, FillsInSparseRows) {
+  GltfParts parts = plain_parts();
+  parts.data = bytes_of_all(kPlaces) + bytes_of_all(kCorners) +
+               bytes_of_all(std::vector<std::uint32_t>{1}) +
+               bytes_of_all(std::vector<float>{5, 6, 7});
+  parts.views +=
+      R"(,{"buffer":0,"byteOffset":60,"byteLength":4},{"buffer":0,"byteOffset":64,"byteLength":12})";
+  const std::string sparse =
+      R"(,"sparse":{"count":1,"indices":{"bufferView":2,"componentType":5125},"values":{"bufferView":3}}},)";
+  parts.accessors =
+      R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":4)" + sparse + kIndices;
+  FileMesh mesh = mesh_of(parts);
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(5, 6, 7));
+  EXPECT_EQ(mesh.positions.row(3), Eigen::RowVector3d(1, 1, 0.5));
+  parts.accessors = R"({"componentType":5126,"type":"VEC3","count":4)" + sparse + kIndices;
+  mesh = mesh_of(parts);
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(5, 6, 7));
+  EXPECT_EQ(mesh.positions.row(3), Eigen::RowVector3d(0, 0, 0));
+}
+
+TEST(ParseGltf, UnpacksMeshopt) {
+  GltfParts parts = plain_parts();
+  std::string places(meshopt_encodeVertexBufferBound(4, 12), '\0'), corners(200, '\0');
+  const auto bytes = [](std::string& text) {
+    return reinterpret_cast<unsigned char*>(text.data());
+  };
+  places.resize(meshopt_encodeVertexBuffer(bytes(places), places.size(), kPlaces.data(), 4, 12));
+  const std::vector<std::uint32_t> wide(kCorners.begin(), kCorners.end());
+  corners.resize(
+      meshopt_encodeIndexBuffer(bytes(corners), corners.size(), wide.data(), wide.size()));
+  ASSERT_FALSE(places.empty());
+  ASSERT_FALSE(corners.empty());
+  parts.data = places + corners;
+  const auto view = [](std::size_t begin, std::size_t size, const std::string& how) {
+    return concat(
+        R"({"buffer":1,"byteLength":99,"extensions":{"EXT_meshopt_compression":{"buffer":0,"byteOffset":)",
+        begin, R"(,"byteLength":)", size, ",", how, "}}}");
+  };
+  const auto views = [&](std::size_t size) {
+    return view(0, size, R"("byteStride":12,"count":4,"mode":"ATTRIBUTES")") + "," +
+           view(places.size(), corners.size(), R"("byteStride":2,"count":6,"mode":"TRIANGLES")");
+  };
+  parts.views = views(places.size());
+  expect_square(mesh_of(parts), 0);
+  parts.views = views(places.size() / 2);
+  expect_error(ExitCode::kBadData, {"scene.gltf", "EXT_meshopt_compression", "gltf-transform"},
+               [&] { mesh_of(parts); });
+}
+
+TEST(ParseGltf, UnpacksDraco) {
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(2);
+  const int positions =
+      builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  for (int f = 0; f < 2; ++f) {
+    const auto at = [&](int c) {
+      return &kPlaces[3U * kCorners[static_cast<std::size_t>(3 * f + c)]];
+    };
+    builder.SetAttributeValuesForFace(positions, draco::FaceIndex(static_cast<std::uint32_t>(f)),
+                                      at(0), at(1), at(2));
+  }
+  const auto packed = builder.Finalize();
+  draco::Encoder encoder;
+  draco::EncoderBuffer buffer;
+  ASSERT_TRUE(encoder.EncodeMeshToBuffer(*packed, &buffer).ok());
+  GltfParts parts = plain_parts();
+  parts.data = std::string(buffer.data(), buffer.size());
+  parts.views = concat(R"({"buffer":0,"byteLength":)", parts.data.size(), "}");
+  parts.accessors =
+      R"({"componentType":5126,"type":"VEC3","count":4},{"componentType":5123,"type":"SCALAR","count":6})";
+  const std::string begin =
+      R"({"attributes":{"POSITION":0},"indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":)";
+  parts.primitive = concat(begin, packed->attribute(positions)->unique_id(), "}}}}");
+  const FileMesh mesh = mesh_of(parts);
+  EXPECT_EQ(mesh.positions.rows(), 4);
+  EXPECT_EQ(mesh.topology.face_count(), 2);
+  EXPECT_NEAR(mesh.positions.col(2).maxCoeff(), 0.5, 1e-3);
+  parts.primitive = begin + "77}}}}";
+  expect_error(ExitCode::kBadData, {"Draco", "gltf-transform"}, [&] { mesh_of(parts); });
+}
+
+TEST(ParseGltf, TurnsTextureCoordinatesAsMaterialsAsk) {
+  GltfParts parts = plain_parts();
+  parts.primitive =
+      R"({"attributes":{"POSITION":0,"TEXCOORD_1":2,"COLOR_0":3},"indices":1,"material":0})";
+  parts.accessors +=
+      R"(,{"bufferView":2,"componentType":5126,"type":"VEC2","count":4})"
+      R"(,{"bufferView":3,"componentType":5121,"normalized":true,"type":"VEC4","count":4})";
+  parts.data += bytes_of_all(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}) + std::string(16, '\xff');
+  parts.views +=
+      R"(,{"buffer":0,"byteOffset":60,"byteLength":32},{"buffer":0,"byteOffset":92,"byteLength":16})";
+  parts.more =
+      R"("images":[{"uri":"skin.png"}],"materials":[{"name":"Skin","pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
+      R"("extensions":{"KHR_texture_transform":{"texCoord":1,"offset":[0.25,0.5],"scale":[0.5,0.25]}}}}}],)";
+  const FileMesh mesh = mesh_of(parts);
+  ASSERT_EQ(mesh.uvs.rows(), 4);
+  EXPECT_EQ(mesh.uvs.row(0), Eigen::RowVector2d(0.25, 0.5));
+  EXPECT_EQ(mesh.uvs.row(3), Eigen::RowVector2d(0.75, 0.25));
+  EXPECT_EQ(mesh.colours.row(2), Eigen::RowVector3d(1, 1, 1));
+  ASSERT_EQ(mesh.materials.size(), 1U);
+  EXPECT_EQ(mesh.materials[0].name, "Skin");
+  EXPECT_TRUE(mesh.has_textures);
+}
+
+TEST(ParseGltf, ReadsStripsAndFans) {
+  GltfParts parts = plain_parts();
+  parts.primitive = R"({"attributes":{"POSITION":0},"mode":5})";
+  EXPECT_EQ(mesh_of(parts).topology.corner_vertices,
+            (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}));
+  parts.primitive = R"({"attributes":{"POSITION":0},"mode":6})";
+  EXPECT_EQ(mesh_of(parts).topology.corner_vertices,
+            (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+}
+
+TEST(JoinSplitVertices, GivesOurOwnFilesTheirVerticesBack) {
+  // A cube whose faces have texture coordinates of their own: three vertices stand in each corner.
+  Topology topology = cube_topology();
+  TextureCoordinates uvs(topology.corner_count(), 2);
+  for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
+    topology.corner_uvs.push_back(c);
+    uvs.row(c) << c / 32.0, 1 - c / 64.0;
+  }
+  const Positions positions = cube_positions();
+  const TemporaryFolder folder;
+  GlbTemplate(topology, uvs, GlbOptions())
+      .encode(positions, positions, "cube")
+      .write(folder / "cube.glb");
+  FileMesh split = read_mesh(folder / "cube.glb");
+  EXPECT_GT(split.positions.rows(), 8);
+  for (const bool by_place : {false, true}) {
+    FileMesh joined = split;
+    if (by_place) joined.vertex_ids.clear();
+    join_split_vertices(joined);
+    EXPECT_EQ(joined.topology.vertex_count, 8);
+    EXPECT_LT((joined.positions - positions).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_EQ(joined.topology.face_count(), 12);
+    for (std::size_t c = 0; c < joined.topology.corner_uvs.size(); ++c) {
+      EXPECT_NE(joined.topology.corner_uvs[c], kNoIndex);
+    }
+  }
+  const ObjFile head = read_mesh_as_obj(folder / "cube.glb");
+  EXPECT_EQ(head.topology.vertex_count, 8);
+  EXPECT_TRUE(head.is_mended);
+  EXPECT_EQ(head.notes.size(), 1U);
+}
+
+TEST(ReadMesh, TellsFormatsByWhatTheyHoldAndWhatIsNone) {
+  const TemporaryFolder folder;
+  const std::string ply = "ply\nformat ascii 1.0\n" + kPlyHead +
+                          "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                          "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_mesh(folder.write("called.stl", ply)).topology.face_count(), 1);
+  const auto refuse = [&](const char* name, const std::string& bytes, const char* phrase) {
+    expect_error(ExitCode::kBadData, {name, phrase}, [&] { read_mesh(folder.write(name, bytes)); });
+  };
+  refuse("page.glb", "\n<!DOCTYPE html>\n<html>", "web page");
+  refuse("page.ply", "<html><head>", "web page");
+  refuse("pointer.stl", "version https://git-lfs.github.com/spec/v1\n", "Git LFS");
+  refuse("packed.ply", "PK\x03\x04zip", "ZIP");
+  refuse("empty.glb", "", "empty");
+  refuse("scene.usdc", "PXR-USDC", "usdcat");
+}
+
+}  // namespace
+}  // namespace crowdface::testing

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/pick/landmark_lists.h"
+
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "crowdface/pick/landmark_file.h"
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface::testing {
+namespace {
+
+void expect_chin_and_nose(const std::string& name, const std::string& text) {
+  SCOPED_TRACE(name);
+  const TemporaryFolder folder;
+  const LandmarkFile file = read_landmarks(folder.write(name, text));
+  EXPECT_TRUE(file.of_template.empty());
+  ASSERT_EQ(file.of_scan.size(), 2U);
+  EXPECT_EQ(file.of_scan.at("chin").point, Eigen::Vector3d(1, -2.5, 3));
+  EXPECT_EQ(file.of_scan.at("nose tip").point, Eigen::Vector3d(4, 5, 6));
+}
+
+TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
+  expect_chin_and_nose(
+      "picked.pp",
+      "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData/>\n"
+      " <point x=\"1\" y=\"-2.5\" z=\"3\" name=\"chin\" active=\"1\"/>\n"
+      " <point active=\"1\" name=\"nose tip\" z=\"6\" y=\"5\"\n x=\"4\"/>\n"
+      " <point x=\"0\" y=\"0\" z=\"0\" name=\"off\" active=\"0\"/>\n</PickedPoints>\n");
+  expect_chin_and_nose("picked.csv", "name,x,y,z\r\nchin,1,-2.5,3\r\n\"nose tip\",4,5,6\r\n");
+  expect_chin_and_nose("picked.tsv", "1\t-2.5\t3\tchin\n4\t5\t6\tnose tip\n");
+  expect_chin_and_nose("picked.json",
+                       R"({"chin": [1, -2.5, 3], "nose tip": {"x": 4, "y": 5, "z": 6}})");
+  expect_chin_and_nose("list.json", R"([{"name": "chin", "position": [1, -2.5, 3]},
+                                        {"label": "nose tip", "point": [4, 5, 6]}])");
+  expect_chin_and_nose("slicer.mrk.json", R"({"markups": [{"type": "Fiducial", "controlPoints": [
+      {"id": "1", "label": "chin", "position": [1, -2.5, 3]},
+      {"id": "2", "label": "nose tip", "position": [4, 5, 6]}]}]})");
+}
+
+TEST(LandmarkLists, VerticesAndNamelessPointsAreTaken) {
+  const TemporaryFolder folder;
+  const LandmarkFile vertices =
+      read_landmarks(folder.write("v.csv", "chin 966\nnose_tip 7\n"), LandmarksOf::kTemplate);
+  EXPECT_TRUE(vertices.of_scan.empty());
+  EXPECT_EQ(vertices.of_template.at("chin").vertex, 966U);
+  std::string header = "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }";
+  header.resize(118, ' ');
+  const std::vector<double> numbers = {1, 4, -2.5, 5, 3, 6};
+  std::string bytes("\x93NUMPY\x01\x00\x76\x00", 10);
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(numbers.data()), 48);
+  const LandmarkFile array = read_landmarks(folder.write("p.npy", bytes));
+  EXPECT_EQ(array.of_scan.at("1").point, Eigen::Vector3d(1, -2.5, 3));
+  EXPECT_EQ(array.of_scan.at("2").point, Eigen::Vector3d(4, 5, 6));
+}
+
+TEST(LandmarkLists, WhatIsWrongIsNamedWithItsPlace) {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const char* name, const std::string& text, const char* phrase) {
+    expect_error(ExitCode::kUsage, {name, phrase},
+                 [&] { read_landmarks(folder.write(name, text)); });
+  };
+  refuse("a.csv", "chin,1,2\n", ":1: expected a vertex or x, y, z");
+  refuse("b.csv", "chin,1,2,3\nchin,1,2,3\n", ":2: two landmarks are called \"chin\"");
+  refuse("c.pp", "<PickedPoints>\n<point x=\"1\" y=\"a\" z=\"3\" name=\"chin\"/>",
+         ":2: expected a number y");
+  refuse("d.json", R"({"chin": [1, 2]})", "chin: expected a vertex or x, y, z");
+  refuse("e.csv", "chin,1.5\n", "the number of a vertex");
+  refuse("f.json", "{}", "found none");
+}
+
+}  // namespace
+}  // namespace crowdface::testing
