@@ -8,7 +8,6 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/single_precision.h"
-#include "crowdface/io/single_text.h"
 
 namespace crowdface {
 namespace {
@@ -154,7 +153,7 @@ void ObjTemplate::add_block(const std::vector<Place>& places) {
       block.gap.empty() || block.first.is_normal
           ? block.end - block.begin
           : block.first.begin - block.begin + (block.gap.size() + 2) * places.size();
-  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kSingleRoom;
+  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kLongestSingle;
   blocks_.push_back(std::move(block));
 }
 

@@ -8,7 +8,6 @@
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/single_precision.h"
-#include "crowdface/io/single_text.h"
 
 namespace crowdface {
 namespace {
@@ -18,7 +17,7 @@ constexpr Index kLinesPerBlock = 8192;
 constexpr std::size_t kLongestLine = 3 + 3 * (kLongestSingle + 1);
 
 void append_single(std::string& out, double value) {
-  char buffer[kSingleRoom];
+  char buffer[kLongestSingle];
   out.append(buffer, write_single(buffer, value));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <string>
 
@@ -17,6 +18,15 @@ inline constexpr Index kRowsPerBlock = 1 << 15;                ///< that a threa
 inline float to_single(double value) {
   const auto single = static_cast<float>(value);
   return single == 0 ? 0.0F : single;
+}
+
+/// No text of a single-precision number is longer: "-1.17549435e-38".
+inline constexpr std::size_t kLongestSingle = 15;
+
+/// Writes the shortest text that reads back as the same single-precision number to `out`, where there is room
+/// for kLongestSingle characters. \return where it ends.
+inline char* write_single(char* out, double value) {
+  return std::to_chars(out, out + kLongestSingle, to_single(value)).ptr;
 }
 
 /// Positions as every mesh format holds them: what is made from these is the same from a file.

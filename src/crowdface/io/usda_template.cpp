@@ -12,7 +12,6 @@
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/single_precision.h"
-#include "crowdface/io/single_text.h"
 
 namespace crowdface {
 namespace {

@@ -4,7 +4,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/io/single_text.h"
+#include "crowdface/io/single_precision.h"
 
 namespace crowdface {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr Index kRowsOfText = 8192;
 
 void append_row(std::string& out, const Positions& rows, Index i) {
-  char buffer[kLongestUsdaRow + kSingleRoom];
+  char buffer[kLongestUsdaRow + kLongestSingle];
   char* at = buffer;
   if (i > 0) *at++ = ',';
   for (Index c = 0; c < 3; ++c) {
@@ -80,7 +80,7 @@ std::string usda_rows(const Positions& rows) {
 std::string usda_uvs(const TextureCoordinates& uvs) {
   std::string text = "[";
   for (Index i = 0; i < uvs.rows(); ++i) {
-    char buffer[2 * kSingleRoom];
+    char buffer[2 * kLongestSingle];
     char* at = buffer;
     if (i > 0) *at++ = ',';
     *at++ = '(';
