@@ -35,6 +35,20 @@ TEST(ConfigDifference, FurtherReviewsAreTheSameCrowdButNotOthersOrFewer) {
   EXPECT_EQ(config_difference(kOld, rest + "review: []\n"), std::nullopt);
 }
 
+// A new key had every finished crowd refused.
+TEST(ConfigDifference, AKeyThatTheOldConfigDidNotKnowHasItsDefaultThere) {
+  const std::string old = "crowd: {name: mob}\noutput: {directory: ., contact_sheet: {rows: 4}}\n";
+  const auto with = [](const std::string& key, const std::string& of_sheet) {
+    return "crowd: {name: mob}\noutput: {directory: ., " + key + "contact_sheet: {rows: 4" +
+           of_sheet + "}}\n";
+  };
+  EXPECT_EQ(config_difference(old, with("subdivision: none, ", ", texture: auto")), std::nullopt);
+  EXPECT_EQ(config_difference(old, with("subdivision: catmull_clark, ", "")), "output.subdivision");
+  EXPECT_EQ(config_difference(old, with("", ", texture: false")), "output.contact_sheet.texture");
+  EXPECT_EQ(config_difference(old, old + "textures: {blend: auto, size: 2048}\n"), "textures.size")
+      << "of a section that the old config lacks, too";
+}
+
 TEST(ConfigDifference, WhatCannotBeReadDiffers) {
   EXPECT_NE(config_difference("crowd: [", kOld), std::nullopt);
   EXPECT_NE(config_difference("", kOld), std::nullopt);

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config_difference.h"
 
+#include "crowdface/config/config.h"
 #include "crowdface/config/yaml.h"
 
 namespace crowdface {
 namespace {
 
 /// The first node of `b`, or else of `a`, that the other lacks or has otherwise.
-const YamlNode* first_difference(const YamlNode& a, const YamlNode& b) {
+/// \param defaults  the values that keys have which `a` lacks, as it was written before they existed; may be null.
+const YamlNode* first_difference(const YamlNode& a, const YamlNode& b, const YamlNode* defaults) {
   if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return &b;
   for (std::size_t i = 0; i < a.items.size(); ++i) {
-    if (first_difference(a.items[i], b.items[i]) != nullptr) return &b;
+    if (first_difference(a.items[i], b.items[i], nullptr) != nullptr) return &b;
   }
   for (const YamlEntry& entry : b.entries) {
+    const YamlEntry* own_default = defaults == nullptr ? nullptr : defaults->find(entry.key);
+    const YamlNode* value = own_default == nullptr ? nullptr : &own_default->value;
     const YamlEntry* old = a.find(entry.key);
-    if (old == nullptr) return &entry.value;
-    if (const YamlNode* found = first_difference(old->value, entry.value)) return found;
+    const YamlNode* before = old == nullptr ? value : &old->value;
+    if (before == nullptr) return &entry.value;
+    if (const YamlNode* found = first_difference(*before, entry.value, value)) return found;
   }
   for (const YamlEntry& entry : a.entries) {
     if (b.find(entry.key) == nullptr) return &entry.value;
@@ -38,7 +43,8 @@ std::optional<std::string> config_difference(const std::string& old_text, const 
   if (!old || !root || !complaints.empty()) return "all of it, as it is no config that can be read";
   forget_reviews(*old);
   forget_reviews(*root);
-  const YamlNode* found = first_difference(*old, *root);
+  const auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);
+  const YamlNode* found = first_difference(*old, *root, defaults ? &*defaults : nullptr);
   if (found == nullptr) return std::nullopt;
   return found->path.empty() ? "its keys" : found->path;
 }
