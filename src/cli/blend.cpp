@@ -56,8 +56,8 @@ void declare_blend(CLI::App& command, BlendOptions& options) {
   add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
              "Which: the plan's file, #, the face's id")
       .required();
-  add_option(command, "-o,--output", options.out, "OUT.obj|ply|glb|npy|usda",
-             "The mesh to write; its ending says the format")
+  add_option(command, "-o,--output", options.out, "FILE",
+             concat("The mesh to write; its ending says the format: ", list_of_extensions()))
       .required();
   add_flag(command, "--any-settings", options.any_settings,
            "Blend even if heads, masks or smoothing differ from the plan's");
@@ -66,10 +66,8 @@ void declare_blend(CLI::App& command, BlendOptions& options) {
 void blend(const BlendOptions& options) {
   const auto format = mesh_format_of(options.out);
   if (!format) {
-    throw UsageError(
-        concat("--output: expected a file name that ends in .obj, .ply, .glb, .npy or .usda, "
-               "found ",
-               quoted(options.out)));
+    throw UsageError(concat("--output: expected a file name that ends in ", list_of_extensions(),
+                            ", found ", quoted(options.out)));
   }
   const std::filesystem::path file = output_file(options.out);
   const Job job =

@@ -66,8 +66,8 @@ TEST(Blend, WritesTheFormatThatTheNameEndsIn) {
                 read_text(folder.out() / ("meshes/mob_0002." + ending)))
         << ending;
   }
-  blend(64, "face.stl", {"--output", ".obj, .ply, .glb, .npy or .usda", "face.stl"});
-  EXPECT_FALSE(fs::exists(folder / "face.stl"));
+  blend(64, "face.step", {"--output", ".obj, .ply, .glb, .npy or .usda", "face.step"});
+  EXPECT_FALSE(fs::exists(folder / "face.step"));
   blend(73, "nowhere/face.glb", {"nowhere/face.glb"});
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_table.h"
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

@@ -7,11 +7,15 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/run/crowd_sheets.h"
+#include "crowdface/run/face_encoders.h"
 #include "crowdface/run/generate.h"
+#include "crowdface/run/pipeline.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
@@ -266,6 +270,42 @@ TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
   EXPECT_EQ(faces_built(), 7) << "other materials";
   run({"output.meshes=[]"}, Replace::kForce);
   EXPECT_FALSE(fs::exists(mesh("herself+cap.obj")));
+}
+
+// They were carried by unrounded positions, so that pictures made from meshes were others; and their movement under
+// shapes was lost.
+TEST_F(AttachmentsOfACrowd, LookTheSameInPicturesMadeFromMeshes) {
+  for (const std::string_view file : kGalleryPageFiles) {
+    folder_.folder().write(concat("page/", file), "a page");
+  }
+  ::setenv("CROWDFACE_GALLERY", (folder_ / "page").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  run({"output.contact_sheet={columns: 2, cell: 96}",
+       "shapes={neutral: heads/ann.obj, directory: heads}"});
+  const auto whole = testing::crowd_files(folder_.out());
+  fs::remove_all(folder_.out() / "renders");
+  fs::remove_all(folder_.out() / "gallery/data/faces");
+  remake_sheets(folder_.out(), {}, folder_.cache());
+  ::unsetenv("CROWDFACE_GALLERY");  // NOLINT(concurrency-mt-unsafe)
+  EXPECT_TRUE(fs::exists(folder_.out() / "gallery/data/faces/herself.js"));
+  EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
+}
+
+// GLB files did not count them.
+TEST_F(AttachmentsOfACrowd, CountForTheMemoryThatFilesTake) {
+  const Job with = load_job(folder_.config(), {}),
+            without = load_job(folder_.config(), {{"attachments=none"}, {}, {}, {}});
+  CastFace face;
+  face.attachments = {"cap"};
+  for (const MeshFormat format : all_mesh_formats()) {
+    const auto bytes = [&](const Job& job) {
+      return FaceEncoders(job.config, job.inputs, {format}, {&face, 1}).encode_bytes();
+    };
+    const bool has_them = traits_of(format).attachments != Beside::kNowhere;
+    const auto cap =
+        static_cast<std::size_t>(with.inputs.attachments.at("cap").file.positions.rows());
+    EXPECT_GE(bytes(with), bytes(without) + (has_them ? cap * 3 * sizeof(float) : 0))
+        << name_of(format);
+  }
 }
 
 TEST_F(AttachmentsOfACrowd, ChangeNothingElseOfAPlan) {

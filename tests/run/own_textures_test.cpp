@@ -152,6 +152,38 @@ TEST_F(OwnTextures, AreNotMadeWhereTheTargetsAreAskedFor) {
               fs::exists(meshes() / "cyd.png") || fs::exists(meshes() / "dan.png"));
 }
 
+// EXR files were left behind, because only two of three endings were known.
+TEST_F(OwnTextures, OfAnOldCrowdAreRemovedInEachFormat) {
+  run(folder_, {"textures.formats=[png, jpeg, exr]"});
+  EXPECT_TRUE(fs::exists(meshes() / "blended/mob_0001.exr"));
+  run(folder_, {"textures.blend=target"}, Replace::kForce);
+  EXPECT_FALSE(fs::exists(meshes() / "blended"));
+}
+
+// Faces kept their textures while heads turned plain: the ledger did not know the key.
+TEST_F(OwnTextures, SheetsWithoutThemShowPlainFaces) {
+  const std::string sheet = "output.contact_sheet={columns: 2, cell: 48";
+  const auto render = [&](const char* out) {
+    return read_text(folder_ / concat(out, "/renders/mob_0001.png"));
+  };
+  run_to(folder_, "plain", {{sheet + ", texture: false}"}, {}, {}, {}});
+  run_to(folder_, "textured", {{sheet + "}"}, {}, {}, {}});
+  EXPECT_FALSE(render("textured") == render("plain"));
+  remake_sheets(folder_ / "textured", {"output.contact_sheet.texture=false"}, folder_.cache());
+  EXPECT_TRUE(render("textured") == render("plain"));
+}
+
+// What only arranges pages makes no picture anew.
+TEST_F(OwnTextures, SheetsOfOtherPagesKeepThePicturesOfFaces) {
+  run(folder_, {"output.contact_sheet={columns: 2, cell: 48}"});
+  const fs::path render = folder_.out() / "renders/mob_0001.png";
+  const auto written = fs::last_write_time(render);
+  remake_sheets(folder_.out(),
+                {"output.contact_sheet.columns=1", "output.contact_sheet.labels=[id, target]"},
+                folder_.cache());
+  EXPECT_EQ(fs::last_write_time(render), written);
+}
+
 // Sheets showed textures that no mesh has.
 TEST_F(OwnTextures, SheetsOfOtherTexturesAreRefused) {
   const std::string sheet = "output.contact_sheet={columns: 2, cell: 48}";

@@ -17,6 +17,7 @@ namespace crowdface {
 struct ConfigWriting {
   const Config& config;
   std::filesystem::path folder;  ///< absolute; paths are written relative to it
+  bool only_for_faces = false;   ///< see face_settings
 
   /// The name of a head, as YAML.
   std::string head(Eigen::Index index) const;

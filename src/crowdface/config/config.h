@@ -246,4 +246,9 @@ struct Config {
 /// \param directory  where the text will be written; paths in it are relative to this folder.
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
+/// The part of the effective config that a file of a face may depend on beside its recipe and what is read from
+/// files: every key but those that are marked as `apart_from_faces`. A key at its default is left out, so that
+/// faces made before the key existed count as done.
+std::string face_settings(const Config& config);
+
 }  // namespace crowdface

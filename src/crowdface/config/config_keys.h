@@ -46,6 +46,7 @@ struct Key {
   std::string takes = {};          ///< the values, for docs/config.md
   /// The rows of the keys in its own mapping, if there are any. \param section  the path of that mapping.
   std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
+  bool shapes_faces = true;  ///< whether a file of a face may depend on the value itself
 
   Key in_starter(const Starter& lines) const {
     Key key = *this;
@@ -67,6 +68,12 @@ struct Key {
     key.rows = [&keys, initial](const std::string& section) {
       return key_rows(section, keys, initial);
     };
+    return key;
+  }
+  /// No file of a face depends on this key, or only by what the key names or casts: other digests cover that.
+  Key apart_from_faces() const {
+    Key key = *this;
+    key.shapes_faces = false;
     return key;
   }
   /// Of other sections the key is left out.
@@ -111,8 +118,10 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
                                     const ConfigWriting& writing) {
   std::vector<std::string> entries;
   for (const Key<Section>& key : keys) {
+    if (writing.only_for_faces && !key.shapes_faces) continue;
     const std::string value = key.write(section, writing);
-    if (!value.empty()) entries.push_back(entry(key.name, value));
+    const bool left_out = writing.only_for_faces && value == key.write(Section{}, writing);
+    if (!value.empty() && !left_out) entries.push_back(entry(key.name, value));
   }
   return entries;
 }

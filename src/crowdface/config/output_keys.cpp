@@ -131,15 +131,17 @@ bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft)
 
 const Keys<Sheet>& contact_sheet_keys() {
   static const Keys<Sheet> keys = {
-      key("columns", &Sheet::columns, whole(1, 32)),
-      key("rows", &Sheet::rows, whole(1, 64)),
+      key("columns", &Sheet::columns, whole(1, 32)).apart_from_faces(),
+      key("rows", &Sheet::rows, whole(1, 64)).apart_from_faces(),
       key("cell", &Sheet::cell, whole(32, 2048)),
       key("views", &Sheet::views,
           words<View>("a list of views, [front, three_quarter, profile, back]")),
-      key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]")),
-      word_key("order", &Sheet::order),
-      Key<Sheet>{"compare", read_comparison, write_comparison}.taking(
-          concat(shown_words<With>(), ", or a file or crowd folder")),
+      key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]"))
+          .apart_from_faces(),
+      word_key("order", &Sheet::order).apart_from_faces(),
+      Key<Sheet>{"compare", read_comparison, write_comparison}
+          .taking(concat(shown_words<With>(), ", or a file or crowd folder"))
+          .apart_from_faces(),
       Key<Sheet>{"compare_scale",
                  [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
                    const auto scale = positive_length(kLongestScaleMm).read(node, draft);
@@ -148,9 +150,11 @@ const Keys<Sheet>& contact_sheet_keys() {
                  [](const Sheet& sheet, const ConfigWriting& writing) {
                    return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
                  }}
-          .taking(positive_length(kLongestScaleMm).takes),
-      key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]")),
-      key("shapes", &Sheet::shapes, such_that(whole(0, 64), can_be_shown)),
+          .taking(positive_length(kLongestScaleMm).takes)
+          .apart_from_faces(),
+      key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
+          .apart_from_faces(),
+      key("shapes", &Sheet::shapes, such_that(whole(0, 64), can_be_shown)).apart_from_faces(),
       word_key("texture", &Sheet::texture)};
   return keys;
 }
@@ -194,6 +198,14 @@ StarterLines starter_sheet(const StarterFacts&) {
   return {flow_map(entries)};
 }
 
+/// The words of all formats but the first.
+std::vector<std::string> other_formats() {
+  std::vector<std::string> words =
+      texts_of(all_mesh_formats(), [](MeshFormat format) { return name_of(format); });
+  words.erase(words.begin());
+  return words;
+}
+
 }  // namespace
 
 const Keys<Output>& output_keys() {
@@ -201,10 +213,11 @@ const Keys<Output>& output_keys() {
       key("directory", &Output::directory, path("a folder"))
           .in_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(concat("out/", facts.crowd_name))};
-          }),
+          })
+          .apart_from_faces(),
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
-          .in_starter({"[obj]", "and ply, glb, points; [] for pictures only"}),
+          .in_starter({"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),
       Key<Output>{"lods", read_lods, write_lods}.taking(
           "list of up to 8 percentages, each smaller"),
       word_key("subdivision", &Output::subdivision),

@@ -207,27 +207,29 @@ const Keys<Config>& root_keys() {
       Key<Config>{"schema", read_schema, [](const auto&...) { return "1"; }, "write \"schema: 1\""}
           .in_starter({"1"}),
       section_key("crowd", &Config::crowd, crowd_keys(),
-                  "such as \"crowd: {name: market, count: 24}\""),
-      faces_key(),
-      regions_key(),
+                  "such as \"crowd: {name: market, count: 24}\"")
+          .apart_from_faces(),
+      faces_key().apart_from_faces(),
+      regions_key().apart_from_faces(),
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
       Key<Config>{"parts", read_parts, write_parts}.holding(parts_keys()),
-      shapes_key(),
-      file_key("points", &Config::points, "none, or a YAML file of points"),
-      file_key("rig", &Config::rig, "none, or a GLB file with joints"),
-      attachments_key(),
+      shapes_key().apart_from_faces(),
+      file_key("points", &Config::points, "none, or a YAML file of points").apart_from_faces(),
+      file_key("rig", &Config::rig, "none, or a GLB file with joints").apart_from_faces(),
+      attachments_key().apart_from_faces(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
-      section_key("plane", &Config::plane, plane_keys(), {}, check_plane),
+      section_key("plane", &Config::plane, plane_keys(), {}, check_plane).apart_from_faces(),
       section_key("sampling", &Config::sampling, sampling_keys())
-          .holding(sampling_keys(), with_a_region()),
-      section_key("distance", &Config::distance, distance_keys()),
-      section_key("diversity", &Config::diversity, diversity_keys()),
-      believability_key(),
-      groups_key(),
-      recipes_key(),
-      families_key(),
-      {"review", read_review, write_review},
+          .holding(sampling_keys(), with_a_region())
+          .apart_from_faces(),
+      section_key("distance", &Config::distance, distance_keys()).apart_from_faces(),
+      section_key("diversity", &Config::diversity, diversity_keys()).apart_from_faces(),
+      believability_key().apart_from_faces(),
+      groups_key().apart_from_faces(),
+      recipes_key().apart_from_faces(),
+      families_key().apart_from_faces(),
+      Key<Config>{"review", read_review, write_review}.apart_from_faces(),
       // Merged before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
       section_key("output", &Config::output, output_keys(), {}, check_output)};
@@ -248,6 +250,11 @@ std::string effective_config(const Config& config, const std::filesystem::path& 
   const ConfigWriting writing = {config,
                                  std::filesystem::absolute(directory / "").lexically_normal()};
   return block_map(write_keys(root_keys(), config, writing)).substr(1) + '\n';
+}
+
+std::string face_settings(const Config& config) {
+  return block_map(
+      write_keys(root_keys(), config, {.config = config, .folder = {}, .only_for_faces = true}));
 }
 
 }  // namespace crowdface

@@ -26,7 +26,7 @@ inline constexpr int kShapesVersion =
     9;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
 inline constexpr int kRigVersion = 1;          ///< joints that follow, and what is bound to them
-inline constexpr int kAttachmentsVersion = 4;  ///< attachments of a face of the same positions
+inline constexpr int kAttachmentsVersion = 5;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 3;      ///< textures of faces' own
 inline constexpr int kSheetVersion = 16;  ///< contact sheets and the gallery, of the same pictures

@@ -57,60 +57,71 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
           directory.rejected(), directory.planned(),  directory.stage()};
 }
 
+/// The names that the folder's ledgers have for files of items whose names begin so.
+std::set<std::string> recorded_files(const CrowdDirectory& directory, std::string_view items) {
+  std::set<std::string> names;
+  for (const fs::path& ledger : directory.ledgers()) {
+    for (const LedgerEntry& entry : read_ledger(ledger, items).entries) {
+      for (const LedgerEntry::File& file : entry.files) names.insert(file.name);
+    }
+  }
+  return names;
+}
+
+/// The files of faces: those in the ledgers, and those of the plan's faces that a killed run did not record.
+std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
+  const std::set<std::string> recorded = recorded_files(directory, "faces/");
+  std::set<std::string> ids;
+  if (is_there(directory.plan())) {
+    for (std::string& id : ids_in_plan(directory)) ids.insert(std::move(id));
+  }
+  std::vector<fs::path> files;
+  const auto add = [&](const fs::path& folder, const auto& is_ours) {
+    for (fs::path& file : list_files(folder, [&](const fs::path& path) {
+           const std::string name = path.filename().string();
+           const std::size_t plus = name.find('+');
+           return recorded.contains(directory.relative(path)) ||
+                  (ids.contains(plus == name.npos ? path.stem().string() : name.substr(0, plus)) &&
+                   is_ours(path));
+         })) {
+      files.push_back(std::move(file));
+    }
+  };
+  for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
+    add(folder, [](const fs::path& path) {
+      return mesh_format_of(path) || path.extension() == ".mtl" ||
+             path.filename().string().ends_with(concat('+', kFollowingPoints));
+    });
+    for (fs::path& file : list_files(folder / kBlendedFolder, is_file)) {
+      files.push_back(std::move(file));  // nothing else lies there
+    }
+  }
+  for (const fs::path& folder : with_numbered_folders(directory.renders())) {
+    add(folder, has_ending(".png"));
+  }
+  for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
+    for (fs::path& file : list_files(folder, has_ending(".js"))) files.push_back(std::move(file));
+  }
+  return files;
+}
+
 /// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
 /// stay: they are the input's own, and written anew if they are needed.)
 void remove_crowd(const CrowdDirectory& directory) {
-  const auto remove_files = [](const fs::path& folder, const auto& is_ours) {
-    for (const fs::path& file : list_files(folder, is_ours)) remove_file(file);
-  };
-  if (is_there(directory.plan())) {
-    const std::vector<std::string> ids = ids_in_plan(directory);
-    const std::set<std::string> known(ids.begin(), ids.end());
-    const auto is_mesh = [&](const fs::path& path) {
-      const std::string name = path.filename().string();
-      const std::size_t plus = name.find('+');
-      if (plus == name.npos) {
-        return (mesh_format_of(path).has_value() || path.extension() == ".mtl") &&
-               known.contains(path.stem().string());
-      }
-      return known.contains(name.substr(0, plus)) &&
-             (mesh_format_of(path).has_value() || name.substr(plus + 1) == kFollowingPoints);
-    };
-    const auto is_render = [&](const fs::path& path) {
-      return path.extension() == ".png" && known.contains(path.stem().string());
-    };
-    for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
-      remove_files(folder, is_mesh);
-    }
-    for (const fs::path& folder : with_numbered_folders(directory.renders())) {
-      remove_files(folder, is_render);
-    }
+  std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
+  for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
+  for (const std::vector<fs::path>& more :
+       {files_of_faces(directory), crowd_sheets(directory), files_beside_sheets(directory),
+        directory.kept_reviews()}) {
+    files.insert(files.end(), more.begin(), more.end());
   }
-  for (const fs::path& sheet : crowd_sheets(directory)) remove_file(sheet);
-  remove_files(directory.head_render("").parent_path(), has_ending(".png"));
-  remove_files(directory.founder_render("").parent_path(), has_ending(".png"));
-  for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
-    remove_files(folder / kBlendedFolder, has_ending(".png"));
-    remove_files(folder / kBlendedFolder, has_ending(".jpg"));
+  std::vector<fs::path> folders = crowd_folders(directory);
+  std::ranges::reverse(folders);
+  for (const std::vector<fs::path>& some :
+       {files, folders, directory.shard_ledgers(), directory.shard_logs(), directory.all_progress(),
+        record_files(directory)}) {
+    for (const fs::path& path : some) remove_file(path);
   }
-  for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
-    remove_files(folder, has_ending(".js"));
-  }
-  for (const fs::path& folder :
-       {directory.gallery_head("").parent_path(), directory.gallery_attachment("").parent_path(),
-        directory.gallery_pages(), directory.gallery() / "data"}) {
-    remove_files(folder, has_ending(".js"));
-  }
-  for (const std::string_view file : kGalleryPageFiles) remove_file(directory.gallery() / file);
-  for (const char* array : kTopologyArrays) remove_file(directory.topology() / array);
-  remove_file(directory.meshes() / GlbOverlay::kFile);
-  for (const fs::path& review : directory.kept_reviews()) remove_file(review);
-  const std::vector<fs::path> folders = crowd_folders(directory);
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) remove_file(*folder);
-  for (const fs::path& path : directory.shard_ledgers()) remove_file(path);
-  for (const fs::path& path : directory.shard_logs()) remove_file(path);
-  for (const fs::path& path : directory.all_progress()) remove_file(path);
-  for (const fs::path& path : record_files(directory)) remove_file(path);
   remove_file(directory.log());
   remove_file(directory.config());
 }
@@ -213,12 +224,7 @@ std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
 }
 
 std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
-  std::set<std::string> recorded;
-  for (const fs::path& ledger : directory.ledgers()) {
-    for (const LedgerEntry& entry : read_ledger(ledger, kSheetsItem).entries) {
-      for (const LedgerEntry::File& file : entry.files) recorded.insert(file.name);
-    }
-  }
+  const std::set<std::string> recorded = recorded_files(directory, kSheetsItem);
   std::vector<fs::path> sheets;
   for (const fs::path& folder : with_numbered_folders(directory.sheets())) {
     for (fs::path& file : list_folder(folder)) sheets.push_back(std::move(file));
@@ -227,6 +233,25 @@ std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
     return !is_numbered_sheet(path) && !recorded.contains(directory.relative(path));
   });
   return sheets;
+}
+
+std::vector<fs::path> files_beside_sheets(const CrowdDirectory& directory) {
+  std::vector<fs::path> files;
+  const auto add = [&](const fs::path& folder, const auto& is_ours) {
+    for (fs::path& file : list_files(folder, is_ours)) {
+      if (is_file(file)) files.push_back(std::move(file));
+    }
+  };
+  for (const fs::path& picture : {directory.head_render(""), directory.founder_render("")}) {
+    add(picture.parent_path(), has_ending(".png"));
+  }
+  add(directory.gallery(), is_gallery_page_file);
+  for (const fs::path& folder :
+       {directory.gallery() / "data", directory.gallery_pages(),
+        directory.gallery_head("").parent_path(), directory.gallery_attachment("").parent_path()}) {
+    add(folder, has_ending(".js"));
+  }
+  return files;
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
@@ -243,14 +268,14 @@ fs::path CrowdDirectory::folder_of(std::string_view id) const {
   return zero_padded(parse_unsigned(digits).value_or(0) / faces_per_folder, 3);
 }
 
-std::vector<std::string> one_of_each_folder(const CrowdDirectory& directory,
-                                            std::span<const CastFace> faces) {
+std::vector<const CastFace*> one_of_each_folder(const CrowdDirectory& directory,
+                                                std::span<const CastFace* const> faces) {
   std::set<fs::path> known;
-  std::vector<std::string> ids;
-  for (const CastFace& face : faces) {
-    if (known.insert(directory.folder_of(face.id)).second) ids.push_back(face.id);
+  std::vector<const CastFace*> some;
+  for (const CastFace* face : faces) {
+    if (known.insert(directory.folder_of(face->id)).second) some.push_back(face);
   }
-  return ids;
+  return some;
 }
 
 std::vector<fs::path> with_numbered_folders(const fs::path& folder) {

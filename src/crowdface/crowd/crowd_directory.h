@@ -115,9 +115,9 @@ struct CrowdDirectory {
   std::filesystem::path folder_of(std::string_view id) const;
 };
 
-/// The id of a face in each of the subfolders that these faces lie in, or of one if there are none.
-std::vector<std::string> one_of_each_folder(const CrowdDirectory& directory,
-                                            std::span<const CastFace> faces);
+/// A face in each of the subfolders that these faces lie in, or one if there are none.
+std::vector<const CastFace*> one_of_each_folder(const CrowdDirectory& directory,
+                                                std::span<const CastFace* const> faces);
 
 /// A folder and its numbered subfolders, which are there.
 std::vector<std::filesystem::path> with_numbered_folders(const std::filesystem::path& folder);
@@ -149,6 +149,10 @@ inline constexpr std::string_view kSheetsItem = "sheets";
 /// The contact sheets in the folder: those of families, whose names may be anything, by the ledger
 /// alone, the others by their names.
 std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory);
+
+/// What is made with the sheets: pictures of heads and founders, and the gallery but for faces' meshes.
+/// \throws IoError if a folder cannot be read.
+std::vector<std::filesystem::path> files_beside_sheets(const CrowdDirectory& directory);
 
 /// \throws MissingInput if the folder is no crowd's.
 void require_crowd(const CrowdDirectory& directory);

@@ -141,7 +141,8 @@ LedgerLines parse_ledger(std::string_view text) {
 
 LedgerLines read_ledger(const fs::path& path, std::string_view item) {
   if (!is_there(path)) return {};
-  const std::string start = item.empty() ? "" : concat(R"({"item":)", Json(item).dump());
+  std::string start = item.empty() ? "" : concat(R"({"item":)", Json(item).dump());
+  if (!start.empty()) start.pop_back();  // the quote behind the name
   LedgerReader reader;
   read_lines(path, [&](std::string_view line, bool ended) {
     if (line.starts_with(start)) reader.read(line, ended);
@@ -235,19 +236,21 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
   return files;
 }
 
-void Ledger::write(const std::string& name, const TextPieces& text) {
+FileDigest Ledger::write(const std::string& name, const TextPieces& text) {
   if (!is_there(root_ / name)) {
     const FileDigest content = write_file(root_ / name, text);
-    return record({name, content.digest, {{name, content}}, {}});
+    keep({name, content});
+    return content;
   }
   const LedgerEntry::File file{name, digest_of(text)};
-  if (proven(name, file.content.digest)) return;
+  if (proven(name, file.content.digest)) return file.content;
   if (!holds(root_ / name, file.content)) write_file(root_ / name, text);
   keep(file);
+  return file.content;
 }
 
-void Ledger::write(const std::string& name, std::string_view bytes) {
-  write(name, [&](const TakePiece& take) { take(bytes); });
+FileDigest Ledger::write(const std::string& name, std::string_view bytes) {
+  return write(name, [&](const TakePiece& take) { take(bytes); });
 }
 
 void Ledger::keep(const LedgerEntry::File& file) {

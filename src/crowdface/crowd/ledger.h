@@ -51,7 +51,7 @@ struct LedgerLines {
   bool complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
-/// \param item  whose lines are read; empty: all.
+/// \param item  what the items begin with whose lines are read; empty: all.
 /// \return no lines if there is no such file. \throws IoError.
 LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item = {});
 
@@ -81,8 +81,8 @@ class Ledger {
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 
   /// Writes a file determined by nothing but its bytes, unless it is there, and records it.
-  void write(const std::string& name, const TextPieces& text);
-  void write(const std::string& name, std::string_view bytes);
+  FileDigest write(const std::string& name, const TextPieces& text);
+  FileDigest write(const std::string& name, std::string_view bytes);
   /// Records a file determined by nothing but its bytes that is there as it should be.
   void keep(const LedgerEntry::File& file);
 

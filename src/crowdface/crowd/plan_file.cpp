@@ -8,7 +8,6 @@
 
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/core/error.h"
-#include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/face_json.h"
 #include "crowdface/io/shallow_json.h"
@@ -252,106 +251,6 @@ class LineReader {
   const std::string& place_;
 };
 
-/// A field of a table: between quotes if it needs them.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
-constexpr const char* kBandColumns[] = {"position_x", "position_y", "weights",
-                                        "smoothness", "iterations", "extrapolation"};
-
-std::string csv_weights(const std::vector<SourceWeight>& weights, const PlanNames& names) {
-  std::vector<std::string> parts;
-  for (const SourceWeight& source : weights) {
-    parts.push_back(concat(name_at(names.heads, source.head), ':', source.weight));
-  }
-  return join(parts, ";");
-}
-
-void add_band(const BandRecipe& band, const PlanNames& names, std::vector<std::string>& row) {
-  row.push_back(band.position ? format_number(band.position->x()) : "");
-  row.push_back(band.position ? format_number(band.position->y()) : "");
-  row.push_back(csv_field(csv_weights(band.weights, names)));
-  row.push_back(format_number(band.smoothness));
-  row.push_back(concat(band.iterations));
-  row.push_back(format_number(band.extrapolation));
-}
-
-/// Columns that only some crowds have.
-struct SomeColumns {
-  bool mirrored = false, colours = false;
-};
-
-SomeColumns columns_of(const std::vector<CastFace>& crowd) {
-  SomeColumns some;
-  for (const CastFace& face : crowd) {
-    some.mirrored = some.mirrored || !is_unmirrored(face.recipe);
-    some.colours = some.colours || !face.recipe.colours.empty();
-  }
-  return some;
-}
-
-std::string table_header(const PlanNames& names, const SomeColumns& some) {
-  std::vector<std::string> header = {"id", "index", "family", "target"};
-  for (const std::string& region : names.regions) {
-    for (const char* column : kBandColumns) {
-      header.push_back(csv_field(concat(region, '_', column)));
-    }
-  }
-  for (const char* column : {"nearest_face", "nearest_face_mm", "nearest_crowd", "nearest_crowd_mm",
-                             "group", "mixture"}) {
-    header.emplace_back(column);
-  }
-  for (const std::string& region : names.regions) {
-    for (std::size_t b = 1; b < names.bands.size(); ++b) {
-      for (const char* column : kBandColumns) {
-        header.push_back(csv_field(concat(region, '_', names.bands[b], '_', column)));
-      }
-    }
-  }
-  if (some.mirrored) header.insert(header.end(), {"asymmetry", "mirrored"});
-  if (!names.attachments.empty()) header.emplace_back("attachments");
-  if (some.colours) header.emplace_back("colours");
-  return join(header, ",") + "\r\n";
-}
-
-std::string table_row(const CastFace& face, const PlanNames& names, const SomeColumns& some) {
-  std::vector<std::string> row = {csv_field(face.id), face.index ? concat(*face.index) : "",
-                                  csv_field(face.family.value_or("")),
-                                  csv_field(name_at(names.heads, face.recipe.target))};
-  for (const RegionRecipe& region : face.recipe.regions) add_band(region, names, row);
-  const bool near = face.notes.nearest.has_value();
-  const bool near_crowd = near && face.notes.nearest->crowd;
-  row.push_back(near ? csv_field(name_at(names.heads, face.notes.nearest->head)) : "");
-  row.push_back(near ? format_number(rounded(face.notes.nearest->head_mm)) : "");
-  row.push_back(near_crowd ? csv_field(*face.notes.nearest->crowd) : "");
-  row.push_back(near_crowd ? format_number(rounded(face.notes.nearest->crowd_mm)) : "");
-  row.push_back(csv_field(face.group.value_or("")));
-  row.push_back(csv_weights(face.recipe.mixture, names));
-  for (const RegionRecipe& region : face.recipe.regions) {
-    for (std::size_t b = 1; b < names.bands.size(); ++b) {
-      if (b < band_count(region)) {
-        add_band(band_of(region, b), names, row);
-      } else {
-        row.resize(row.size() + std::size(kBandColumns));
-      }
-    }
-  }
-  if (some.mirrored) {
-    row.push_back(format_number(face.recipe.asymmetry));
-    row.emplace_back(face.recipe.mirrored ? "true" : "false");
-  }
-  if (!names.attachments.empty()) row.push_back(csv_field(join(face.attachments, ";")));
-  if (some.colours) row.push_back(csv_weights(face.recipe.colours, names));
-  return join(row, ",") + "\r\n";
-}
-
 }  // namespace
 
 std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings) {
@@ -378,14 +277,6 @@ TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
   return text_of_items(crowd.size(), [&crowd, &names, settings](std::size_t i) {
     return format_recipe(crowd[i], names, settings) + '\n';
   });
-}
-
-TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names) {
-  return [&crowd, &names, some = columns_of(crowd)](const TakePiece& take) {
-    take(table_header(names, some));
-    text_of_items(crowd.size(),
-                  [&](std::size_t i) { return table_row(crowd[i], names, some); })(take);
-  };
 }
 
 }  // namespace crowdface

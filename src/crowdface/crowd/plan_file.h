@@ -34,8 +34,4 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
 TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
                      const Digest& settings);
 
-/// The crowd as a flat table (RFC 4180) for spreadsheets: one line a face, a group of columns a
-/// region. Both must outlive the text.
-TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names);
-
 }  // namespace crowdface

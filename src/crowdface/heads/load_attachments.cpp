@@ -119,7 +119,7 @@ void load_attachments(const Config& config, const std::filesystem::path& cache, 
   }
   const auto& meshes = config.output.meshes;
   const bool have_files =
-      std::ranges::any_of(meshes, [](MeshFormat format) { return format != MeshFormat::kPoints; });
+      any_format(meshes, [](const auto& format) { return format.attachments != Beside::kNowhere; });
   if (!meshes.empty() && !have_files) {
     inputs.warn(
         "attachments are not written as NumPy arrays, and output.meshes has points alone: no file "

@@ -160,4 +160,10 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
   }
 }
 
+std::size_t GlbPart::encode_bytes() const {
+  return 2 * split_.size() * kVectorSize +
+         static_cast<std::size_t>(topology_.vertex_count) * 3 * sizeof(double) +
+         targets_.size() * split_.size() * (sizeof(std::uint32_t) + kVectorSize);
+}
+
 }  // namespace crowdface

@@ -63,6 +63,8 @@ class GlbPart {
               std::span<const Displacements> moves) const;
 
   std::size_t memory_bytes() const { return shared_.size(); }
+  /// What one encode takes: vectors, normals as they are found, and of each target as much as if all vertices moved.
+  std::size_t encode_bytes() const;
 
  private:
   struct Primitive {

@@ -40,8 +40,7 @@ bool is_texture_statement(std::string_view word);
 /// The material files that a mesh names and the textures that those name, with <UDIM> in their names
 /// all tiles that are there. A file that is missing or cannot be read is a warning, not an error; so
 /// is a path that leads out of the mesh's folder, which is not followed, a name that a mesh may have
-/// (one that ends in .obj, .ply, .glb or .npy, or lies in `topology`
-/// or `blended`), and more names than
+/// (see mesh_format_of) or that lies in `topology` or `blended`, and more names than
 /// input_limits().textures.
 /// \param mesh       path of the OBJ file.
 /// \param libraries  the arguments of its `mtllib` lines; each may name several files.

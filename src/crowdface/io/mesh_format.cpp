@@ -1,40 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/mesh_format.h"
 
-#include <string>
+#include <array>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/npy.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/io/ply_template.h"
+#include "crowdface/io/usda_template.h"
 
 namespace crowdface {
 
 namespace {
 
-struct Known {
-  std::string_view name, extension;
-};
-constexpr Known kKnown[] = {
-    {"obj", ".obj"}, {"ply", ".ply"}, {"glb", ".glb"}, {"points", ".npy"}, {"usd", ".usda"}};
+namespace fs = std::filesystem;
+
+// Of each: word, ending, key in the report; faces, material file; normals; shapes, attachments, textures; reading.
+constexpr std::array<MeshFormatTraits, kMeshFormats> kTraits = {
+    {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kOnLevels,
+      Beside::kOwnFiles, Beside::kOwnFiles, Beside::kOwnFiles,
+      [](const fs::path& file, Index) { return read_obj(file).positions; }},
+     {MeshFormat::kPly, "ply", ".ply", "ply", true, false, FileNormals::kLikeTarget,
+      Beside::kNowhere, Beside::kOwnFiles, Beside::kNowhere,
+      [](const fs::path& file, Index) { return read_ply_positions(file); }},
+     {MeshFormat::kGlb, "glb", ".glb", "glb", true, false, FileNormals::kAlways, Beside::kInside,
+      Beside::kInside, Beside::kInside, read_glb_positions},
+     {MeshFormat::kPoints, "points", ".npy", "points", false, false, FileNormals::kNone,
+      Beside::kOneFile, Beside::kNowhere, Beside::kNowhere,
+      [](const fs::path& file, Index) { return read_npy(file); }},
+     {MeshFormat::kUsd, "usd", ".usda", "usd", true, false, FileNormals::kAlways, Beside::kInside,
+      Beside::kInside, Beside::kOwnFiles, read_usda_positions}}};
+
+constexpr bool rows_are_in_order() {
+  for (std::size_t f = 0; f < kTraits.size(); ++f) {
+    if (kTraits[f].format != static_cast<MeshFormat>(f) || kTraits[f].name.empty()) return false;
+  }
+  return true;
+}
+static_assert(rows_are_in_order(), "every MeshFormat has its row, in the order of the enumeration");
 
 }  // namespace
 
+const MeshFormatTraits& traits_of(MeshFormat format) {
+  return kTraits[static_cast<std::size_t>(format)];
+}
+
 const std::vector<MeshFormat>& all_mesh_formats() {
-  static const std::vector<MeshFormat> all = {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kGlb,
-                                              MeshFormat::kPoints, MeshFormat::kUsd};
+  static const std::vector<MeshFormat> all = [] {
+    std::vector<MeshFormat> formats;
+    for (const MeshFormatTraits& traits : kTraits) formats.push_back(traits.format);
+    return formats;
+  }();
   return all;
 }
 
-std::string_view name_of(MeshFormat format) {
-  return kKnown[static_cast<std::size_t>(format)].name;
+std::string list_of_extensions() {
+  std::string list;
+  for (const MeshFormatTraits& traits : kTraits) {
+    const bool is_last = traits.format == kTraits.back().format;
+    list += concat(list.empty() ? "" : is_last ? " or " : ", ", traits.extension);
+  }
+  return list;
 }
 
-std::string_view extension_of(MeshFormat format) {
-  return kKnown[static_cast<std::size_t>(format)].extension;
-}
-
-std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
+std::optional<MeshFormat> mesh_format_of(const fs::path& file) {
   const std::string extension = lower_case(file.extension().string());
-  for (const MeshFormat format : all_mesh_formats()) {
-    if (extension == extension_of(format)) return format;
+  for (const MeshFormatTraits& traits : kTraits) {
+    if (extension == traits.extension) return traits.format;
   }
   return std::nullopt;
 }

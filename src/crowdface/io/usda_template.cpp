@@ -167,7 +167,9 @@ Positions read_usda_positions(const std::filesystem::path& path, Index vertices)
                              " vertices, found another"));
   };
   const std::size_t begin = bytes.find(kUsdaPoints);
-  if (bytes.find(kCreator) == bytes.npos || begin == bytes.npos) refuse();
+  if (!bytes.starts_with("#usda ") || bytes.find(kCreator) == bytes.npos || begin == bytes.npos) {
+    refuse();
+  }
   const char* at = bytes.data() + begin + kUsdaPoints.size();
   const char* const end = bytes.data() + bytes.size();
   Positions positions(vertices, 3);

@@ -8,7 +8,6 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/io/image.h"
-#include "crowdface/io/single_precision.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/render/contact_sheet.h"
 
@@ -71,24 +70,15 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       most_texels_(shown_texels(sheet)),
       worn_surfaces_(most_texels_, textured_) {}
 
-void CrowdRenders::make_folders(const CrowdDirectory& directory,
-                                const std::vector<CastFace>& faces) const {
-  for (const std::string& id : one_of_each_folder(directory, faces)) {
-    make_directories(directory.render(id).parent_path());
-    if (gallery_ != nullptr) make_directories(directory.gallery_face(id).parent_path());
-  }
-}
-
 FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
                                 std::span<const Displacements> moves, const OwnCoat* own,
                                 const std::vector<WornAttachment>& worn) const {
-  const Positions single = as_written(positions);
   std::optional<TextureCoat> of_target;
   if (own == nullptr) of_target = coat_of(target);
   const TextureCoat* painted = own != nullptr ? &own->coat() : of_target ? &*of_target : nullptr;
-  FacePictures pictures{render_png(single, nullptr, painted, worn), std::nullopt};
+  FacePictures pictures{render_png(positions, nullptr, painted, worn), std::nullopt};
   if (gallery_ != nullptr) {
-    pictures.preview = gallery_->face_script(id, single, moves, painted, worn);
+    pictures.preview = gallery_->face_script(id, positions, moves, painted, worn);
   }
   return pictures;
 }

@@ -52,9 +52,8 @@ class CrowdRenders {
 
   const WornSurfaces& worn_surfaces() const { return worn_surfaces_; }
 
-  /// The folders that these files go into.
-  void make_folders(const CrowdDirectory& directory, const std::vector<CastFace>& faces) const;
   /// A face's picture, and what the gallery shows of it.
+  /// \param positions  in single precision, as mesh files hold them.
   /// \param moves     its displacements in each shape, if they are shown.
   /// \param own       of own_coat, or null: it bears its target's textures, if there are any.
   /// \param worn      its attachments.

@@ -9,9 +9,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
-#include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
-#include "crowdface/crowd/face_mesh.h"
 #include "crowdface/pictures/gallery_page.h"
 
 namespace crowdface {
@@ -74,28 +72,6 @@ void CrowdPictures::write_founder(const std::string& family, const Positions& po
   write_file(path, renders_.render_png(positions, textures_, recipe));
 }
 
-void CrowdPictures::write_faces(const std::vector<CastFace>& crowd,
-                                const FaceAttachments& attachments) const {
-  renders_.make_folders(directory_, crowd);
-  Progress progress("pictures", crowd.size());
-  parallel_for_each(crowd.size(), [&](std::size_t i) {
-    throw_if_interrupted();
-    const CastFace& face = crowd[i];
-    const std::optional<OwnCoat> own = renders_.own_coat(textures_, face.recipe);
-    const Positions positions =
-        read_face(directory_, face.id, config_.output.meshes, inputs_.faces.topology.vertex_count);
-    std::vector<Displacements> moves;
-    if (renders_.show_shapes()) moves = shapes_.of_face(face.recipe, positions);
-    const FacePictures pictures =
-        renders_.draw(face.id, face.recipe.target, positions, moves, own ? &*own : nullptr,
-                      attachments.worn_by(face, positions));
-    std::vector<FileToWrite> files = {{directory_.render(face.id), {pictures.picture}}};
-    if (pictures.preview) files.push_back({directory_.gallery_face(face.id), {*pictures.preview}});
-    write_files(files);
-    progress.step();
-  });
-}
-
 void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
                                   const CrowdLikeness& likeness) const {
   make_directories(directory_.gallery_head("").parent_path());
@@ -146,20 +122,9 @@ WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
 
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets) {
-  std::vector<std::filesystem::path> files = sheets.files;
+  std::vector<std::filesystem::path> files = files_beside_sheets(directory);
+  files.insert(files.end(), sheets.files.begin(), sheets.files.end());
   files.push_back(directory.likeness());
-  const auto add = [&](const std::filesystem::path& folder, const auto& is_ours) {
-    for (std::filesystem::path& file : list_files(folder, is_ours)) {
-      if (std::filesystem::is_regular_file(file)) files.push_back(std::move(file));
-    }
-  };
-  add(directory.head_render("").parent_path(), has_ending(".png"));
-  add(directory.founder_render("").parent_path(), has_ending(".png"));
-  add(directory.gallery(), is_gallery_page_file);
-  add(directory.gallery() / "data", has_ending(".js"));
-  add(directory.gallery_pages(), has_ending(".js"));
-  add(directory.gallery_head("").parent_path(), has_ending(".js"));
-  add(directory.gallery_attachment("").parent_path(), has_ending(".js"));
   std::sort(files.begin(), files.end());
   return files;
 }

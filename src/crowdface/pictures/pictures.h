@@ -31,8 +31,6 @@ class CrowdPictures {
   /// The picture of a family's founder, whom no mesh file of the crowd holds.
   void write_founder(const std::string& family, const Positions& positions,
                      const Recipe& recipe) const;
-  /// Each face again from its mesh.
-  void write_faces(const std::vector<CastFace>& crowd, const FaceAttachments& attachments) const;
 
   /// Sheets and gallery, from the pictures in the folder.
   WrittenSheets finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;

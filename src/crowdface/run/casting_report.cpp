@@ -153,7 +153,7 @@ std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::str
                  "; diversity.min_distance_to_faces keeps faces away from them")};
 }
 
-void log_casting(const Cast& cast, const std::vector<std::string>& heads) {
+void log_casting(const Cast& cast) {
   const CrowdDistances& distances = cast.distances;
   const auto mm = [](double value) { return format_fixed(value, 2); };
   if (distances.crowd.count > 0) {
@@ -168,7 +168,6 @@ void log_casting(const Cast& cast, const std::vector<std::string>& heads) {
     if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
   }
   if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
-  for (const std::string& text : near_heads(cast, heads)) log_warning(text);
 }
 
 Json casting_to_json(const Config& config, const Cast& cast) {

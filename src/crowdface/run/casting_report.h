@@ -15,8 +15,8 @@ namespace crowdface {
 /// A warning of faces that pass for one of the heads, if there are any that were drawn.
 std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads);
 
-/// Logs what the crowd is like: distances, candidates thrown away, faces too near to heads.
-void log_casting(const Cast& cast, const std::vector<std::string>& heads);
+/// Logs what the crowd is like: distances and candidates thrown away.
+void log_casting(const Cast& cast);
 
 /// What was asked, what was reached, what was thrown away.
 nlohmann::ordered_json casting_to_json(const Config& config, const Cast& cast);

@@ -6,14 +6,12 @@
 #include <set>
 #include <utility>
 
-#include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/io/material_files.h"
-#include "crowdface/run/attachment_writers.h"
 
 namespace crowdface {
 namespace {
@@ -93,9 +91,10 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
                                         const std::vector<CastFace>& crowd, Ledger& ledger) {
   std::set<Index> targets;
   const std::vector<MeshFormat>& formats = config.output.meshes;
-  const bool has_obj = contains(formats, MeshFormat::kObj);
+  const bool named =
+      any_format(formats, [](const auto& format) { return format.has_material_file; });
   for (const CastFace& face : crowd) {
-    if (has_obj) targets.insert(face.recipe.target);
+    if (named) targets.insert(face.recipe.target);
   }
   std::set<TextureKind> own;
   for (const PictureName& picture : own_pictures(inputs)) own.insert(picture.kind);
@@ -105,9 +104,9 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
   std::set<std::string> worn;
-  const bool named = attachments_have_files(formats) || contains(formats, MeshFormat::kUsd);
+  const bool worn_named = any_format(formats, names_attachment_textures);
   for (const CastFace& face : crowd) {
-    if (named) worn.insert(face.attachments.begin(), face.attachments.end());
+    if (worn_named) worn.insert(face.attachments.begin(), face.attachments.end());
   }
   for (const std::string& name : worn) copies.add(inputs.attachments.at(name));
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);

@@ -4,15 +4,19 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/progress.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
+#include "crowdface/crowd/face_mesh.h"
 #include "crowdface/crowd/likeness_file.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/gallery_page.h"
 #include "crowdface/run/face_builder.h"
+#include "crowdface/run/face_finisher.h"
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/output_check.h"
 #include "crowdface/run/planned.h"
@@ -50,7 +54,7 @@ void add_text(const TextPieces& text, Hasher& hasher) {
 
 /// The hash of all that sheets and gallery show.
 Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                     const CrowdLikeness& likeness, const std::vector<FaceFiles>& files) {
+                     const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
   for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
@@ -65,9 +69,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     ids.push_back(cast.crowd[i].id);
-    hasher.add(files[i].picture->digest);
-    for (const MeshFile& mesh : files[i].meshes) hasher.add(mesh.content.digest);
-    for (const FileDigest& own : files[i].own) hasher.add(own.digest);
+    for (const FileDigest& file : faces[i].files) hasher.add(file.digest);
   }
   add_text(likeness_text(likeness, job.names, ids), hasher);
   return hasher.digest();
@@ -81,15 +83,37 @@ std::vector<CastFace> faces_to_draw(const FaceLedger& ledger, const std::vector<
   return faces;
 }
 
+/// Pictures of faces and their meshes in the gallery, from the meshes.
+void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<CastFace>& faces,
+                const FaceTextures& textures, const FaceShapes& shapes,
+                const CrowdRenders& renders) {
+  const FaceAttachments attachments(job.config, job.inputs, faces);
+  const FaceFinisher finisher{textures, attachments, shapes, nullptr, &renders};
+  std::vector<const CastFace*> all;
+  for (const CastFace& face : faces) all.push_back(&face);
+  lists.make_folders(all);
+  StageBusy busy;
+  Progress progress("pictures", faces.size());
+  parallel_for_each(faces.size(), [&](std::size_t i) {
+    throw_if_interrupted();
+    const Positions positions = read_face(lists.directory(), faces[i].id, job.config.output.meshes,
+                                          job.inputs.faces.topology.vertex_count);
+    FinishedFace face(faces[i], positions);
+    finisher.finish(face, busy);
+    write_files_of(face, lists.shown(faces[i]));
+    progress.step();
+  });
+}
+
 }  // namespace
 
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                        const std::vector<FaceFiles>& files, Lazy<FaceBuilder>& builder,
+                        const std::vector<FaceResult>& faces, Lazy<FaceBuilder>& builder,
                         Lazy<CrowdPictures>& pictures, Ledger& ledger) {
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
   const std::vector<CastFace>& crowd = cast.crowd;
   const CrowdLikeness likeness = crowd_likeness(cast.anchors, cast.points);
-  const Digest key = key_of_sheets(job, directory, cast, likeness, files);
+  const Digest key = key_of_sheets(job, directory, cast, likeness, faces);
   // What faces are compared with may have changed since.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
@@ -133,9 +157,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   CrowdPictures pictures(job.config, job.inputs, job.settings, directory, textures, shapes);
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
-  const std::vector<CastFace> to_draw =
-      faces_to_draw(FaceLedger(ledger, job, directory, {}), crowd);
-  pictures.write_faces(to_draw, FaceAttachments(job.config, job.inputs, to_draw));
+  const FaceFileLists lists(job.config, job.inputs, directory);
+  draw_faces(job, lists, faces_to_draw(FaceLedger(ledger, job, lists, {}), crowd), textures, shapes,
+             pictures.renders());
   const std::vector<CastFace> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);

@@ -18,11 +18,11 @@ namespace crowdface {
 
 /// Contact sheets, gallery and what they need, unless they are there: they follow from the faces'
 /// pictures and meshes, the config and the page.
-/// \param files    of each face of the crowd.
+/// \param faces    what is known of each face of the crowd.
 /// \param builder  builds founders of families, who have no meshes.
 /// \return how many pages the faces take.
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                        const std::vector<FaceFiles>& files, Lazy<FaceBuilder>& builder,
+                        const std::vector<FaceResult>& faces, Lazy<FaceBuilder>& builder,
                         Lazy<CrowdPictures>& pictures, Ledger& ledger);
 
 /// The contact sheets of a finished crowd again, from its meshes; only founders of families, who

@@ -7,7 +7,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/usda_text.h"
-#include "crowdface/run/face_files.h"
+#include "crowdface/run/mesh_level.h"
 
 namespace crowdface {
 namespace {
@@ -48,9 +48,8 @@ Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
 
 /// "prepend references = @./meshes/ID.usda@".
 std::string reference(const CrowdDirectory& here, const std::string& id, std::size_t level) {
-  const MeshName name{MeshFormat::kUsd, {}, level};
   return concat("prepend references = @./",
-                here.relative(here.mesh(id, MeshFormat::kUsd, part_of(name))), "@\n");
+                here.relative(here.mesh(id, MeshFormat::kUsd, suffix_of(level, ""))), "@\n");
 }
 
 std::string face_text(const CrowdDirectory& here, const std::string& prim, const std::string& id,

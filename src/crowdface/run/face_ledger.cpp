@@ -1,72 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/face_ledger.h"
 
-#include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "crowdface/core/contains.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/gallery_page.h"
-#include "crowdface/run/attachment_writers.h"
 #include "crowdface/run/mesh_judge.h"
-#include "crowdface/run/mesh_writers.h"
-#include "crowdface/run/own_textures.h"
 
 namespace crowdface {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What determines a face's files beside its recipe and `settings`: formats, frame, pictures.
-Digest digest_of_output(const Job& job, const FaceExtras& extras) {
+/// What the files of all faces depend on: heads, settings, what is read beside heads, and the versions of the
+/// algorithms.
+Digest digest_of_common(const Job& job) {
   const Config& config = job.config;
+  const Inputs& inputs = job.inputs;
   Hasher hasher;
-  hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings);
-  hasher.add(config.output.meshes.size());
-  for (const MeshFormat format : config.output.meshes) hasher.add(name_of(format));
-  if (contains(config.output.meshes, MeshFormat::kUsd)) {
-    hasher.add(static_cast<int>(config.output.subdivision));
-  }
-  if (!job.inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(job.inputs.shapes_digest);
-  if (!job.inputs.points.empty()) hasher.add(kPointsVersion).add(job.inputs.points_digest);
-  if (!job.inputs.rig.empty()) hasher.add(kRigVersion).add(job.inputs.rig.digest);
-  if (!job.inputs.attachments.empty()) {
-    hasher.add(kAttachmentsVersion).add(job.inputs.attachments.digest);
-  }
-  if (!job.inputs.levels.empty()) {
-    hasher.add(kLevelsVersion);
-    for (const MeasuredLevel& level : job.inputs.levels) hasher.add(level.level.share);
-  }
+  hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings).add(face_settings(config));
   hasher.add(config.faces.units.mm);
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }
-  if (has_own_textures(job.inputs) && !config.output.meshes.empty()) {
-    hasher.add(kTextureVersion).add(job.inputs.textures.digest);
-    for (const HeadTextures& maps : job.inputs.maps) {
-      hasher.add(static_cast<int>(maps.names.front().kind)).add(maps.digest);
-    }
-    hasher.add(config.textures.formats.size());
-    for (const TextureFormat format : config.textures.formats) hasher.add(static_cast<int>(format));
-  }
-  if (config.output.faces_per_folder.value_or(0) > 0) hasher.add("numbered folders");
-  hasher.add(extras.skin).add(extras.shapes > 0).add(extras.picture).add(extras.preview);
-  if (extras.picture) {
-    const Config::ContactSheet& sheet = *config.output.contact_sheet;
-    hasher.add(sheet.cell).add(sheet.views.size());
-    for (const View view : sheet.views) hasher.add(static_cast<int>(view));
-    hasher.add(job.inputs.textures.digest);
-    for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
-    if (has_own_textures(job.inputs)) hasher.add(kTextureVersion);
-    for (const auto& [material, surface] : config.output.surfaces) {
-      hasher.add(material).add(static_cast<int>(surface.kind)).add(surface.colour.has_value());
-      for (const std::uint8_t value : surface.colour.value_or(std::array<std::uint8_t, 3>{})) {
-        hasher.add(static_cast<int>(value));
-      }
-    }
+  if (!inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(inputs.shapes_digest);
+  if (!inputs.points.empty()) hasher.add(kPointsVersion).add(inputs.points_digest);
+  if (!inputs.rig.empty()) hasher.add(kRigVersion).add(inputs.rig.digest);
+  if (!inputs.attachments.empty()) hasher.add(kAttachmentsVersion).add(inputs.attachments.digest);
+  if (!inputs.levels.empty()) hasher.add(kLevelsVersion);
+  if (has_own_textures(inputs)) hasher.add(kTextureVersion);
+  hasher.add(inputs.textures.digest);
+  for (const HeadTextures& maps : inputs.maps) {
+    hasher.add(static_cast<int>(maps.names.front().kind)).add(maps.digest);
   }
   return hasher.digest();
 }
@@ -96,92 +65,69 @@ SkinDefects noted_skin(const Json& json) {
 
 /// How many, if a format or the gallery has them.
 std::size_t carried_shapes(const Job& job) {
-  const auto holds = [](MeshFormat format) { return format != MeshFormat::kPly; };
   const bool is_carried =
-      has_gallery(job.config) || std::ranges::any_of(job.config.output.meshes, holds);
+      has_gallery(job.config) || any_format(job.config.output.meshes, [](const auto& format) {
+        return format.shapes != Beside::kNowhere;
+      });
   return is_carried ? job.inputs.shapes.shapes.size() : 0;
-}
-
-FaceExtras extras_of(const Job& job) {
-  return {job.config.output.contact_sheet.has_value(), has_gallery(job.config),
-          skin_is_judged(job.config, job.inputs), carried_shapes(job)};
 }
 
 }  // namespace
 
-FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const CrowdDirectory& directory,
+FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& lists,
                        std::function<void()> recorded)
     : ledger_(ledger),
       job_(job),
-      directory_(directory),
-      extras_(extras_of(job)),
+      lists_(lists),
       recorded_(std::move(recorded)),
-      output_(digest_of_output(job, extras_)) {}
+      judges_skin_(skin_is_judged(job.config, job.inputs)),
+      shapes_(carried_shapes(job)),
+      common_(digest_of_common(job)) {}
 
-Digest FaceLedger::key_of(const CastFace& face) const {
-  CastFace shape = face;
-  shape.notes = {};  // no file depends on how it was found
-  return Hasher().add(output_).add(format_recipe(shape, job_.names, job_.settings)).digest();
-}
-
-std::optional<FaceFiles> FaceLedger::done(const CastFace& face) const {
-  const auto entry = ledger_.proven(item_of(face), key_of(face));
-  if (!entry) return std::nullopt;
-  const std::vector<MeshName> names = mesh_names_of(face, job_.config.output.meshes, job_.inputs);
-  const std::vector<std::string> own =
-      own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
-  const std::size_t pictures = (extras_.picture ? 1U : 0U) + (extras_.preview ? 1U : 0U);
-  if (entry->files.size() != names.size() + own.size() + pictures) return std::nullopt;
-  FaceFiles files;
-  for (std::size_t f = 0; f < names.size(); ++f) {
-    files.meshes.push_back({names[f], entry->files[f].content});
+/// The item of a face as it should be: key and names; what the files hold is in `result`.
+LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceResult& result) const {
+  CastFace recipe = face;
+  recipe.notes = {};  // no file depends on how it was found
+  Hasher key;
+  key.add(common_).add(judges_skin_).add(shapes_ > 0);
+  key.add(format_recipe(recipe, job_.names, job_.settings));
+  LedgerEntry entry{item_of(face), {}, {}, {}};
+  const std::vector<FaceFile> files = lists_.of(face);
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    entry.files.push_back({lists_.directory().relative(files[f].path),
+                           f < result.files.size() ? result.files[f] : FileDigest{}});
+    key.add(entry.files.back().name);
   }
-  for (std::size_t o = 0; o < own.size(); ++o) {
-    files.own.push_back(entry->files[names.size() + o].content);
-  }
-  if (extras_.picture) files.picture = entry->files[names.size() + own.size()].content;
-  if (extras_.preview) files.preview = entry->files.back().content;
-  try {
-    if (extras_.skin || extras_.shapes > 0) {
-      const Json note = Json::parse(entry->note);
-      if (extras_.skin) files.skin = noted_skin(note);
-      if (extras_.shapes > 0) files.crossing = note.at("crossing").get<std::vector<Index>>();
-      if (files.crossing.size() != extras_.shapes) return std::nullopt;
-    }
-  } catch (const Json::exception&) {
-    return std::nullopt;
-  }
-  return files;
-}
-
-LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceFiles& files) const {
-  LedgerEntry entry{item_of(face), key_of(face), {}, {}};
-  for (const MeshFile& mesh : files.meshes) {
-    entry.files.push_back(
-        {directory_.relative(mesh_path(directory_, face.id, mesh.name)), mesh.content});
-  }
-  const std::vector<std::string> own =
-      own_file_names(job_.config, job_.inputs, job_.config.output.meshes, face.id);
-  for (std::size_t o = 0; o < own.size(); ++o) {
-    entry.files.push_back(
-        {directory_.relative(directory_.meshes_of(face.id) / own[o]), files.own[o]});
-  }
-  if (files.picture) {
-    entry.files.push_back({directory_.relative(directory_.render(face.id)), *files.picture});
-  }
-  if (files.preview) {
-    entry.files.push_back({directory_.relative(directory_.gallery_face(face.id)), *files.preview});
-  }
+  entry.key = key.digest();
   Json note;
-  if (files.skin) note = to_json(*files.skin);
-  if (!files.crossing.empty()) note["crossing"] = files.crossing;
+  if (result.skin) note = to_json(*result.skin);
+  if (!result.crossing.empty()) note["crossing"] = result.crossing;
   if (!note.is_null()) entry.note = note.dump();
   return entry;
 }
 
+std::optional<FaceResult> FaceLedger::done(const CastFace& face) const {
+  const LedgerEntry wanted = entry_of(face, {});
+  const auto entry = ledger_.proven(wanted.item, wanted.key);
+  if (!entry || entry->files.size() != wanted.files.size()) return std::nullopt;
+  FaceResult result;
+  for (const LedgerEntry::File& file : entry->files) result.files.push_back(file.content);
+  try {
+    if (judges_skin_ || shapes_ > 0) {
+      const Json note = Json::parse(entry->note);
+      if (judges_skin_) result.skin = noted_skin(note);
+      if (shapes_ > 0) result.crossing = note.at("crossing").get<std::vector<Index>>();
+      if (result.crossing.size() != shapes_) return std::nullopt;
+    }
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+  return result;
+}
+
 void FaceLedger::record(std::span<const MadeFace> faces) const {
   std::vector<LedgerEntry> entries;
-  for (const MadeFace& made : faces) entries.push_back(entry_of(*made.face, made.files));
+  for (const MadeFace& made : faces) entries.push_back(entry_of(*made.face, made.result));
   ledger_.record_all(std::move(entries));
   for (std::size_t f = 0; f < faces.size(); ++f) recorded_();
 }

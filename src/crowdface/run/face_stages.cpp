@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <mutex>
 #include <set>
@@ -20,7 +19,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
-#include "crowdface/io/single_precision.h"
+#include "crowdface/run/face_finisher.h"
 #include "crowdface/run/face_writer.h"
 
 namespace crowdface {
@@ -37,22 +36,6 @@ constexpr std::uint64_t kRenderBytesAVertex = 300;
 /// What the heads' mesh takes per vertex, whatever their number: faces, texture coordinates, neighbours,
 /// how parts hang on it. 262 were measured on 1.2 million vertices.
 constexpr std::uint64_t kMeshBytesAVertex = 300;
-
-/// Adds the time until its end to a stage.
-class Busy {
- public:
-  explicit Busy(std::atomic<double>& stage) : stage_(stage) {}
-  ~Busy() {
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
-    stage_ += took.count();
-  }
-  Busy(const Busy&) = delete;
-  Busy& operator=(const Busy&) = delete;
-
- private:
-  std::atomic<double>& stage_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::uint64_t vertex_count(const Inputs& inputs) {
   return static_cast<std::uint64_t>(inputs.faces.topology.vertex_count);
@@ -190,24 +173,22 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const FaceTextures& textures,
-                       const FaceAttachments* attachments, const FaceShapes& shapes,
+                       const FaceAttachments& attachments, const FaceShapes& shapes,
                        const std::vector<CastFace>& crowd, std::uint64_t memory)
-    : writers_(config, inputs, config.output.meshes, crowd,
-               directory_of(config).shared_from_mesh()),
+    : encoders_(config, inputs, config.output.meshes, crowd,
+                directory_of(config).shared_from_mesh()),
       builder_(builder),
       textures_(textures),
       attachments_(attachments),
-      shapes_(shapes),
-      attachment_writers_(inputs, config.output.meshes, directory_of(config).shared_from_mesh(),
-                          writers_.worn_on_levels()),
-      formats_(config.output.meshes) {
+      shapes_(shapes) {
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
-                           level_bytes(prepared) + writers_.memory_bytes() + shapes.memory_bytes();
-  std::uint64_t of_thread = writers_.encode_bytes();
+                           level_bytes(prepared) + encoders_.memory_bytes() +
+                           shapes.memory_bytes() + attachments.memory_bytes() +
+                           worn_bytes(config, inputs, crowd);
+  std::uint64_t of_thread = encoders_.encode_bytes() + attachments.worn_bytes();
   if (textures_.any()) {
-    own_.emplace(config, inputs, crowd, directory_of(config).shared_from_mesh());
     standing += textures_.memory_bytes();
-    of_thread += textures_.blend_bytes() + own_->encode_bytes();
+    of_thread += textures_.blend_bytes();
     if (config.output.contact_sheet) {
       of_thread +=
           OwnCoat::bytes(inputs.textures, inputs.maps, shown_texels(*config.output.contact_sheet));
@@ -219,11 +200,6 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     check_.emplace(skin_check(config, inputs, targets));
     standing += check_->memory_bytes();
     of_thread += check_->compare_bytes();
-  }
-  if (attachments_ != nullptr) {
-    standing += attachments_->memory_bytes() + worn_bytes(config, inputs, crowd);
-    of_thread += attachments_->worn_bytes();
-    of_thread += attachment_writers_.encode_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kLeastWaitingBytes);
@@ -241,140 +217,55 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
 /// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
 class FaceStages::Output {
  public:
-  Output(const FaceStages& stages, const CrowdDirectory& directory, const CrowdRenders* renders,
-         FaceWriter& writer)
-      : stages_(stages), directory_(directory), renders_(renders), writer_(writer) {}
+  Output(const FaceStages& stages, const FaceFileLists& lists, const CrowdRenders* renders,
+         FaceWriter& writer, StageBusy& busy)
+      : stages_(stages),
+        lists_(lists),
+        finisher_{stages.textures_, stages.attachments_, stages.shapes_, &stages.encoders_,
+                  renders},
+        writer_(writer),
+        busy_(busy) {}
 
-  FaceFiles make(const CastFace& face, const Positions& positions) {
+  FaceResult make(const CastFace& face, const Positions& positions) {
     throw_if_interrupted();
-    MadeFace made{&face, {}};
-    const Skin skin = paint(face.recipe);
-    std::vector<Displacements> moves;
-    if (stages_.writers_.holds_shapes() || (renders_ != nullptr && renders_->show_shapes())) {
-      const Busy busy(encode_);
-      moves = stages_.shapes_.of_face(face.recipe, as_written(positions), &made.files.crossing);
-    }
-    std::vector<WornAttachment> worn;
-    if (stages_.attachments_ != nullptr) {
-      const Busy busy(blend_);
-      worn = stages_.attachments_->worn_by(face, positions, moves);
-    }
-    std::vector<ReadyFile> ready = encode(face, positions, moves, worn, skin.files, made.files);
-    if (renders_ != nullptr) {
-      const Busy busy(render_);
-      FacePictures drawn = renders_->draw(face.id, face.recipe.target, positions, moves,
-                                          skin.coat ? &*skin.coat : nullptr, worn);
-      made.files.picture =
-          add(directory_.render(face.id), EncodedFile(std::move(drawn.picture)), ready);
-      if (drawn.preview) {
-        made.files.preview =
-            add(directory_.gallery_face(face.id), EncodedFile(std::move(*drawn.preview)), ready);
+    FinishedFace finished(face, positions);
+    finisher_.finish(finished, busy_);
+    FaceResult result;
+    std::vector<ReadyFile> ready;
+    {
+      const Busy timer(busy_.encode);
+      for (FaceFile& file : lists_.of(face)) {
+        EncodedFile bytes = file.make(finished);
+        bytes.keep(finished.textures);
+        result.files.push_back({bytes.size(), bytes.digest()});
+        ready.push_back({std::move(file.path), std::move(bytes)});
       }
     }
+    result.crossing = std::move(finished.crossing);
     if (stages_.check_) {
-      const Busy busy(check_seconds_);
-      made.files.skin = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
+      const Busy timer(busy_.check);
+      result.skin = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
     }
-    FaceFiles files = made.files;
-    writer_.add(std::move(made), std::move(ready));
-    return files;
-  }
-
-  void add_to(StageBusy& busy) const {
-    busy.blend += blend_;
-    busy.encode += encode_;
-    busy.write += writer_.busy_seconds();
-    busy.render += render_;
-    busy.check += check_seconds_;
+    writer_.add({&face, result}, std::move(ready));
+    return result;
   }
 
  private:
-  static FileDigest add(fs::path path, EncodedFile file, std::vector<ReadyFile>& to) {
-    const FileDigest content{file.size(), file.digest()};
-    to.push_back({std::move(path), std::move(file)});
-    return content;
-  }
-
-  /// A face's own textures: in their files' bytes, if it has files, and as pictures show them.
-  struct Skin {
-    std::shared_ptr<OwnTextures::Encoded> files = std::make_shared<OwnTextures::Encoded>();
-    std::optional<OwnCoat> coat;
-  };
-
-  /// One texture after the other is blended, encoded and forgotten.
-  Skin paint(const Recipe& recipe) {
-    Skin skin;
-    if (renders_ != nullptr) skin.coat = renders_->own_coat(recipe.target);
-    const bool written = stages_.own_ && !stages_.formats_.empty();
-    if (!written && !skin.coat) return skin;
-    skin.files->resize(stages_.textures_.picture_count());
-    parallel_for_each(stages_.textures_.picture_count(), [&](std::size_t p) {
-      const BlendedPicture picture = [&] {
-        const Busy busy(blend_);
-        return stages_.textures_.blend(recipe, p);
-      }();
-      if (written) {
-        const Busy busy(encode_);
-        (*skin.files)[p] = stages_.own_->encode(p, picture);
-      }
-      if (skin.coat) {
-        const Busy busy(render_);
-        skin.coat->add(p, picture);
-      }
-    });
-    return skin;
-  }
-
-  /// The face's meshes, what it wears and its textures. \param files  of which they are noted.
-  std::vector<ReadyFile> encode(const CastFace& face, const Positions& positions,
-                                std::span<const Displacements> moves,
-                                const std::vector<WornAttachment>& worn,
-                                const std::shared_ptr<const OwnTextures::Encoded>& textures,
-                                FaceFiles& files) {
-    std::vector<ReadyFile> ready;
-    if (stages_.formats_.empty()) return ready;
-    const Busy busy(encode_);
-    std::vector<std::string_view> of_mesh;
-    if (stages_.own_) of_mesh = stages_.own_->of_mesh(*textures);
-    std::vector<EncodedMesh> meshes =
-        stages_.writers_.encode(face, positions, moves, of_mesh, worn);
-    stages_.attachment_writers_.add_to(meshes, face.id, worn);
-    for (EncodedMesh& mesh : meshes) {
-      mesh.file.keep(textures);
-      const fs::path path = mesh_path(directory_, face.id, mesh.name);
-      files.meshes.push_back({mesh.name, add(path, std::move(mesh.file), ready)});
-    }
-    if (!stages_.own_) return ready;
-    for (OwnFile& file : stages_.own_->files(face, stages_.formats_, textures)) {
-      files.own.push_back(
-          add(directory_.meshes_of(face.id) / file.name, std::move(file.file), ready));
-    }
-    return ready;
-  }
-
   const FaceStages& stages_;
-  const CrowdDirectory& directory_;
-  const CrowdRenders* renders_;
+  const FaceFileLists& lists_;
+  FaceFinisher finisher_;
   FaceWriter& writer_;
-  std::atomic<double> blend_ = 0, encode_ = 0, render_ = 0, check_seconds_ = 0;
+  StageBusy& busy_;
 };
 
-BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders* renders,
-                             const FaceLedger& ledger, const std::vector<CastFace>& faces) const {
-  BuiltFaces built;
-  built.files.resize(faces.size());
-  if (!formats_.empty()) {
-    for (const std::string& id : one_of_each_folder(directory, faces)) {
-      make_directories(own_ ? directory.blended_of(id) : directory.meshes_of(id));
-    }
-  }
-  if (renders != nullptr) renders->make_folders(directory, faces);
-
+void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
+                       const FaceLedger& ledger, std::span<const CastFace* const> faces,
+                       std::span<FaceResult* const> results, StageBusy& busy) const {
+  lists.make_folders(faces);
   Progress progress("faces", faces.size());
   const KeptBlocks kept(encoded_bytes_);
   FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
-  Output output(*this, directory, renders, writer);
-  std::atomic<double> blend_seconds = 0;
+  Output output(*this, lists, renders, writer, busy);
   FaceMemory memory;
   std::array<FaceGroup, 2> groups;
   std::size_t turn = 0;
@@ -386,26 +277,24 @@ BuiltFaces FaceStages::build(const CrowdDirectory& directory, const CrowdRenders
     std::vector<const Recipe*> recipes;
     std::vector<Positions> positions;
     for (std::size_t f = 0; f < count; ++f) {
-      recipes.push_back(&faces[first + f].recipe);
+      recipes.push_back(&faces[first + f]->recipe);
       positions.push_back(memory.take());
     }
     {
-      const Busy busy(blend_seconds);
+      const Busy timer(busy.blend);
       builder_.build(recipes, positions);
     }
     group.begin(
         std::move(positions),
         [&, first](std::size_t f, const Positions& face) {
-          built.files[first + f] = output.make(faces[first + f], face);
+          *results[first + f] = output.make(*faces[first + f], face);
         },
         memory);
     group.make_files();
   }
   for (FaceGroup& group : groups) group.wait();
   writer.finish();
-  output.add_to(built.busy);
-  built.busy.blend += blend_seconds;
-  return built;
+  busy.write += writer.busy_seconds();
 }
 
 }  // namespace crowdface

@@ -17,6 +17,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_lock.h"
+#include "crowdface/crowd/crowd_table.h"
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
@@ -31,8 +32,8 @@
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/face_stages.h"
 #include "crowdface/run/lazy.h"
+#include "crowdface/run/mesh_encoder.h"
 #include "crowdface/run/mesh_judge.h"
-#include "crowdface/run/mesh_writers.h"
 #include "crowdface/run/output_check.h"
 #include "crowdface/run/planned.h"
 #include "crowdface/run/report.h"
@@ -82,6 +83,7 @@ struct CastJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   Cast cast;
+  std::vector<std::string> warnings;  ///< see near_heads; none of a shard's faces
   nlohmann::ordered_json casting;  ///< what stands in casting.json; none if the faces are a shard's
   /// If not empty, `cast` is as the folder's plan has it; of a shard its faces and no more.
   std::vector<LedgerEntry::File> plan_files;
@@ -97,7 +99,6 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
 std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& options,
                                      StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
-  check_output(job, options.replace);
   auto planned = planned_faces(job, directory, options.shard);
   if (!planned) {
     if (options.plan_from == PlanFrom::kFolderOrCasting) return nullptr;
@@ -113,6 +114,7 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
                              options.cache);
     });
     crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
+    crowd->warnings = near_heads(crowd->cast, job.names.heads);
     check_compared_crowd(job.config, crowd->cast.crowd);
     log_info("the folder's plan is taken");
   } else {
@@ -127,7 +129,6 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
 /// behind, and no other crowd in the folder is touched for it.
 std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options,
                                   StageSeconds& stages) {
-  check_output(job, options.replace);
   auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
   crowd->cast = timed(stages, "cast", [&] {
     MeshDefects defects;
@@ -135,7 +136,9 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
       defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
     return cast(job.config, job.inputs, crowd->prepared, defects, options.cache);
   });
-  log_casting(crowd->cast, job.names.heads);
+  log_casting(crowd->cast);
+  crowd->warnings = near_heads(crowd->cast, job.names.heads);
+  for (const std::string& text : crowd->warnings) log_warning(text);
   check_compared_crowd(job.config, crowd->cast.crowd);
   crowd->casting = casting_to_json(job.config, crowd->cast);
   return crowd;
@@ -167,37 +170,6 @@ std::uint64_t memory_for(const GenerateOptions& options) {
   return options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
 }
 
-/// Builds the faces that are not done; their files take their places in `so_far`.
-/// \return how long threads were busy.
-StageBusy build_missing(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
-                        const FaceLedger& ledger, Lazy<FaceStages>& face_stages,
-                        const CrowdRenders* renders, FacesSoFar& so_far) {
-  if (so_far.todo.empty()) return {};
-  std::vector<CastFace> some;
-  const bool all = so_far.todo.size() == crowd.size();
-  for (std::size_t t = 0; t < so_far.todo.size() && !all; ++t) {
-    some.push_back(crowd[so_far.todo[t]]);
-  }
-  const std::vector<CastFace>& faces = all ? crowd : some;
-  BuiltFaces built = face_stages.get().build(directory, renders, ledger, faces);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    so_far.files[so_far.todo[f]] = std::move(built.files[f]);
-  }
-  return built.busy;
-}
-
-/// Copies what meshes name. \return all warnings so far, for the report.
-std::vector<std::string> write_materials(const Job& job, const CrowdDirectory& directory,
-                                         const Cast& cast, Ledger& ledger) {
-  std::vector<std::string> warnings = job.inputs.warnings;
-  for (const std::vector<std::string>& more :
-       {near_heads(cast, job.names.heads),
-        copy_materials(job.config, job.inputs, directory, cast.crowd, ledger)}) {
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  }
-  return warnings;
-}
-
 /// Everything after the crowd is cast and the folder is ready. \return what to say of it.
 std::string fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
                            const GenerateOptions& options, Purpose purpose,
@@ -209,18 +181,19 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
                 ledgers_that_matter(directory, options.shard));
   ledger.write(directory.relative(directory.config()), config_in_folder(job.config, directory));
   const auto write = [&](const fs::path& path, const TextPieces& text) {
-    ledger.write(directory.relative(path), text);
+    return ledger.write(directory.relative(path), text);
   };
   if (cast_job.planned()) {
     for (const LedgerEntry::File& file : cast_job.plan_files) ledger.keep(file);
+    if (options.shard.whole()) write(directory.table(), table_text(crowd, job.names));
   } else {
     write_plan(job, directory, cast, cast_job.casting, write);
-    mark_planned(job, directory);
   }
   const bool has_whole_crowd = options.shard.whole() || !cast_job.planned();
 
   const auto& sheet = job.config.output.contact_sheet;
-  const FaceLedger face_ledger(ledger, job, directory, [&] {
+  const FaceFileLists lists(job.config, job.inputs, directory);
+  const FaceLedger face_ledger(ledger, job, lists, [&] {
     if (progress) progress->step();
   });
   const Shard asked_for = has_whole_crowd ? options.shard : Shard();
@@ -235,8 +208,12 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
     progress.emplace(directory.progress(options.shard), so_far.owned, so_far.owned - built);
   }
 
-  std::vector<std::string> warnings;
-  if (has_whole_crowd) warnings = write_materials(job, directory, cast, ledger);
+  std::vector<std::string> warnings = job.inputs.warnings;
+  const auto warn = [&](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  warn(cast_job.warnings);
+  if (has_whole_crowd) warn(copy_materials(job.config, job.inputs, directory, crowd, ledger));
   if (has_whole_crowd && contains(job.config.output.meshes, MeshFormat::kUsd)) {
     ledger.write(directory.relative(directory.stage()),
                  format_stage(job.config, job.inputs, crowd));
@@ -246,17 +223,23 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
     return std::make_unique<CrowdPictures>(job.config, job.inputs, job.settings, directory,
                                            cast_job.textures.get(), cast_job.shapes.get());
   });
-  const StageBusy busy = timed(stages, "build", [&] {
-    const CrowdRenders* renders =
-        sheet && !so_far.todo.empty() ? &pictures.get().renders() : nullptr;
+  StageBusy busy;
+  timed(stages, "build", [&] {
+    if (built == 0) return built;
+    const CrowdRenders* renders = sheet ? &pictures.get().renders() : nullptr;
     BackgroundTasks beside;
     if (renders != nullptr && options.shard.whole()) {
       beside.run([&] { pictures.get().write_heads(); });
     }
-    const StageBusy built_in =
-        build_missing(directory, crowd, face_ledger, face_stages, renders, so_far);
+    std::vector<const CastFace*> faces;
+    std::vector<FaceResult*> results;
+    for (const std::size_t i : so_far.todo) {
+      faces.push_back(&crowd[i]);
+      results.push_back(&so_far.faces[i]);
+    }
+    face_stages.get().build(lists, renders, face_ledger, faces, results, busy);
     beside.wait();
-    return built_in;
+    return built;
   });
   face_stages.release();
   if (!options.shard.whole()) {
@@ -265,17 +248,15 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
     return concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
                   " built; when all shards are done: crowdface gather ", directory.root.string());
   }
-  for (std::string& text : judge_meshes(job.config.believability, crowd, so_far.files)) {
-    warnings.push_back(std::move(text));
-  }
+  warn(judge_meshes(job.config.believability, crowd, so_far.faces));
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {
-      return make_sheets(job, directory, cast, so_far.files, cast_job.builder, pictures, ledger);
+      return make_sheets(job, directory, cast, so_far.faces, cast_job.builder, pictures, ledger);
     });
   }
-  write(directory.report(),
-        report_text(job, cast_job.prepared, cast, cast_job.casting, so_far.files, pages, warnings));
+  write(directory.report(), report_text(job, cast_job.prepared, cast, cast_job.casting, lists,
+                                        so_far.faces, pages, warnings));
   ledger.settle();
   gather_logs(directory);
   remove_notes_of_shards(directory);
@@ -306,6 +287,7 @@ bool makes_faces(const Config& config, const GenerateOptions& options) {
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
+  check_output(job, options.replace);
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
   if (is_new) refuse_too_little_memory(job.config, job.inputs, memory_for(options));
   std::unique_ptr<CastJob> crowd;
@@ -314,14 +296,12 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   Lazy<FaceStages> face_stages([&] {
     return std::make_unique<FaceStages>(
         job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
-        &crowd->attachments.get(), crowd->shapes.get(), crowd->cast.crowd, memory_for(options));
+        crowd->attachments.get(), crowd->shapes.get(), crowd->cast.crowd, memory_for(options));
   });
   if (is_new && !crowd->cast.crowd.empty())
     timed(stages, "setup", [&] { return &face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
-  refuse_other_heads(job.settings, directory,
-                     options.replace);  // another run may have come before this one
-  open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
+  open_output(job, options.replace);
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
   std::optional<ShardProgress> progress;
@@ -361,20 +341,16 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
 }
 
 void plan_job(const Job& job, const GenerateOptions& options) {
-  if (options.dry_run) {
-    check_output(job, options.replace);
-    return tell_dry_run(job.config, nullptr);
-  }
+  check_output(job, options.replace);
+  if (options.dry_run) return tell_dry_run(job.config, nullptr);
   going_on_if_cut([&] {
     const CrowdDirectory directory = directory_of(job.config);
     StageSeconds stages;
     const auto crowd = cast_job(job, options, stages);
     const CrowdLock lock(directory, {});
-    refuse_other_heads(job.settings, directory, options.replace);
-    open_crowd_directory(directory, crowd_config(job.config, directory), options.replace);
+    open_output(job, options.replace);
     write_plan(job, directory, crowd->cast, crowd->casting,
-               [](const fs::path& path, const TextPieces& text) { write_file(path, text); });
-    mark_planned(job, directory);
+               [](const fs::path& path, const TextPieces& text) { return write_file(path, text); });
     lock.require_still_there();
     log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));
   });

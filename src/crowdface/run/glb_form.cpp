@@ -15,8 +15,8 @@
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
+#include "crowdface/run/mesh_level.h"
 #include "crowdface/run/own_textures.h"
-#include "crowdface/run/worn_level.h"
 
 namespace crowdface {
 namespace {
@@ -153,16 +153,19 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   return options;
 }
 
-GlbOptions glb_options(GlbOptions whole, const DetailLevel& level, const ShapeSet& shapes) {
-  whole.face_materials = at_rows(whole.face_materials, level.faces);
-  for (std::size_t t = 0; t < whole.targets.size(); ++t) {
-    whole.targets[t].vertices = level.of(shapes.shapes[t].moves).vertices;
+GlbOptions glb_options(const MeshSource& source, const MeshLevel& level) {
+  GlbOptions options = glb_options(source.config, source.inputs, source.shared);
+  if (level.whole()) return options;
+  const DetailLevel& detail = *level.face;
+  options.face_materials = at_rows(options.face_materials, detail.faces);
+  for (std::size_t t = 0; t < options.targets.size(); ++t) {
+    options.targets[t].vertices = detail.of(source.inputs.shapes.shapes[t].moves).vertices;
   }
-  if (whole.overlay) whole.overlay->places = at_rows(whole.overlay->places, level.vertices);
-  whole.skin.influences = at_rows(whole.skin.influences, level.vertices);
-  whole.vertex_ids = level.vertices;
-  whole.points.clear();  // those of the whole mesh are the face's
-  return whole;
+  if (options.overlay) options.overlay->places = at_rows(options.overlay->places, detail.vertices);
+  options.skin.influences = at_rows(options.skin.influences, detail.vertices);
+  options.vertex_ids = detail.vertices;
+  options.points.clear();  // those of the whole mesh are the face's
+  return options;
 }
 
 }  // namespace crowdface

@@ -4,14 +4,15 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/io/glb_template.h"
+#include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
 
 /// How GLB files of this crowd are written: frame, materials, textures, shapes.
-/// \param shared  as MeshWriters takes it
+/// \param shared  as MeshSource has it
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared = {});
 
-/// The same for a level of detail. \param whole  of the whole mesh.
-GlbOptions glb_options(GlbOptions whole, const DetailLevel& level, const ShapeSet& shapes);
+/// The same on a level.
+GlbOptions glb_options(const MeshSource& source, const MeshLevel& level);
 
 }  // namespace crowdface

@@ -54,7 +54,7 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
 
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
                                       const std::vector<CastFace>& crowd,
-                                      const std::vector<FaceFiles>& files) {
+                                      const std::vector<FaceResult>& files) {
   std::vector<std::string> beyond;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (!files[i].skin) continue;

@@ -27,6 +27,6 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
 /// Warns of faces whose whole mesh goes beyond a limit that their samples kept. \return the warning.
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
                                       const std::vector<CastFace>& crowd,
-                                      const std::vector<FaceFiles>& files);
+                                      const std::vector<FaceResult>& files);
 
 }  // namespace crowdface

@@ -84,4 +84,10 @@ void check_output(const Job& job, Replace replace) {
   refuse_other_heads(job.settings, directory, replace);
 }
 
+void open_output(const Job& job, Replace replace) {
+  const CrowdDirectory directory = directory_of(job.config);
+  refuse_other_heads(job.settings, directory, replace);
+  open_crowd_directory(directory, crowd_config(job.config, directory), replace);
+}
+
 }  // namespace crowdface

@@ -10,6 +10,10 @@ namespace crowdface {
 /// what could not be made again. \throws UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
+/// Makes the folder ready for the job's crowd, once nobody else writes there. Looks again at what another run may have
+/// changed since check_output. \throws UsageError, CannotCreate, IoError.
+void open_output(const Job& job, Replace replace);
+
 /// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
 /// \param settings  of the heads as they are now, see settings_digest.
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);

@@ -128,20 +128,17 @@ std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs)
   return result;
 }
 
-std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
-                                        std::span<const MeshFormat> meshes, const std::string& id) {
-  std::vector<std::string> names;
+std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
+                                              const std::string& id) {
+  std::vector<OwnTextureFile> files;
   const std::vector<PictureName> pictures = own_pictures(inputs);
-  const bool all_glb = std::all_of(meshes.begin(), meshes.end(),
-                                   [](MeshFormat format) { return format == MeshFormat::kGlb; });
-  if (pictures.empty() || all_glb) return names;
-  for (const PictureName& picture : pictures) {
-    for (const TextureFormat format : formats_of(config, picture)) {
-      names.push_back(file_name(id, picture, format));
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    const std::vector<TextureFormat> formats = formats_of(config, pictures[p]);
+    for (std::size_t f = 0; f < formats.size(); ++f) {
+      files.push_back({file_name(id, pictures[p], formats[f]), p, f});
     }
   }
-  if (contains(meshes, MeshFormat::kObj)) names.push_back(material_file_name(id));
-  return names;
+  return files;
 }
 
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
@@ -196,21 +193,7 @@ std::vector<std::string_view> OwnTextures::of_mesh(const Encoded& encoded) const
   return held;
 }
 
-std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const MeshFormat> meshes,
-                                        const std::shared_ptr<const Encoded>& encoded) const {
-  std::vector<OwnFile> files;
-  for (std::string& name : own_file_names(config_, inputs_, meshes, face.id)) {
-    files.push_back({std::move(name), {}});
-  }
-  if (files.empty()) return files;
-  auto file = files.begin();
-  for (const std::vector<std::string>& picture : *encoded) {
-    for (const std::string& bytes : picture) {
-      file->file.refer_to(bytes);
-      (file++)->file.keep(encoded);
-    }
-  }
-  if (!contains(meshes, MeshFormat::kObj)) return files;
+EncodedFile OwnTextures::material_file(const CastFace& face) const {
   const Materials& materials = of_target_.at(face.recipe.target);
   OwnMaterials::Replacements textures;
   for (const auto& [kind, pictures] : materials.pictures) {
@@ -220,8 +203,7 @@ std::vector<OwnFile> OwnTextures::files(const CastFace& face, std::span<const Me
                                            formats_of(config_, picture).front());
     }
   }
-  files.back().file.add(materials.file.text(textures));
-  return files;
+  return {materials.file.text(textures)};
 }
 
 std::uint64_t OwnTextures::encode_bytes() const {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,17 +17,14 @@
 
 namespace crowdface {
 
-/// A file of a face beside its mesh, ready to be written.
-struct OwnFile {
-  std::string name;  ///< below the folder of the face's meshes
-  EncodedFile file;
+/// A file of a face's own textures.
+struct OwnTextureFile {
+  std::string name;                     ///< below the folder of the face's meshes
+  std::size_t picture = 0, format = 0;  ///< of OwnTextures::Encoded
 };
-
-/// The names of all such files of a face: its textures, unless a GLB file alone holds them, and its
-/// material file, if there is an OBJ file to name it. None if faces get no textures of their own.
-/// \param meshes  the formats that are written.
-std::vector<std::string> own_file_names(const Config& config, const Inputs& inputs,
-                                        std::span<const MeshFormat> meshes, const std::string& id);
+/// None if faces get no textures of their own.
+std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
+                                              const std::string& id);
 
 /// A picture that a GLB file holds. It knows no EXR, and nothing but colours, normals and roughness.
 struct GlbPicture {
@@ -49,7 +45,7 @@ std::string material_file_name(const std::string& id);
 class OwnTextures {
  public:
   /// \param config, inputs  must outlive this object. \param crowd  all faces that may be written.
-  /// \param shared  as MeshWriters takes it
+  /// \param shared  as MeshSource has it
   OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd,
               const std::string& shared = {});
 
@@ -60,10 +56,8 @@ class OwnTextures {
   std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
   /// The ones that a GLB file holds: see glb_pictures.
   std::vector<std::string_view> of_mesh(const Encoded& encoded) const;
-  /// Those of own_file_names.
-  /// \param encoded  they refer to it.
-  std::vector<OwnFile> files(const CastFace& face, std::span<const MeshFormat> meshes,
-                             const std::shared_ptr<const Encoded>& encoded) const;
+  /// The target's material file with the face's textures in place of the target's.
+  EncodedFile material_file(const CastFace& face) const;
 
   /// About what the encoded pictures of one face take, and the encoding of the largest.
   std::uint64_t encode_bytes() const;

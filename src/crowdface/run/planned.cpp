@@ -11,6 +11,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
+#include "crowdface/crowd/crowd_table.h"
 #include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
@@ -57,43 +58,25 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPiec
   remove_if_there(directory.report());
 }
 
-/// As the mark has a file that this run has just written. \throws IoError if it is gone.
-nlohmann::ordered_json own_file_to_json(const CrowdDirectory& directory,
-                                        const std::filesystem::path& file) {
-  try {
-    return file_to_json({directory.relative(file), hash_file(file)});
-  } catch (const MissingInput&) {
-    throw IoError(concat(file.string(),
-                         ": was removed while the run was at work; run the same command again"));
-  }
-}
-
 }  // namespace
 
-void write_plan(
-    const Job& job, const CrowdDirectory& directory, const Cast& cast,
-    const nlohmann::ordered_json& casting,
-    const std::function<void(const std::filesystem::path& path, const TextPieces& text)>& write) {
+void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+                const nlohmann::ordered_json& casting, const WriteFile& write) {
   const TextPieces plan = plan_text(cast.crowd, job.names, job.settings);
   remove_report_of_other_plan(directory, plan);
-  write(directory.plan(), plan);
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  const auto write_and_mark = [&](const std::filesystem::path& path, const TextPieces& text) {
+    files.push_back(file_to_json({directory.relative(path), write(path, text)}));
+  };
+  write_and_mark(directory.plan(), plan);
   write(directory.table(), table_text(cast.crowd, job.names));
   if (!cast.founders.empty()) {
-    write(directory.founders(), plan_text(cast.founders, job.names, job.settings));
+    write_and_mark(directory.founders(), plan_text(cast.founders, job.names, job.settings));
   }
   if (!cast.rejected.empty()) {
-    write(directory.rejected(), plan_text(cast.rejected, job.names, job.settings));
+    write_and_mark(directory.rejected(), plan_text(cast.rejected, job.names, job.settings));
   }
-  write(directory.casting(), [&](const TakePiece& take) { take(casting.dump(2) + "\n"); });
-}
-
-void mark_planned(const Job& job, const CrowdDirectory& directory) {
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const std::filesystem::path& file :
-       {directory.plan(), directory.table(), directory.founders(), directory.rejected(),
-        directory.casting()}) {
-    if (is_there(file)) files.push_back(own_file_to_json(directory, file));
-  }
+  write_and_mark(directory.casting(), [&](const TakePiece& take) { take(casting.dump(2) + "\n"); });
   const nlohmann::ordered_json mark = {{"job", key_of(job, directory).hex()}, {"files", files}};
   write_file(directory.planned(), mark.dump() + "\n");
 }

@@ -16,16 +16,14 @@
 
 namespace crowdface {
 
-/// Writes the plan, the table and what else is known once a crowd is cast.
-/// \param casting  what stands in casting.json
-/// \param write    writes a file of the crowd's folder
-void write_plan(
-    const Job& job, const CrowdDirectory& directory, const Cast& cast,
-    const nlohmann::ordered_json& casting,
-    const std::function<void(const std::filesystem::path& path, const TextPieces& text)>& write);
+/// Writes a file of the crowd's folder. \return its bytes' digest.
+using WriteFile = std::function<FileDigest(const std::filesystem::path& path, const TextPieces&)>;
 
-/// Says in the folder that its plan is whole, and which job's it is. To be written after it.
-void mark_planned(const Job& job, const CrowdDirectory& directory);
+/// Writes the plan, the table and what else is known once a crowd is cast; at last a file that says that the plan is
+/// whole, and which job's it is.
+/// \param casting  what stands in casting.json
+void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+                const nlohmann::ordered_json& casting, const WriteFile& write);
 
 /// A shard's part of the folder's plan, or the whole of it.
 struct PlannedFaces {
@@ -33,7 +31,7 @@ struct PlannedFaces {
   std::vector<LedgerEntry::File> files;  ///< the plan and those written with it
 };
 
-/// \return nothing if the plan is not there, not as `mark_planned` found it, or another job's; for the
+/// \return nothing if the plan is not there, not as `write_plan` left it, or another job's; for the
 /// whole crowd also if one of the other files is not as it was.
 /// \throws InvalidInput if a line is none of ours.
 std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,

@@ -127,31 +127,16 @@ Json distances_to_json(const Json& distances) {
   return json;
 }
 
-/// "mesh" was there before there were other formats.
-std::string report_key(MeshFormat format) {
-  return format == MeshFormat::kObj ? "mesh" : std::string(name_of(format));
-}
-
-Json face_to_json(const std::string& id, const FaceFiles& files) {
+Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
+                  const FaceResult& result) {
   Json face = {{"id", id}};
-  for (const MeshFile& mesh : files.meshes) {
-    const MeshName& name = mesh.name;
-    const std::string hash = mesh.content.digest.hex();
-    const std::string file = part_of(name).empty() ? "" : file_end(name).substr(1);
-    if (name.level > 0) {
-      face["lods"][file] = hash;
-    } else if (!name.attachment.empty()) {
-      face["attachments"][file] = hash;
-    } else if (name.shape == kFollowingPoints) {
-      face["following_points"] = hash;
-    } else if (name.shape.empty()) {
-      face[report_key(name.format)] = hash;
-    } else {
-      face["shapes"][file] = hash;
-    }
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const FaceFile& file = files[f];
+    if (file.key.empty()) continue;
+    (file.section.empty() ? face : face[file.section])[file.key] = result.files[f].digest.hex();
   }
-  if (files.skin) {
-    const SkinDefects& skin = *files.skin;
+  if (result.skin) {
+    const SkinDefects& skin = *result.skin;
     face["skin"] = {
         {"triangles", skin.local.compared},       {"flipped", skin.local.flipped},
         {"stretch", rounded(skin.local.stretch)}, {"intersecting", skin.intersecting},
@@ -161,12 +146,12 @@ Json face_to_json(const std::string& id, const FaceFiles& files) {
 }
 
 /// Where shapes take skin through skin that neither the template nor the face at rest does.
-Json shapes_to_json(const ShapeSet& set, const std::vector<FaceFiles>& files) {
+Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results) {
   Json shapes = Json::object();
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
     std::size_t faces = 0;
     Index most = 0;
-    for (const FaceFiles& face : files) {
+    for (const FaceResult& face : results) {
       if (s >= face.crossing.size() || face.crossing[s] == 0) continue;
       ++faces;
       most = std::max(most, face.crossing[s]);
@@ -189,7 +174,7 @@ std::string indented(const Json& json, std::size_t levels) {
 
 /// All but the faces.
 Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const Json& casting,
-             const std::vector<FaceFiles>& files, std::size_t sheets,
+             const std::vector<FaceResult>& faces, std::size_t sheets,
              const std::vector<std::string>& warnings) {
   Json report;
   report["crowdface"] = kVersion;
@@ -212,7 +197,7 @@ Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const J
   report["distances"] = distances_to_json(casting["distances"]);
   report["casting"] = casting;
   if (!job.inputs.shapes.shapes.empty()) {
-    report["shapes"] = shapes_to_json(job.inputs.shapes, files);
+    report["shapes"] = shapes_to_json(job.inputs.shapes, faces);
   }
   report["warnings"] = warnings;
   return report;
@@ -221,19 +206,21 @@ Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const J
 }  // namespace
 
 TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
-                       const Json& casting, const std::vector<FaceFiles>& files, std::size_t sheets,
+                       const Json& casting, const FaceFileLists& lists,
+                       const std::vector<FaceResult>& faces, std::size_t sheets,
                        const std::vector<std::string>& warnings) {
   // Warnings may name files whose names are not UTF-8.
-  std::string head = summary(job, prepared, cast, casting, files, sheets, warnings)
+  std::string head = summary(job, prepared, cast, casting, faces, sheets, warnings)
                          .dump(2, ' ', false, Json::error_handler_t::replace);
   head.resize(head.size() - std::string_view("\n}").size());
   return [&, head = concat(head, kBeforeFaces)](const TakePiece& take) {
     take(head);
-    text_of_items(files.size(), [&](std::size_t i) {
+    text_of_items(faces.size(), [&](std::size_t i) {
+      const CastFace& face = cast.crowd[i];
       return concat(i > 0 ? ",\n    " : "\n    ",
-                    indented(face_to_json(cast.crowd[i].id, files[i]), 2));
+                    indented(face_to_json(face.id, lists.of(face), faces[i]), 2));
     })(take);
-    take(files.empty() ? "]\n}\n" : "\n  ]\n}\n");
+    take(faces.empty() ? "]\n}\n" : "\n  ]\n}\n");
   };
 }
 

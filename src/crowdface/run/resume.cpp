@@ -58,13 +58,13 @@ void write_iris(const Config& config, const Inputs& inputs, const CrowdDirectory
 FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
                            const Shard& shard, const std::function<void()>& asked) {
   FacesSoFar so_far;
-  so_far.files.resize(crowd.size());
+  so_far.faces.resize(crowd.size());
   std::vector<char> missing(crowd.size(), 0);
   parallel_for_each(crowd.size(), [&](std::size_t i) {
     throw_if_interrupted();
     if (!shard.owns(i)) return;
-    if (auto files = ledger.done(crowd[i])) {
-      so_far.files[i] = std::move(*files);
+    if (auto result = ledger.done(crowd[i])) {
+      so_far.faces[i] = std::move(*result);
     } else {
       missing[i] = 1;
     }

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// The crowd's faces as far as they are done, and which are not.
 struct FacesSoFar {
-  std::vector<FaceFiles> files;   ///< #crowd; of a face that is missing: nothing
+  std::vector<FaceResult> faces;  ///< #crowd; of a face that is missing: nothing
   std::vector<std::size_t> todo;  ///< of this shard, ascending
   std::size_t owned = 0;          ///< by this shard
 };

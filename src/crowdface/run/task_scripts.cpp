@@ -8,8 +8,8 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/run/mesh_encoder.h"
 #include "crowdface/run/mesh_judge.h"
-#include "crowdface/run/mesh_writers.h"
 
 namespace crowdface {
 namespace {

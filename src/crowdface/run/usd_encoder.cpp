@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/usd_attachments.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -12,6 +10,11 @@
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
+#include "crowdface/io/usda_template.h"
+#include "crowdface/io/usda_text.h"
+#include "crowdface/run/attachment_forms.h"
+#include "crowdface/run/glb_form.h"
+#include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
 namespace {
@@ -62,15 +65,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const std::strin
   return look;
 }
 
-}  // namespace
-
-std::size_t usd_bytes_worn_at_most(const UsdAttachments& attachments) {
-  return worn_at_most(attachments.all(),
-                      [](const Attachment&, const UsdaPart& part) { return part.encode_bytes(); });
-}
-
-std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::string& shared,
-                                            std::span<const WornLevel> levels) {
+std::map<const Attachment*, PrimLook> prim_looks(const Inputs& inputs, const std::string& shared) {
   UsdaNames names;
   for (const char* taken : {"face", "mesh", "materials", "skeleton", "animation", "points"}) {
     names.add(taken);
@@ -79,17 +74,42 @@ std::vector<UsdAttachments> usd_attachments(const Inputs& inputs, const std::str
   for (const Attachment& item : inputs.attachments.items) {
     looks.emplace(&item, prim_look_of(item, names.add(item.name), shared));
   }
+  return looks;
+}
+
+}  // namespace
+
+MeshEncoders usd_encoders(const MeshSource& source) {
+  const Inputs& inputs = source.inputs;
+  const auto looks = prim_looks(inputs, source.shared.empty() ? "." : source.shared);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
-  return UsdAttachments::on_all(
-      inputs.attachments, levels, [&](const Attachment& item, const DetailLevel* level) {
-        const auto& [prim, materials, of_face] = looks.at(&item);
-        if (level == nullptr) {
-          return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets);
-        }
-        return UsdaPart(prim, level->topology, level->uvs, materials,
-                        at_rows(of_face, level->faces), targets);
-      });
+  const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
+    const auto& [prim, materials, of_face] = looks.at(&item);
+    if (here == nullptr) {
+      return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets);
+    }
+    return UsdaPart(prim, here->topology, here->uvs, materials, at_rows(of_face, here->faces),
+                    targets);
+  };
+  using Form = DressedForm<UsdaTemplate, UsdaPart>;
+  MeshEncoders encoders;
+  for (const MeshLevel& level : source.levels) {
+    // A level of detail is coarse on purpose.
+    const Subdivision subdivision =
+        level.whole() ? source.config.output.subdivision : Subdivision::kNone;
+    encoders.push_back(
+        encoder_by(std::make_shared<const Form>(
+                       Form{UsdaTemplate(level.topology(inputs), level.uvs(inputs),
+                                         glb_options(source, level), subdivision),
+                            AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
+                   [](const Form& form, const FaceMesh& face) {
+                     return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves,
+                                             face.image_names, *face.points,
+                                             form.parts.placed<PlacedUsdaPart>(face.worn));
+                   }));
+  }
+  return encoders;
 }
 
 }  // namespace crowdface

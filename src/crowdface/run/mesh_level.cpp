@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/worn_level.h"
+#include "crowdface/run/mesh_level.h"
 
 #include <algorithm>
 #include <set>
@@ -25,24 +25,36 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
 
 }  // namespace
 
-const DetailLevel* WornLevel::find(const Attachment& item) const {
-  const auto found = items.find(&item);
-  return found == items.end() ? nullptr : &found->second;
+std::vector<const Attachment*> MeshLevel::items(const AttachmentSet& set) const {
+  std::vector<const Attachment*> items;
+  for (const Attachment& item : set.items) {
+    if (whole() || find(item) != nullptr) items.push_back(&item);
+  }
+  return items;
 }
 
-std::vector<WornAttachment> WornLevel::of(std::span<const WornAttachment> worn) const {
+const DetailLevel* MeshLevel::find(const Attachment& item) const {
+  const auto found = attachments.find(&item);
+  return found == attachments.end() ? nullptr : &found->second;
+}
+
+std::vector<WornAttachment> MeshLevel::of(std::span<const WornAttachment> worn) const {
   std::vector<WornAttachment> reduced;
   for (const WornAttachment& one : worn) {
-    const DetailLevel& level = items.at(one.item);
+    const DetailLevel& level = attachments.at(one.item);
     reduced.push_back({one.item, level.of(one.positions)});
     for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
   }
   return reduced;
 }
 
-std::vector<WornLevel> worn_levels(const Inputs& inputs, std::span<const CastFace> crowd) {
-  std::vector<WornLevel> levels(inputs.levels.size());
-  if (levels.empty()) return levels;
+std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const CastFace> crowd) {
+  std::vector<MeshLevel> levels(1 + inputs.levels.size());
+  if (inputs.levels.empty()) return levels;
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    levels[l].number = l;
+    levels[l].face = &inputs.levels[l - 1].level;
+  }
   std::set<std::string> names;
   for (const CastFace& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());
   std::vector<const Attachment*> items;
@@ -51,8 +63,8 @@ std::vector<WornLevel> worn_levels(const Inputs& inputs, std::span<const CastFac
   parallel_for_each(items.size(),
                     [&](std::size_t i) { of_items[i] = levels_of(*items[i], inputs.levels); });
   for (std::size_t i = 0; i < items.size(); ++i) {
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-      levels[l].items.emplace(items[i], std::move(of_items[i][l]));
+    for (std::size_t l = 1; l < levels.size(); ++l) {
+      levels[l].attachments.emplace(items[i], std::move(of_items[i][l - 1]));
     }
   }
   return levels;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/glb_attachments.h"
-
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -11,10 +10,15 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/io/glb_part.h"
+#include "crowdface/io/glb_template.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
+#include "crowdface/run/attachment_forms.h"
+#include "crowdface/run/glb_form.h"
+#include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
 namespace {
@@ -127,9 +131,8 @@ WornLook look_of(const Attachment& item) {
   return look;
 }
 
-/// \param level  null: whole.
-GlbPart worn_part(const Attachment& item, const WornLook& look, const Inputs& inputs,
-                  const DetailLevel* level) {
+GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inputs,
+                const DetailLevel* level) {
   const Grouped<Influence> influences = influences_of(item, inputs);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
@@ -149,14 +152,27 @@ GlbPart worn_part(const Attachment& item, const WornLook& look, const Inputs& in
 
 }  // namespace
 
-std::vector<GlbAttachments> glb_attachments(const Inputs& inputs,
-                                            std::span<const WornLevel> levels) {
+MeshEncoders glb_encoders(const MeshSource& source) {
+  const Inputs& inputs = source.inputs;
   std::map<const Attachment*, WornLook> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
-  return GlbAttachments::on_all(inputs.attachments, levels,
-                                [&](const Attachment& item, const DetailLevel* level) {
-                                  return worn_part(item, looks.at(&item), inputs, level);
-                                });
+  const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
+    return part_of(item, looks.at(&item), inputs, here);
+  };
+  using Form = DressedForm<GlbTemplate, GlbPart>;
+  MeshEncoders encoders;
+  for (const MeshLevel& level : source.levels) {
+    encoders.push_back(encoder_by(
+        std::make_shared<const Form>(
+            Form{GlbTemplate(level.topology(inputs), level.uvs(inputs), glb_options(source, level)),
+                 AttachmentForms<GlbPart>(inputs.attachments, level, make_part)}),
+        [](const Form& form, const FaceMesh& face) {
+          return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves, face.images,
+                                  *face.points, form.parts.placed<PlacedGlbPart>(face.worn),
+                                  *face.joints);
+        }));
+  }
+  return encoders;
 }
 
 }  // namespace crowdface

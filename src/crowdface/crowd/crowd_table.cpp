@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/crowd/crowd_table.h"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// A column of the table.
+struct TableColumn {
+  std::string name;
+  std::function<std::string(const CastFace& face)> value;
+  /// A crowd has the column if it applies to a face; none: every crowd has it.
+  std::function<bool(const CastFace& face)> applies = {};
+};
+using TableColumns = std::vector<TableColumn>;
+
+/// A field: between quotes if it needs them.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+/// "ann:0.4;bob:0.6".
+std::string weights_text(const std::vector<SourceWeight>& weights, const PlanNames& names) {
+  std::vector<std::string> parts;
+  for (const SourceWeight& source : weights) {
+    parts.push_back(concat(name_at(names.heads, source.head), ':', source.weight));
+  }
+  return join(parts, ";");
+}
+
+/// The columns of a region's band; empty where the face has no such band.
+void add_band(const std::string& start, std::size_t region, std::size_t band,
+              const PlanNames& names, TableColumns& columns) {
+  const auto add = [&](const char* name, const auto& value) {
+    columns.push_back({concat(start, '_', name), [=](const CastFace& face) -> std::string {
+                         const RegionRecipe& own = face.recipe.regions[region];
+                         return band < band_count(own) ? value(band_of(own, band)) : "";
+                       }});
+  };
+  const auto coordinate = [](int axis) {
+    return [=](const BandRecipe& own) {
+      return own.position ? format_number((*own.position)[axis]) : "";
+    };
+  };
+  add("position_x", coordinate(0));
+  add("position_y", coordinate(1));
+  add("weights", [&names](const BandRecipe& own) { return weights_text(own.weights, names); });
+  add("smoothness", [](const BandRecipe& own) { return format_number(own.smoothness); });
+  add("iterations", [](const BandRecipe& own) { return concat(own.iterations); });
+  add("extrapolation", [](const BandRecipe& own) { return format_number(own.extrapolation); });
+}
+
+/// A new column is a row here. \param names  must outlive the columns.
+TableColumns table_columns(const PlanNames& names) {
+  using Face = const CastFace&;
+  const auto is_mirrored = [](Face face) { return !is_unmirrored(face.recipe); };
+  const auto nearest = [](Face face) { return face.notes.nearest; };
+  TableColumns columns = {
+      {"id", [](Face face) { return face.id; }},
+      {"index", [](Face face) { return face.index ? concat(*face.index) : ""; }},
+      {"family", [](Face face) { return face.family.value_or(""); }},
+      {"target", [&names](Face face) { return name_at(names.heads, face.recipe.target); }}};
+  for (std::size_t r = 0; r < names.regions.size(); ++r) {
+    add_band(names.regions[r], r, 0, names, columns);
+  }
+  const TableColumns more = {
+      {"nearest_face",
+       [=, &names](Face face) {
+         return nearest(face) ? name_at(names.heads, nearest(face)->head) : "";
+       }},
+      {"nearest_face_mm",
+       [=](Face face) {
+         return nearest(face) ? format_number(rounded(nearest(face)->head_mm)) : "";
+       }},
+      {"nearest_crowd",
+       [=](Face face) { return nearest(face) ? nearest(face)->crowd.value_or("") : ""; }},
+      {"nearest_crowd_mm",
+       [=](Face face) {
+         return nearest(face) && nearest(face)->crowd
+                    ? format_number(rounded(nearest(face)->crowd_mm))
+                    : "";
+       }},
+      {"group", [](Face face) { return face.group.value_or(""); }},
+      {"mixture", [&names](Face face) { return weights_text(face.recipe.mixture, names); }}};
+  columns.insert(columns.end(), more.begin(), more.end());
+  for (std::size_t r = 0; r < names.regions.size(); ++r) {
+    for (std::size_t b = 1; b < names.bands.size(); ++b) {
+      add_band(concat(names.regions[r], '_', names.bands[b]), r, b, names, columns);
+    }
+  }
+  const TableColumns last = {
+      {"asymmetry", [](Face face) { return format_number(face.recipe.asymmetry); }, is_mirrored},
+      {"mirrored", [](Face face) { return face.recipe.mirrored ? "true" : "false"; }, is_mirrored},
+      {"attachments", [](Face face) { return join(face.attachments, ";"); },
+       [&names](Face) { return !names.attachments.empty(); }},
+      {"colours", [&names](Face face) { return weights_text(face.recipe.colours, names); },
+       [](Face face) { return !face.recipe.colours.empty(); }}};
+  columns.insert(columns.end(), last.begin(), last.end());
+  return columns;
+}
+
+template <class Text>
+std::string table_line(const TableColumns& columns, const Text& text) {
+  std::string line;
+  for (const TableColumn& column : columns) {
+    line += concat(&column == columns.data() ? "" : ",", csv_field(text(column)));
+  }
+  return line + "\r\n";
+}
+
+}  // namespace
+
+TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names) {
+  TableColumns columns = table_columns(names);
+  std::erase_if(columns, [&](const TableColumn& column) {
+    return column.applies && std::ranges::none_of(crowd, column.applies);
+  });
+  return [&crowd, columns = std::move(columns)](const TakePiece& take) {
+    take(table_line(columns, [](const TableColumn& column) { return column.name; }));
+    text_of_items(crowd.size(), [&](std::size_t i) {
+      return table_line(columns, [&](const TableColumn& column) { return column.value(crowd[i]); });
+    })(take);
+  };
+}
+
+}  // namespace crowdface

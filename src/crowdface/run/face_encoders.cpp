@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/face_encoders.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/io/npy.h"
+#include "crowdface/io/single_precision.h"
+#include "crowdface/io/usda_text.h"
+
+namespace crowdface {
+namespace {
+
+std::size_t normals_bytes(const Topology& topology) {
+  return static_cast<std::size_t>(topology.vertex_count + topology.face_count()) * 3 *
+         sizeof(double);
+}
+
+std::string in_shape(std::string what, const Inputs& inputs, ShapeNumber shape) {
+  return shape ? concat(what, ", ", inputs.shapes.shapes[*shape].name) : what;
+}
+
+std::vector<Index> targets_of(std::span<const CastFace> crowd) {
+  std::set<Index> targets;
+  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+  return {targets.begin(), targets.end()};
+}
+
+}  // namespace
+
+std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
+                                       const Inputs& inputs) {
+  const bool faces_have = any_format(formats, [](const MeshFormatTraits& format) {
+    return format.attachments == Beside::kOwnFiles && format.shapes == Beside::kOwnFiles;
+  });
+  if (item.moves != AttachmentMove::kBend || !faces_have) return {};
+  return inputs.shapes.shapes;
+}
+
+FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
+                           std::vector<MeshFormat> formats, std::span<const CastFace> crowd,
+                           const std::string& shared)
+    : config_(config),
+      inputs_(inputs),
+      formats_(std::move(formats)),
+      levels_(mesh_levels(inputs, crowd)) {
+  const std::vector<Index> targets = targets_of(crowd);
+  const MeshSource source{config, inputs, levels_, targets, shared};
+  bool need_normals = false;
+  for (const MeshFormat format : formats_) {
+    encoders_.emplace(format, make_mesh_encoders(format, source));
+    for (const MeshLevel& level : levels_) {
+      need_normals |= std::ranges::any_of(
+          targets, [&](Index target) { return needs_normals(format, level.number, target); });
+    }
+  }
+  if (any_format(formats_,
+                 [](const auto& format) { return format.attachments == Beside::kOwnFiles; })) {
+    for (const MeshLevel& level : levels_) {
+      attachments_.emplace_back(inputs.attachments, level,
+                                [&](const Attachment& item, const DetailLevel* here) {
+                                  return obj_attachment(item, here, shared);
+                                });
+    }
+  }
+  if (has_own_textures(inputs)) own_.emplace(config, inputs, crowd, shared);
+  if (need_normals) fans_.emplace(inputs.faces.topology);
+  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_vertices(inputs));
+  if (!inputs.rig.empty() && encoders_.contains(MeshFormat::kGlb))
+    joints_.emplace(inputs.rig.points, inputs.parts, skin_vertices(inputs));
+}
+
+bool FaceEncoders::holds_shapes() const {
+  return !inputs_.shapes.shapes.empty() &&
+         any_format(formats_, [](const auto& format) { return format.shapes != Beside::kNowhere; });
+}
+
+bool FaceEncoders::needs_normals(MeshFormat format, std::size_t level, Index target) const {
+  switch (traits_of(format).normals) {
+    case FileNormals::kNone:
+      return false;
+    case FileNormals::kOnLevels:
+      return level > 0;
+    case FileNormals::kLikeTarget:
+      return has_normals(inputs_, target);
+    case FileNormals::kAlways:
+      break;
+  }
+  return true;
+}
+
+void FaceEncoders::prepare(FinishedFace& face) const {
+  face.encoders = this;
+  const Index target = face.face.recipe.target;
+  const bool need_normals = std::ranges::any_of(formats_, [&](MeshFormat format) {
+    return needs_normals(format, levels_.size() - 1, target);
+  });
+  if (need_normals) face.normals = vertex_normals(*fans_, inputs_.faces.topology, face.positions);
+  if (points_) face.points = points_->carry(target, face.positions);
+  if (joints_) face.joints = joints_->carry(target, face.positions);
+  if (holds_textures()) face.images = own_->of_mesh(*face.textures);
+  face.image_names = own_texture_names(config_, inputs_, face.face.id);
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    face.meshes.push_back(mesh_on(level, face));
+  }
+}
+
+FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
+  const std::string id = face.face.id + suffix_of(level, "_");
+  FaceMesh mesh{.id = id,
+                .what = id,
+                .target = face.face.recipe.target,
+                .positions = &face.positions,
+                .normals = &face.normals,
+                .moves = face.moves,
+                .worn = face.worn,
+                .joints = &face.joints,
+                .images = face.images,
+                .image_names = face.image_names};
+  if (own_) mesh.material_file = material_file_name(face.face.id);
+  if (level == 0) {
+    mesh.points = &face.points;
+    return mesh;
+  }
+  const DetailLevel& detail = *levels_[level].face;
+  FinishedFace::Reduced& reduced = face.reduced.emplace_back();
+  reduced.positions = detail.of(face.positions);
+  if (face.normals.rows() > 0) reduced.normals = detail.of(face.normals);
+  for (const Displacements& shape : face.moves) reduced.moves.push_back(detail.of(shape));
+  reduced.worn = levels_[level].of(face.worn);
+  mesh.positions = &reduced.positions;
+  mesh.normals = &reduced.normals;
+  mesh.moves = reduced.moves;
+  mesh.worn = reduced.worn;
+  return mesh;
+}
+
+EncodedFile FaceEncoders::mesh(const FinishedFace& face, MeshFormat format, std::size_t level,
+                               ShapeNumber shape) const {
+  const MeshEncoder& encoder = encoders_.at(format)[level];
+  if (!shape) return encoder.encode(face.meshes[level]);
+  FaceMesh acting = face.meshes[level];
+  acting.what = in_shape(acting.id, inputs_, shape);
+  Positions positions = face.positions, normals;
+  face.moves[*shape].add_to(positions);
+  if (needs_normals(format, level, acting.target)) {
+    normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
+    if (level > 0) normals = levels_[level].face->of(normals);
+  }
+  if (level > 0) positions = levels_[level].face->of(positions);
+  acting.positions = &positions;
+  acting.normals = &normals;
+  return encoder.encode(acting);
+}
+
+EncodedFile FaceEncoders::attachment(const FinishedFace& face, const std::string& name,
+                                     std::size_t level, ShapeNumber shape) const {
+  const std::span<const WornAttachment> worn = face.meshes[level].worn;
+  const auto one = std::ranges::find(worn, name, [](const auto& item) { return item.item->name; });
+  FaceMesh mesh{.id = concat(face.face.id, '_', name, suffix_of(level, "_")),
+                .what = {},
+                .positions = &one->positions};
+  mesh.what = in_shape(mesh.id, inputs_, shape);
+  Positions acting;
+  if (shape) {
+    acting = one->positions;
+    one->moves[*shape].add_to(acting);
+    mesh.positions = &acting;
+  }
+  return attachments_[level].at(*one->item).encode(mesh);
+}
+
+EncodedFile FaceEncoders::points(const FinishedFace& face) const {
+  const std::vector<std::string>& names = inputs_.points.names;
+  require_finite(face.points, static_cast<Index>(names.size()), face.face.id);
+  std::string text = concat("{\n  \"face\": \"", face.face.id, "\",\n  \"points\": {\n");
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    std::string row = usda_rows(face.points.row(static_cast<Index>(p)));
+    row.front() = '[';
+    row.back() = ']';
+    text += concat("    \"", names[p], "\": ", row, p + 1 < names.size() ? ",\n" : "\n");
+  }
+  return {text + "  }\n}\n"};
+}
+
+std::size_t FaceEncoders::memory_bytes() const {
+  std::size_t bytes = fans_ ? fans_->memory_bytes() : 0;
+  for (const auto& [format, encoders] : encoders_) {
+    for (const MeshEncoder& encoder : encoders) bytes += encoder.memory_bytes;
+  }
+  for (const auto& forms : attachments_) bytes += forms.memory_bytes();
+  return bytes;
+}
+
+std::size_t FaceEncoders::encode_bytes() const {
+  const std::size_t shapes = inputs_.shapes.shapes.size();
+  std::size_t bytes = (holds_shapes() ? 2 * displacement_bytes(inputs_.shapes) : 0) +
+                      (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
+  for (const auto& [format, encoders] : encoders_) {
+    const bool has_own_files = traits_of(format).shapes == Beside::kOwnFiles;
+    for (const MeshEncoder& encoder : encoders) {
+      bytes += (has_own_files ? 1 + shapes : 1) * encoder.encode_bytes;
+    }
+  }
+  for (const auto& forms : attachments_) {
+    bytes += forms.encode_bytes([&](const Attachment& item) {
+      return 1 + shapes_in_files(item, formats_, inputs_).size();
+    });
+  }
+  for (const MeshLevel& level : levels_) {
+    if (!level.whole()) bytes += level.face->vertices.size() * 2 * 3 * sizeof(double);
+  }
+  return bytes + (own_ ? own_->encode_bytes() : 0);
+}
+
+}  // namespace crowdface

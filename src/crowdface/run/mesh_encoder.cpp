@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/mesh_encoder.h"
+
+#include <array>
+
+#include "crowdface/io/npy.h"
+#include "crowdface/io/ply_template.h"
+
+namespace crowdface {
+namespace {
+
+/// How a format is encoded.
+struct MeshEncoding {
+  MeshFormat format;
+  MeshEncoders (*make)(const MeshSource& source);
+  /// About how many bytes the face's own file and those of its shapes have.
+  std::uint64_t (*estimate)(const MeshSize& size);
+};
+
+constexpr std::uint64_t kVector = 3 * sizeof(float);
+
+constexpr std::array<MeshEncoding, kMeshFormats> kEncodings = {{
+    {MeshFormat::kObj, obj_encoders,
+     [](const MeshSize& size) { return size.obj_bytes * (1 + size.shapes); }},
+    {MeshFormat::kPly, ply_encoders,
+     [](const MeshSize& size) {
+       return kVector * size.vertices + size.faces + sizeof(std::uint32_t) * size.corners;
+     }},
+    {MeshFormat::kGlb, glb_encoders,  // positions, normals, texture coordinates, ids; triangles
+     [](const MeshSize& size) {
+       return 3 * kVector * size.vertices + kVector * (size.corners - 2 * size.faces) +
+              (kVector + sizeof(std::uint32_t)) * size.moved;
+     }},
+    {MeshFormat::kPoints, npy_encoders,
+     [](const MeshSize& size) {
+       return kVector * size.vertices + (kVector + 2 * sizeof(std::uint32_t)) * size.moved;
+     }},
+    {MeshFormat::kUsd, usd_encoders,  // a number takes some ten characters, an index six
+     [](const MeshSize& size) {
+       return 10 * (6 * size.vertices + 2 * size.uvs) + 12 * size.corners + 36 * size.moved;
+     }},
+}};
+
+constexpr bool encodings_are_in_order() {
+  for (std::size_t f = 0; f < kEncodings.size(); ++f) {
+    if (kEncodings[f].format != static_cast<MeshFormat>(f) || kEncodings[f].make == nullptr) {
+      return false;
+    }
+  }
+  return true;
+}
+static_assert(encodings_are_in_order(), "every MeshFormat has its row, in the enumeration's order");
+
+}  // namespace
+
+MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source) {
+  return kEncodings[static_cast<std::size_t>(format)].make(source);
+}
+
+MeshEncoders ply_encoders(const MeshSource& source) {
+  MeshEncoders encoders;
+  for (const MeshLevel& level : source.levels) {
+    encoders.push_back(encoder_by(
+        std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
+        [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
+          const bool with_normals = has_normals(inputs, face.target);
+          return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows, face.what);
+        }));
+  }
+  return encoders;
+}
+
+MeshEncoders npy_encoders(const MeshSource& source) {
+  return {{[](const FaceMesh& face) { return encode_npy(*face.positions, face.what); }, 0,
+           npy_encode_bytes(source.inputs.faces.topology.vertex_count)}};
+}
+
+std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats) {
+  const Topology& topology = inputs.faces.topology;
+  MeshSize size{.vertices = static_cast<std::uint64_t>(topology.vertex_count),
+                .faces = static_cast<std::uint64_t>(topology.face_count()),
+                .corners = static_cast<std::uint64_t>(topology.corner_count()),
+                .uvs = static_cast<std::uint64_t>(inputs.faces.uvs.rows()),
+                .shapes = inputs.shapes.shapes.size()};
+  double levels = 1;
+  for (const MeasuredLevel& level : inputs.levels) levels += level.level.share;
+  for (const Shape& shape : inputs.shapes.shapes) size.moved += shape.moves.vertices.size();
+  for (const ObjFile& file : inputs.files) size.obj_bytes += file.file.bytes().size();
+  size.obj_bytes /= inputs.files.size();
+  std::uint64_t bytes = 0;
+  for (const MeshFormat format : formats) {
+    bytes += kEncodings[static_cast<std::size_t>(format)].estimate(size);
+  }
+  return static_cast<std::uint64_t>(levels * static_cast<double>(bytes));
+}
+
+}  // namespace crowdface

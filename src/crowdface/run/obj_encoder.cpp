@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/io/obj_template.h"
+#include "crowdface/io/plain_obj_template.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/run/mesh_encoder.h"
+
+namespace crowdface {
+
+namespace {
+
+/// The materials of a level's faces, runs of one after the other, as face_materials has them of the whole mesh.
+std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
+                                           const DetailLevel& level) {
+  const FaceMaterials materials = face_materials(file.materials, faces);
+  std::vector<MaterialRange> ranges;
+  for (std::size_t t = 0; t < level.faces.size(); ++t) {
+    const std::string& name = materials.names[materials.of_face[level.faces[t]]];
+    if (name.empty() || (!ranges.empty() && ranges.back().name == name)) continue;
+    ranges.push_back({name, static_cast<Index>(t)});
+  }
+  return ranges;
+}
+
+bool is_same(const MaterialRange& a, const MaterialRange& b) {
+  return a.name == b.name && a.first_face == b.first_face;
+}
+
+/// The `mtllib` line that names material files; nothing if there are none.
+/// \param from  where their places are relative to.
+std::string library_line(const std::vector<MaterialFile>& files,
+                         const std::filesystem::path& from) {
+  std::string line;
+  for (const MaterialFile& file : files) {
+    if (!file.is_library) continue;
+    line += concat(line.empty() ? "mtllib " : " ", (from / file.relative).generic_string());
+  }
+  return line;
+}
+
+/// What several forms take, and what the largest takes to encode.
+template <class Forms, class FormOf>
+std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
+  std::size_t memory = 0, encode = 0;
+  for (const auto& each : forms) {
+    memory += form_of(each).memory_bytes();
+    encode = std::max(encode, form_of(each).encode_bytes());
+  }
+  return {memory, encode};
+}
+
+/// The `mtllib` lines that take the place of the targets' own where material files lie elsewhere.
+std::map<Index, std::string> shared_libraries(const MeshSource& source) {
+  std::map<Index, std::string> lines;
+  if (source.shared.empty()) return lines;
+  for (const Index target : source.targets) {
+    const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
+    lines[target] =
+        library_line(find_material_files(file.path, file.material_libraries).files, source.shared);
+  }
+  return lines;
+}
+
+/// The targets' own files with other positions.
+MeshEncoder whole_encoder(const MeshSource& source) {
+  const std::span<const Index> targets = source.targets;
+  std::vector<std::optional<ObjTemplate>> made(targets.size());
+  parallel_for_each(targets.size(), [&](std::size_t t) {
+    made[t].emplace(source.inputs.files[static_cast<std::size_t>(targets[t])],
+                    source.inputs.faces.topology);
+  });
+  const auto forms = std::make_shared<std::map<Index, ObjTemplate>>();
+  for (std::size_t t = 0; t < targets.size(); ++t) forms->emplace(targets[t], std::move(*made[t]));
+  const auto [memory, encode] = sizes_of(
+      *forms, [](const auto& each) -> auto& { return each.second; });
+  return {[forms](const FaceMesh& face) {
+            return forms->at(face.target).encode(*face.positions, face.what);
+          },
+          memory, encode};
+}
+
+/// Plain files on a level of detail; targets whose materials are the same share one form.
+MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
+  struct Forms {
+    std::vector<PlainObjTemplate> obj;
+    std::map<Index, std::size_t> of_target;  ///< rows of `obj`
+  };
+  const Inputs& inputs = source.inputs;
+  const auto forms = std::make_shared<Forms>();
+  std::vector<std::vector<MaterialRange>> known;
+  for (const Index target : source.targets) {
+    const std::vector<MaterialRange> ranges = material_ranges(
+        inputs.files[static_cast<std::size_t>(target)], inputs.faces.topology.face_count(), level);
+    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& others) {
+      return std::equal(others.begin(), others.end(), ranges.begin(), ranges.end(), is_same);
+    });
+    forms->of_target[target] = static_cast<std::size_t>(same - known.begin());
+    if (same != known.end()) continue;
+    known.push_back(ranges);
+    forms->obj.emplace_back(level.topology, level.uvs, ranges, PlainObjTemplate::Normals::kVertex);
+  }
+  const auto [memory, encode] = sizes_of(
+      forms->obj, [](const auto& each) -> auto& { return each; });
+  return {[forms, &inputs](const FaceMesh& face) {
+            std::string head;
+            for (const std::string& library :
+                 inputs.files[static_cast<std::size_t>(face.target)].material_libraries) {
+              head += concat("mtllib ", library, '\n');
+            }
+            return forms->obj[forms->of_target.at(face.target)].encode(
+                concat(head, "o ", face.id, '\n'), *face.positions, *face.normals, face.what);
+          },
+          memory, encode};
+}
+
+}  // namespace
+
+MeshEncoders obj_encoders(const MeshSource& source) {
+  MeshEncoders encoders;
+  for (const MeshLevel& level : source.levels) {
+    MeshEncoder encoder =
+        level.whole() ? whole_encoder(source) : level_encoder(source, *level.face);
+    encoder.encode = [encode = std::move(encoder.encode),
+                      shared = shared_libraries(source)](const FaceMesh& face) {
+      EncodedFile file = encode(face);
+      const auto other = shared.find(face.target);
+      if (!face.material_file.empty()) {
+        file.replace_line("mtllib", concat("mtllib ", face.material_file));
+      } else if (other != shared.end() && !other->second.empty()) {
+        file.replace_line("mtllib", other->second);
+      }
+      return file;
+    };
+    encoders.push_back(std::move(encoder));
+  }
+  return encoders;
+}
+
+MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
+                           const std::string& shared) {
+  const std::string libraries = library_line(
+      item.materials.files, std::filesystem::path(shared) / attachment_folder(item.name));
+  if (level == nullptr) {
+    return encoder_by(std::make_shared<const ObjTemplate>(item.file, item.file.topology),
+                      [libraries](const ObjTemplate& obj, const FaceMesh& mesh) {
+                        EncodedFile file = obj.encode(*mesh.positions, mesh.what);
+                        if (!libraries.empty()) file.replace_line("mtllib", libraries);
+                        return file;
+                      });
+  }
+  using Normals = PlainObjTemplate::Normals;
+  std::shared_ptr<const NormalFans> fans;
+  if (!item.file.corner_normals.empty()) fans = std::make_shared<NormalFans>(level->topology);
+  return encoder_by(std::make_shared<const PlainObjTemplate>(
+                        level->topology, level->uvs,
+                        material_ranges(item.file, item.file.topology.face_count(), *level),
+                        fans ? Normals::kVertex : Normals::kNone),
+                    [=](const PlainObjTemplate& obj, const FaceMesh& mesh) {
+                      Positions normals;
+                      if (fans) normals = vertex_normals(*fans, level->topology, *mesh.positions);
+                      return obj.encode(
+                          concat(libraries, libraries.empty() ? "" : "\n", "o ", mesh.id, '\n'),
+                          *mesh.positions, normals, mesh.what);
+                    });
+}
+
+}  // namespace crowdface
