@@ -268,16 +268,6 @@ fs::path CrowdDirectory::folder_of(std::string_view id) const {
   return zero_padded(parse_unsigned(digits).value_or(0) / faces_per_folder, 3);
 }
 
-std::vector<const CastFace*> one_of_each_folder(const CrowdDirectory& directory,
-                                                std::span<const CastFace* const> faces) {
-  std::set<fs::path> known;
-  std::vector<const CastFace*> some;
-  for (const CastFace* face : faces) {
-    if (known.insert(directory.folder_of(face->id)).second) some.push_back(face);
-  }
-  return some;
-}
-
 std::vector<fs::path> with_numbered_folders(const fs::path& folder) {
   std::vector<fs::path> folders = list_files(folder, [](const fs::path& path) {
     return path.filename().string().find_first_not_of("0123456789") == std::string::npos &&

@@ -6,12 +6,10 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/io/material_files.h"
@@ -77,9 +75,6 @@ struct CrowdDirectory {
   std::filesystem::path topology() const { return meshes() / "topology"; }
   /// Where a face's meshes lie, and below them its textures, which its material file names.
   std::filesystem::path meshes_of(const std::string& id) const { return meshes() / folder_of(id); }
-  std::filesystem::path blended_of(const std::string& id) const {
-    return meshes_of(id) / kBlendedFolder;
-  }
   /// The way from a face's meshes to what all share, material files, say: "..", or nothing.
   std::string shared_from_mesh() const { return faces_per_folder > 0 ? ".." : ""; }
   std::filesystem::path render(const std::string& id) const {
@@ -114,10 +109,6 @@ struct CrowdDirectory {
   /// "012": the subfolder of a face by the number that its id ends with; empty: there are none.
   std::filesystem::path folder_of(std::string_view id) const;
 };
-
-/// A face in each of the subfolders that these faces lie in, or one if there are none.
-std::vector<const CastFace*> one_of_each_folder(const CrowdDirectory& directory,
-                                                std::span<const CastFace* const> faces);
 
 /// A folder and its numbered subfolders, which are there.
 std::vector<std::filesystem::path> with_numbered_folders(const std::filesystem::path& folder);

@@ -67,7 +67,6 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
 TableColumns table_columns(const PlanNames& names) {
   using Face = const CastFace&;
   const auto is_mirrored = [](Face face) { return !is_unmirrored(face.recipe); };
-  const auto nearest = [](Face face) { return face.notes.nearest; };
   TableColumns columns = {
       {"id", [](Face face) { return face.id; }},
       {"index", [](Face face) { return face.index ? concat(*face.index) : ""; }},
@@ -76,23 +75,19 @@ TableColumns table_columns(const PlanNames& names) {
   for (std::size_t r = 0; r < names.regions.size(); ++r) {
     add_band(names.regions[r], r, 0, names, columns);
   }
+  const auto nearest = [](const auto& text) {
+    return
+        [=](Face face) { return face.notes.nearest ? text(*face.notes.nearest) : std::string(); };
+  };
   const TableColumns more = {
       {"nearest_face",
-       [=, &names](Face face) {
-         return nearest(face) ? name_at(names.heads, nearest(face)->head) : "";
-       }},
+       nearest([&names](const Nearest& near) { return name_at(names.heads, near.head); })},
       {"nearest_face_mm",
-       [=](Face face) {
-         return nearest(face) ? format_number(rounded(nearest(face)->head_mm)) : "";
-       }},
-      {"nearest_crowd",
-       [=](Face face) { return nearest(face) ? nearest(face)->crowd.value_or("") : ""; }},
-      {"nearest_crowd_mm",
-       [=](Face face) {
-         return nearest(face) && nearest(face)->crowd
-                    ? format_number(rounded(nearest(face)->crowd_mm))
-                    : "";
-       }},
+       nearest([](const Nearest& near) { return format_number(rounded(near.head_mm)); })},
+      {"nearest_crowd", nearest([](const Nearest& near) { return near.crowd.value_or(""); })},
+      {"nearest_crowd_mm", nearest([](const Nearest& near) {
+         return near.crowd ? format_number(rounded(near.crowd_mm)) : "";
+       })},
       {"group", [](Face face) { return face.group.value_or(""); }},
       {"mixture", [&names](Face face) { return weights_text(face.recipe.mixture, names); }}};
   columns.insert(columns.end(), more.begin(), more.end());

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The positions of a face of this crowd, from whichever of the formats it was written in.
-/// \throws MissingInput if `formats` is empty or the file is not there; InvalidInput if it is not
+/// The positions of a face of this crowd, from the first of its formats that can be read back.
+/// \throws MissingInput if there is no such format or the file is not there; InvalidInput if it is not
 ///         one of this crowd.
 Positions read_face(const CrowdDirectory& directory, const std::string& id,
                     const std::vector<MeshFormat>& formats, Index vertices);

@@ -48,7 +48,8 @@ struct MeshFormatTraits {
   bool has_material_file;  ///< names an MTL file
   FileNormals normals;
   Beside shapes, attachments, textures;
-  /// Reads the positions of a face's file back. \throws InvalidInput if another program wrote the file.
+  /// Reads the positions of a face's file back; null: the format does not keep the order of the vertices.
+  /// \throws InvalidInput if another program wrote the file.
   Positions (*read)(const std::filesystem::path& file, Index vertices);
 };
 

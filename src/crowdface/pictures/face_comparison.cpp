@@ -30,7 +30,8 @@ bool is_surely_there(const std::filesystem::path& path) {
 /// In which format a crowd has a face. \throws MissingInput if in none.
 MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
   for (const MeshFormat format : all_mesh_formats()) {
-    if (is_surely_there(directory.mesh(id, format))) return format;
+    const bool is_read = traits_of(format).read != nullptr;
+    if (is_read && is_surely_there(directory.mesh(id, format))) return format;
   }
   throw MissingInput(
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));

@@ -2,6 +2,7 @@
 #include "crowdface/run/face_files.h"
 
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "crowdface/core/text.h"
@@ -169,7 +170,9 @@ std::vector<FaceFile> FaceFileLists::of(const CastFace& face) const {
 }
 
 void FaceFileLists::make_folders(std::span<const CastFace* const> faces) const {
-  for (const CastFace* face : one_of_each_folder(directory_, faces)) {
+  std::set<fs::path> made;
+  for (const CastFace* face : faces) {
+    if (!made.insert(directory_.folder_of(face->id)).second) continue;
     for (const FaceFile& file : of(*face)) make_directories(file.path.parent_path());
   }
 }

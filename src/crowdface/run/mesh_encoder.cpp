@@ -3,11 +3,43 @@
 
 #include <array>
 
+#include "crowdface/core/file.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/ply_template.h"
+#include "crowdface/run/glb_form.h"
 
 namespace crowdface {
 namespace {
+
+/// What positions alone do not say.
+std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) {
+  const TextureCoordinates& uvs = inputs.faces.uvs;
+  Hasher key;
+  key.add(inputs.topology_digest)
+      .add_array(std::span(inputs.faces.topology.corner_uvs))
+      .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
+  std::vector<std::string> shapes;
+  for (const Shape& shape : inputs.shapes.shapes) shapes.push_back(shape.name);
+  for (const std::string& shape : shapes) key.add(shape);
+  return SharedFiles{"topology", key.digest(), false,
+                     [&inputs, shapes](const std::filesystem::path& folder) {
+                       return write_topology_arrays(inputs.faces.topology, inputs.faces.uvs, shapes,
+                                                    folder / "topology");
+                     }};
+}
+
+/// The eyes' iris, for files that do not bring it along.
+std::optional<SharedFiles> iris_file(const Config& config, const Inputs& inputs) {
+  const GlbOptions options = glb_options(config, inputs);
+  if (!options.overlay) return std::nullopt;
+  return SharedFiles{"iris", Hasher().add(options.overlay->png).digest(), true,
+                     [png = options.overlay->png](const std::filesystem::path& folder) {
+                       std::filesystem::path file = folder / GlbOverlay::kFile;
+                       make_directories(file.parent_path());
+                       write_file(file, png);
+                       return std::vector{std::move(file)};
+                     }};
+}
 
 /// How a format is encoded.
 struct MeshEncoding {
@@ -15,6 +47,7 @@ struct MeshEncoding {
   MeshEncoders (*make)(const MeshSource& source);
   /// About how many bytes the face's own file and those of its shapes have.
   std::uint64_t (*estimate)(const MeshSize& size);
+  std::optional<SharedFiles> (*shared)(const Config& config, const Inputs& inputs) = nullptr;
 };
 
 constexpr std::uint64_t kVector = 3 * sizeof(float);
@@ -34,11 +67,13 @@ constexpr std::array<MeshEncoding, kMeshFormats> kEncodings = {{
     {MeshFormat::kPoints, npy_encoders,
      [](const MeshSize& size) {
        return kVector * size.vertices + (kVector + 2 * sizeof(std::uint32_t)) * size.moved;
-     }},
+     },
+     topology_arrays},
     {MeshFormat::kUsd, usd_encoders,  // a number takes some ten characters, an index six
      [](const MeshSize& size) {
        return 10 * (6 * size.vertices + 2 * size.uvs) + 12 * size.corners + 36 * size.moved;
-     }},
+     },
+     iris_file},
 }};
 
 constexpr bool encodings_are_in_order() {
@@ -55,6 +90,12 @@ static_assert(encodings_are_in_order(), "every MeshFormat has its row, in the en
 
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source) {
   return kEncodings[static_cast<std::size_t>(format)].make(source);
+}
+
+std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
+                                        const Inputs& inputs) {
+  const MeshEncoding& encoding = kEncodings[static_cast<std::size_t>(format)];
+  return encoding.shared == nullptr ? std::nullopt : encoding.shared(config, inputs);
 }
 
 MeshEncoders ply_encoders(const MeshSource& source) {

@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -72,6 +74,18 @@ MeshEncoder encoder_by(std::shared_ptr<const Form> form, const Encode& encode) {
 
 /// \throws InvalidInput if the format cannot hold such a mesh.
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
+
+/// Files that all faces of a crowd share beside their files in one format.
+struct SharedFiles {
+  std::string item;       ///< of the ledger
+  Digest key;             ///< of all that determines them
+  bool is_named = false;  ///< whether a face's file names them
+  /// Writes them below the folder of meshes. \return the files.
+  std::function<std::vector<std::filesystem::path>(const std::filesystem::path& folder)> write;
+};
+/// None if the format needs none.
+std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
+                                        const Inputs& inputs);
 
 /// An attachment in an OBJ file of its own: its own file with other positions and the place of its materials, on a
 /// level of detail a plain one. \param item, level  must outlive the encoder; no level: whole.

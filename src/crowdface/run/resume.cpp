@@ -2,58 +2,18 @@
 #include "crowdface/run/resume.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "crowdface/core/append_file.h"
-#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/npy.h"
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-void write_shared_arrays(const Inputs& inputs, const CrowdDirectory& directory, Ledger& ledger) {
-  constexpr const char* kItem = "topology";
-  const TextureCoordinates& uvs = inputs.faces.uvs;
-  Hasher key;
-  key.add(inputs.topology_digest)
-      .add_array(std::span(inputs.faces.topology.corner_uvs))
-      .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
-  std::vector<std::string> shapes;
-  for (const Shape& shape : inputs.shapes.shapes) shapes.push_back(shape.name);
-  for (const std::string& shape : shapes) key.add(shape);
-  if (ledger.proven(kItem, key.digest())) return;
-  std::vector<std::string> names;
-  for (const fs::path& file :
-       write_topology_arrays(inputs.faces.topology, uvs, shapes, directory.topology())) {
-    names.push_back(directory.relative(file));
-  }
-  ledger.record(kItem, key.digest(), names);
-}
-
-/// The eyes' iris, for files that do not bring it along.
-void write_iris(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
-                Ledger& ledger) {
-  constexpr const char* kItem = "iris";
-  const GlbOptions options = glb_options(config, inputs);
-  if (!options.overlay) return;
-  const Digest key = Hasher().add(options.overlay->png).digest();
-  if (ledger.proven(kItem, key)) return;
-  const fs::path file = directory.meshes() / GlbOverlay::kFile;
-  make_directories(file.parent_path());
-  write_file(file, options.overlay->png);
-  ledger.record(kItem, key, std::vector{directory.relative(file)});
-}
-
-}  // namespace
 
 FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
                            const Shard& shard, const std::function<void()>& asked) {
@@ -96,9 +56,15 @@ void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<Cas
 
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger) {
-  const std::vector<MeshFormat>& formats = config.output.meshes;
-  if (contains(formats, MeshFormat::kPoints)) write_shared_arrays(inputs, directory, ledger);
-  if (contains(formats, MeshFormat::kUsd)) write_iris(config, inputs, directory, ledger);
+  for (const MeshFormat format : config.output.meshes) {
+    const auto shared = shared_files(format, config, inputs);
+    if (!shared || ledger.proven(shared->item, shared->key)) continue;
+    std::vector<std::string> names;
+    for (const fs::path& file : shared->write(directory.meshes())) {
+      names.push_back(directory.relative(file));
+    }
+    ledger.record(shared->item, shared->key, names);
+  }
 }
 
 std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const Shard& shard) {

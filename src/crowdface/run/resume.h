@@ -27,7 +27,7 @@ FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
                           const std::vector<std::size_t>& todo);
 
-/// Writes the arrays and the picture beside all faces, if a format needs them and they are not there.
+/// Writes the files that all faces share, if a format needs some and they are not there.
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger);
 

@@ -10,7 +10,6 @@
 #include "crowdface/run/face_encoders.h"
 #include "crowdface/run/face_files.h"
 #include "crowdface/run/face_finisher.h"
-#include "crowdface/run/glb_form.h"
 
 namespace crowdface {
 
@@ -29,16 +28,6 @@ void write_attachment_materials(const Job& job, const CastFace& face, const fs::
   }
 }
 
-/// The eyes' iris, which a USD layer names beside itself.
-void write_iris(const Job& job, MeshFormat format, const fs::path& folder) {
-  if (format != MeshFormat::kUsd) return;
-  const GlbOptions options = glb_options(job.config, job.inputs);
-  if (!options.overlay) return;
-  const fs::path file = folder / GlbOverlay::kFile;
-  make_directories(file.parent_path());
-  write_file(file, options.overlay->png);
-}
-
 }  // namespace
 
 void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
@@ -52,7 +41,8 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
   FaceFinisher{textures, attachments, shapes, &encoders}.finish(finished, busy);
   const fs::path folder = file.parent_path();
   if (names_attachment_textures(traits_of(format))) write_attachment_materials(job, face, folder);
-  write_iris(job, format, folder);
+  const auto shared = shared_files(format, job.config, job.inputs);
+  if (shared && shared->is_named) shared->write(folder);
   const std::vector<FaceFile> files = mesh_files(
       job.config, job.inputs, face,
       {.formats = formats, .folder = folder, .stem = file.stem().string(), .all = false});
