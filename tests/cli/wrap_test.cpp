@@ -96,7 +96,7 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   crowdface(64, {"wrap", "--batch", scans_.string(), "-o", out.string()}, {"--template"});
   auto units = single(landmarks_, out);
   units.insert(units.end(), {"--scan-units", "furlong"});
-  crowdface(64, units, {"furlong", "mm, cm, m or in"});
+  crowdface(64, units, {"furlong", "mm, cm, m, in, or a length"});
   EXPECT_FALSE(fs::exists(out));
 }
 

@@ -183,15 +183,17 @@ TEST(GltfRig, BrokenScenesAreRefused) {
   };
   const auto scene = [](const std::string& nodes, const std::string& more) {
     return R"({"nodes":[)" + nodes + R"(],"skins":[{"joints":[0]}],"meshes":[{"primitives":[)" +
-           R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],"bufferViews":[{},)" +
-           R"({"byteOffset":12},{"byteOffset":16},{"byteStride":0}],"accessors":[)" + more + "]}";
+           R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],"buffers":[{"byteLength":48}],)" +
+           R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":12,"byteLength":36},)" +
+           R"({"buffer":0,"byteOffset":16,"byteLength":32},{"buffer":0,"byteLength":48,"byteStride":0}],)" +
+           R"("accessors":[)" + more + "]}";
   };
   const std::string position = R"({"bufferView":0,"componentType":5126,"count":1})";
   const std::string weights = R"(,{"bufferView":2,"componentType":5126,"count":1})";
   refuse(scene(R"({},{"children":[2]},{"children":[1],"mesh":0})", position), {"in a circle"});
   refuse(scene(R"({"matrix":[1,0,0]})", position), {"numbers that it does not have"});
   refuse(scene(R"({},{"mesh":0,"skin":0})", R"({"bufferView":3,"componentType":5126,"count":40})"),
-         {"accessor 0", "outside"});
+         {"accessor 0", "beyond its data"});
   refuse(scene(R"({},{"mesh":0,"skin":0})",
                position + R"(,{"bufferView":1,"componentType":5126,"count":1})" + weights),
          {"accessor 1", "expected whole numbers"});

@@ -164,7 +164,8 @@ MeshEncoders glb_encoders(const MeshSource& source) {
   for (const MeshLevel& level : source.levels) {
     encoders.push_back(encoder_by(
         std::make_shared<const Form>(
-            Form{GlbTemplate(level.topology(inputs), level.uvs(inputs), glb_options(source, level)),
+            Form{GlbTemplate(level.topology(inputs), level.uvs(inputs),
+                             glb_options(source.config, inputs, source.shared, level)),
                  AttachmentForms<GlbPart>(inputs.attachments, level, make_part)}),
         [](const Form& form, const FaceMesh& face) {
           return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves, face.images,

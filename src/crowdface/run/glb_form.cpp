@@ -15,7 +15,6 @@
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
-#include "crowdface/run/mesh_level.h"
 #include "crowdface/run/own_textures.h"
 
 namespace crowdface {
@@ -153,13 +152,14 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   return options;
 }
 
-GlbOptions glb_options(const MeshSource& source, const MeshLevel& level) {
-  GlbOptions options = glb_options(source.config, source.inputs, source.shared);
+GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared,
+                       const MeshLevel& level) {
+  GlbOptions options = glb_options(config, inputs, shared);
   if (level.whole()) return options;
   const DetailLevel& detail = *level.face;
   options.face_materials = at_rows(options.face_materials, detail.faces);
   for (std::size_t t = 0; t < options.targets.size(); ++t) {
-    options.targets[t].vertices = detail.of(source.inputs.shapes.shapes[t].moves).vertices;
+    options.targets[t].vertices = detail.of(inputs.shapes.shapes[t].moves).vertices;
   }
   if (options.overlay) options.overlay->places = at_rows(options.overlay->places, detail.vertices);
   options.skin.influences = at_rows(options.skin.influences, detail.vertices);

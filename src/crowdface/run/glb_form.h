@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/io/glb_template.h"
-#include "crowdface/run/mesh_encoder.h"
+#include "crowdface/run/mesh_level.h"
 
 namespace crowdface {
 
@@ -13,6 +15,7 @@ namespace crowdface {
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared = {});
 
 /// The same on a level.
-GlbOptions glb_options(const MeshSource& source, const MeshLevel& level);
+GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared,
+                       const MeshLevel& level);
 
 }  // namespace crowdface

@@ -98,16 +98,16 @@ MeshEncoders usd_encoders(const MeshSource& source) {
     // A level of detail is coarse on purpose.
     const Subdivision subdivision =
         level.whole() ? source.config.output.subdivision : Subdivision::kNone;
-    encoders.push_back(
-        encoder_by(std::make_shared<const Form>(
-                       Form{UsdaTemplate(level.topology(inputs), level.uvs(inputs),
-                                         glb_options(source, level), subdivision),
-                            AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
-                   [](const Form& form, const FaceMesh& face) {
-                     return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves,
-                                             face.image_names, *face.points,
-                                             form.parts.placed<PlacedUsdaPart>(face.worn));
-                   }));
+    encoders.push_back(encoder_by(
+        std::make_shared<const Form>(Form{
+            UsdaTemplate(level.topology(inputs), level.uvs(inputs),
+                         glb_options(source.config, inputs, source.shared, level), subdivision),
+            AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
+        [](const Form& form, const FaceMesh& face) {
+          return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves,
+                                  face.image_names, *face.points,
+                                  form.parts.placed<PlacedUsdaPart>(face.worn));
+        }));
   }
   return encoders;
 }
