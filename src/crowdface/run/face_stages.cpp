@@ -25,8 +25,6 @@
 namespace crowdface {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Faces blended together at most: they share the reading of the fields, and memory for more that is new to the
 /// process would take longer than that saves. A multiple of the faces that the product makes at a time.
 constexpr std::size_t kMostAtOnce = 24;
