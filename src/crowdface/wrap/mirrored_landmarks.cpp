@@ -30,13 +30,13 @@ double residual_of(const Positions& positions, const std::vector<WrapLandmark>& 
 
 /// "eye_left" for "eye_right"; the name itself if it has no side.
 std::string other_side(const std::string& name) {
-  static const std::array<std::pair<const char*, const char*>, 6> kSides = {{{"left", "right"},
-                                                                             {"Left", "Right"},
-                                                                             {"LEFT", "RIGHT"},
-                                                                             {"_l", "_r"},
-                                                                             {"_L", "_R"},
-                                                                             {".L", ".R"}}};
-  for (const auto& [left, right] : kSides) {
+  static const std::array<std::pair<const char*, const char*>, 6> sides = {{{"left", "right"},
+                                                                            {"Left", "Right"},
+                                                                            {"LEFT", "RIGHT"},
+                                                                            {"_l", "_r"},
+                                                                            {"_L", "_R"},
+                                                                            {".L", ".R"}}};
+  for (const auto& [left, right] : sides) {
     const bool is_suffix = left[0] == '_' || left[0] == '.';
     for (const auto& [from, to] : {std::pair(left, right), std::pair(right, left)}) {
       const std::size_t at = name.rfind(from);
