@@ -25,15 +25,20 @@ first_tests='smooth blend cast validity texture render config run'
 # hashes DIRECTORY: of the plan and the meshes in it, which must not depend on the system.
 hashes() { (cd "$1" && sha256sum plan.jsonl meshes/*.*); }
 
+# Fails if the compiler warned of anything in the last build.
+refuse_warnings() { ! grep --max-count=20 'warning:' build/release/build.log; }
+
 # The two commands, in a fresh root.
 native() {
   scripts/demo.sh
+  refuse_warnings
   if [ -n "$short" ]; then
     scripts/build.sh release $(printf 'crowdface_%s_test ' $first_tests)
     for test in $first_tests; do "build/release/bin/crowdface_${test}_test" --gtest_brief=1; done
   else
     scripts/test.sh | tail -n 40
   fi
+  refuse_warnings
 }
 
 # The same for arm64. The heads are those of this system: their textures would take half an hour under emulation.
@@ -77,7 +82,7 @@ in_fresh_root() {
   {
     echo 'set -euo pipefail; cd /crowdface; export LANG=C.UTF-8'
     declare -p short first_tests
-    declare -f hashes native cross
+    declare -f hashes refuse_warnings native cross
     echo "$3"
     echo 'hashes out/demo >result/demo.sha256'
   } >"$inside"
