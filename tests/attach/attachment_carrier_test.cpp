@@ -224,8 +224,8 @@ TEST(AttachmentCarrier, MovesWhatIsFarOffTheSkinSmoothly) {
   const Adjacency adjacency = build_adjacency(cap.topology);
   for (Index p = 0; p < moves.rows(); ++p) {
     for (const std::uint32_t other : adjacency.of(p)) {
-      const double step = length3(row3(moves, p) - row3(moves, other));
-      const double edge = length3(row3(cap.points, p) - row3(cap.points, other));
+      const double step = (row3(moves, p) - row3(moves, other)).norm();
+      const double edge = (row3(cap.points, p) - row3(cap.points, other)).norm();
       roughest = std::max(roughest, step / std::max(edge, 0.1));
     }
   }

@@ -58,7 +58,7 @@ TEST_F(FoldedSheet, TakesAlongWhatLiesOnTheSkinThatMovesAndNothingElse) {
   const ShapeBend bend(*skin_, build_adjacency(topology_), apart_, points_);
   const Displacements moves = bend.in_shape(mesh_, points_, lowered());
   ASSERT_EQ(moves.vertices, std::vector<std::uint32_t>{1}) << "the upper sheet stays";
-  EXPECT_LT(length3(row3(moves.moves, 0) - Eigen::Vector3d(0, 0, -3)), 1e-9);
+  EXPECT_LT((row3(moves.moves, 0) - Eigen::Vector3d(0, 0, -3)).norm(), 1e-9);
 }
 
 /// A lash of the lower lid, whose tip is nearer to the upper one.
@@ -73,7 +73,7 @@ TEST_F(FoldedSheet, TakesAlongWholeWhatGrowsOnTheSkinThatMoves) {
   const Displacements moves = bend.in_shape(mesh_, lash, lowered());
   ASSERT_EQ(moves.vertices.size(), 4U);
   for (Index v = 0; v < 4; ++v) {
-    EXPECT_LT(length3(row3(moves.moves, v) - Eigen::Vector3d(0, 0, -3)), 1e-9) << v;
+    EXPECT_LT((row3(moves.moves, v) - Eigen::Vector3d(0, 0, -3)).norm(), 1e-9) << v;
   }
 }
 

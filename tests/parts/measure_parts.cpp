@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
@@ -166,7 +168,7 @@ class Watch {
         const Vector3d b = mesh.row(face[k]).transpose() - point;
         const Vector3d c = mesh.row(face[k + 1]).transpose() - point;
         const double la = a.norm(), lb = b.norm(), lc = c.norm();
-        sum += std::atan2(a.dot(cross3(b, c)),
+        sum += std::atan2(a.dot(b.cross(c)),
                           la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
       }
     }

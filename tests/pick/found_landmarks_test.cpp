@@ -38,7 +38,7 @@ TEST_F(FoundLandmarksTest, LieWhereTheTemplatesOwnVerticesWouldOnThatHead) {
   const Positions same_head = truth_.apply(10 * some_head(1));
   std::vector<double> off;
   for (const WrapLandmark& landmark : found) {
-    off.push_back(1000 * length3(row3(same_head, landmark.vertex) - landmark.place));
+    off.push_back(1000 * (row3(same_head, landmark.vertex) - landmark.place).norm());
     EXPECT_LT(off.back(), 9) << landmark.name;
   }
   std::ranges::sort(off);
@@ -49,7 +49,7 @@ TEST_F(FoundLandmarksTest, AScanWithoutAFaceHasNone) {
   const WrapTemplate& ball = shape_;
   Positions round = ball.positions;
   for (Index v = 0; v < round.rows(); ++v) {
-    round.row(v) = 100 * unit3(row3(round, v) + Eigen::Vector3d(0, 1e-3, 0)).transpose();
+    round.row(v) = 100 * (row3(round, v) + Eigen::Vector3d(0, 1e-3, 0)).normalized().transpose();
   }
   const Scan scan{round, triangles_of(ball.topology)};
   EXPECT_TRUE(

@@ -45,7 +45,7 @@ class SuggestedPlacesTest : public ::testing::Test {
     return landmarks;
   }
   double mm_off(const PickedPlace& place, std::uint32_t vertex) const {
-    return length3(place.point - row3(scan_.positions(), vertex)) / truth_.scale;
+    return (place.point - row3(scan_.positions(), vertex)).norm() / truth_.scale;
   }
 
   Similarity truth_ = some_place();
@@ -103,7 +103,7 @@ TEST_F(SuggestedPlacesTest, TheOtherHalfIsSuggestedOnTheTemplate) {
   const auto places = suggest_places({left}, template_, scan_, plane_, {});
   ASSERT_EQ(places.of_template.size(), 1U);
   const Eigen::Vector3d expected = plane_.image(row3(shape_.positions, *left.vertex));
-  EXPECT_LT(length3(places.of_template.at("mole_right").point - expected), 5);
+  EXPECT_LT((places.of_template.at("mole_right").point - expected).norm(), 5);
   EXPECT_TRUE(places.of_scan.empty());
   EXPECT_FALSE(places.pose);
 }
@@ -148,7 +148,7 @@ TEST_F(SuggestedPlacesTest, AMisplacedPairIsToldAndLeftOut) {
   EXPECT_GT(bad->residuals.at("chin").mm, 45);
   std::erase_if(landmarks, [](const PickedLandmark& one) { return one.name == "chin"; });
   const auto without = pose_of_picked(landmarks, template_.positions());
-  EXPECT_LT(length3(bad->pose.translation - without->pose.translation), 1e-12);
+  EXPECT_LT((bad->pose.translation - without->pose.translation).norm(), 1e-12);
 }
 
 }  // namespace

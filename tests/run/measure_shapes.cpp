@@ -145,7 +145,7 @@ void add_stretch(const std::vector<Triangle>& skin, const Positions& neutral, co
       const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
       if (a > b || !(moved[a] && moved[b])) continue;
       const auto length = [&](const Positions& mesh) {
-        return length3(row3(mesh, a) - row3(mesh, b));
+        return (row3(mesh, a) - row3(mesh, b)).norm();
       };
       stretch.push_back(
           std::abs(std::log(length(here) * length(neutral) / (length(face) * length(there)))));

@@ -46,7 +46,7 @@ class MeasuredLids {
     for (const std::uint32_t v : skin) {
       double nearest = std::numeric_limits<double>::max();
       for (const std::uint32_t r : rim_) {
-        nearest = std::min(nearest, length3(row3(neutral, v) - row3(neutral, r)));
+        nearest = std::min(nearest, (row3(neutral, v) - row3(neutral, r)).norm());
       }
       if (nearest < kLid * ball.radius()) eye.skin.push_back(v);
     }
@@ -61,7 +61,7 @@ class MeasuredLids {
     const Positions normals = vertex_normals(triangles, neutral);
     for (const std::uint32_t v : eye.skin) {
       const BallMap::Gap gap = ball.gap_at(row3(neutral, v) - ball.centre());
-      if (dot3(gap.normal, row3(normals, v)) > 0) outer_.push_back(v);
+      if (gap.normal.dot(row3(normals, v)) > 0) outer_.push_back(v);
     }
   }
 
@@ -72,8 +72,8 @@ class MeasuredLids {
     for (const EdgePoint& point : points_) {
       const Eigen::Vector3d at =
           (1 - point.share) * row3(mesh, point.a) + point.share * row3(mesh, point.b);
-      const Cut below = highest(lower_, mesh, dot3(at, axes_.side()), 1);
-      const double gap = dot3(at, axes_.up) - below.height;
+      const Cut below = highest(lower_, mesh, at.dot(axes_.side()), 1);
+      const double gap = at.dot(axes_.up) - below.height;
       gaps.push_back(std::isfinite(gap) ? std::optional(gap) : std::nullopt);
     }
     return gaps;
@@ -83,8 +83,8 @@ class MeasuredLids {
   void find_points(const Positions& neutral, const Positions& mesh) {
     double low = std::numeric_limits<double>::max(), high = -low;
     for (const std::uint32_t v : rim_) {
-      low = std::min(low, dot3(row3(neutral, v), axes_.side()));
-      high = std::max(high, dot3(row3(neutral, v), axes_.side()));
+      low = std::min(low, row3(neutral, v).dot(axes_.side()));
+      high = std::max(high, row3(neutral, v).dot(axes_.side()));
     }
     points_.clear();
     for (std::size_t k = 0; k < kPlanes; ++k) {
@@ -116,7 +116,7 @@ class MeasuredLids {
     for (const std::uint32_t v : rim_) {
       const auto at = std::lower_bound(moves.vertices.begin(), moves.vertices.end(), v);
       if (at == moves.vertices.end() || *at != v) continue;
-      most = std::max(most, length3(row3(moves.moves, at - moves.vertices.begin())));
+      most = std::max(most, row3(moves.moves, at - moves.vertices.begin()).norm());
     }
     return most;
   }
@@ -136,9 +136,9 @@ class MeasuredLids {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3];
         const Eigen::Vector3d p = row3(mesh, a), q = row3(mesh, b);
-        const double x = dot3(p, axes_.side()) - at, y = dot3(q, axes_.side()) - at;
+        const double x = p.dot(axes_.side()) - at, y = q.dot(axes_.side()) - at;
         if ((x < 0) == (y < 0)) continue;
-        const double share = x / (x - y), height = sign * dot3(p + share * (q - p), axes_.up);
+        const double share = x / (x - y), height = sign * (p + share * (q - p)).dot(axes_.up);
         if (height > most.height) most = {height, {a, b, share}};
       }
     }

@@ -129,8 +129,8 @@ TEST_F(RigOfACrowd, BendsFacesAsTheTemplate) {
       const Eigen::Vector3d turned(from.x(), std::cos(M_PI / 6) * from.y() - 0.5 * from.z(),
                                    0.5 * from.y() + std::cos(M_PI / 6) * from.z());
       const Eigen::Vector3d wanted = pivot + (1 - jaw) * from + jaw * turned;
-      EXPECT_LT(length3(row3(open.points, v) - wanted), 1e-5);
-      moved = std::max(moved, length3(row3(open.points, v) - row3(rest.points, v)));
+      EXPECT_LT((row3(open.points, v) - wanted).norm(), 1e-5);
+      moved = std::max(moved, (row3(open.points, v) - row3(rest.points, v)).norm());
     }
     EXPECT_GT(moved, 1e-3);
   }

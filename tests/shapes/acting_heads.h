@@ -76,7 +76,7 @@ inline Rims rims_of(const Heads& heads, const Part& eye, const Positions& head) 
             std::vector<std::uint32_t>(kColumns, kNoIndex)};
   for (Index v = 0; v < head.rows(); ++v) {
     const Vector3d from = (row3(head, v) - centre) / radius;
-    if (!is_skin(heads, v) || from.z() < 0.6 || std::abs(from.x()) > 0.7 || length3(from) > 1.6)
+    if (!is_skin(heads, v) || from.z() < 0.6 || std::abs(from.x()) > 0.7 || from.norm() > 1.6)
       continue;
     const auto column = static_cast<std::size_t>((from.x() + 0.7) / 1.4 * kColumns);
     const auto row = static_cast<std::uint32_t>(v);
@@ -101,7 +101,7 @@ inline Positions blinking(const Heads& heads, const Part& eye, const Positions& 
   Positions result = head;
   for (Index v = 0; v < head.rows(); ++v) {
     const Vector3d from = row3(head, v) - centre;
-    if (!is_skin(heads, v) || from.z() < 0 || length3(from) > 2.5 * radius) continue;
+    if (!is_skin(heads, v) || from.z() < 0 || from.norm() > 2.5 * radius) continue;
     double weights = 0, low = 0, high = 0;
     for (std::size_t i = 0; i < rims.low.size(); ++i) {
       const double off = (head(v, 0) - (head(rims.low[i], 0) + head(rims.high[i], 0)) / 2) / radius;
@@ -117,7 +117,7 @@ inline Positions blinking(const Heads& heads, const Part& eye, const Positions& 
     const double aside = std::max(0.0, std::abs(from.x()) - 0.7 * radius) / radius;
     const double share = std::exp(-off * off - 4 * aside * aside);
     const Vector3d down = from - Vector3d(0, share * (high - low), 0);
-    result.row(v) = (centre + down * (length3(from) / length3(down))).transpose();
+    result.row(v) = (centre + down * (from.norm() / down.norm())).transpose();
   }
   return result;
 }
@@ -128,7 +128,7 @@ inline Positions smiling(const Heads& heads, const Positions& head) {
   for (Index v = 0; v < head.rows(); ++v) {
     if (!is_skin(heads, v)) continue;
     const Vector3d from = row3(head, v) - Vector3d(4, -4, 6);
-    const double share = std::exp(-dot3(from, from) / 6);
+    const double share = std::exp(-from.squaredNorm() / 6);
     if (share > 0.01) result.row(v) += share * Eigen::RowVector3d(0.5, 0.7, -0.2);
   }
   return result;

@@ -31,7 +31,7 @@ TEST(EvenedField, WhatIsEvenAlreadyStays) {
   const EvenedField field({kHere, kThere}, 0.5, 1, 2);
   for (const auto& change :
        field.changes(scattered([](const auto&) { return Eigen::Vector3d(1, 2, 3); }))) {
-    EXPECT_LT(length3(change.by), 1e-12);
+    EXPECT_LT(change.by.norm(), 1e-12);
   }
 }
 
@@ -45,7 +45,7 @@ TEST(EvenedField, NearItIsTheMeanAndFarAwayWhatItWas) {
   for (const auto& [number, by] : field.changes(samples)) left[number] += by.z();
   std::size_t near = 0, far = 0;
   for (const auto& sample : samples) {
-    const double distance = std::min(length3(sample.place - kHere), length3(sample.place - kThere));
+    const double distance = std::min((sample.place - kHere).norm(), (sample.place - kThere).norm());
     if (distance < 1) {
       EXPECT_LT(std::abs(left[sample.number]), 0.6);
       ++near;

@@ -245,8 +245,8 @@ TEST(ShapeTransfer, LidsKeepOffTheEyeball) {
     for (std::size_t i = 0; i < blink.vertices.size(); ++i) {
       const Vector3d before = row3(heads[h], blink.vertices[i]) - centre;
       const Vector3d after = before + row3(blink.moves, static_cast<Index>(i));
-      if (length3(before) > 1.3 * radius) continue;
-      EXPECT_GT(length3(after), std::min(length3(before), radius) - 0.025) << h << ' ' << i;
+      if (before.norm() > 1.3 * radius) continue;
+      EXPECT_GT(after.norm(), std::min(before.norm(), radius) - 0.025) << h << ' ' << i;
     }
   }
 }
@@ -261,7 +261,7 @@ TEST(ShapeTransfer, GazeTurnsAnEyeballAboutItsOwnCentre) {
     const auto [before, radius] = ball_of(heads, eye, face);
     transfer.carry(static_cast<Index>(h), heads[h])[2].add_to(face);
     const auto [after, radius_after] = ball_of(heads, eye, face);
-    EXPECT_LT(length3(after - before), 0.01) << h;
+    EXPECT_LT((after - before).norm(), 0.01) << h;
     EXPECT_NEAR(radius_after, radius, 1e-6);
     EXPECT_GT((face - heads[h]).rowwise().norm().maxCoeff(), 0.25 * radius);
   }
@@ -287,10 +287,10 @@ TEST(ShapeTransfer, RigidPartsStayRigid) {
   transfer.carry(4, heads[4])[0].add_to(face);
   const std::uint32_t a = teeth->vertices.front();
   for (const std::uint32_t b : teeth->vertices) {
-    EXPECT_NEAR(length3(row3(face, a) - row3(face, b)),
-                length3(row3(heads[4], a) - row3(heads[4], b)), 1e-9);
+    EXPECT_NEAR((row3(face, a) - row3(face, b)).norm(),
+                (row3(heads[4], a) - row3(heads[4], b)).norm(), 1e-9);
   }
-  EXPECT_GT(length3(row3(face, a) - row3(heads[4], a)), 0.5);
+  EXPECT_GT((row3(face, a) - row3(heads[4], a)).norm(), 0.5);
 }
 
 }  // namespace

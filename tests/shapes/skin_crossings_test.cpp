@@ -52,7 +52,7 @@ Displacements closing(const Positions& mesh, double depth, double of_lower) {
   Displacements shape;
   std::vector<double> by;
   for (std::uint32_t v = 0; v < mesh.rows(); ++v) {
-    const double off = length3(Eigen::Vector3d(mesh(v, 0) - 5, 0, mesh(v, 2) - 4)) / 3;
+    const double off = Eigen::Vector3d(mesh(v, 0) - 5, 0, mesh(v, 2) - 4).norm() / 3;
     const double share = v < mesh.rows() / 2 ? of_lower : of_lower - 1;
     if (share == 0 || off >= 1) continue;
     shape.vertices.push_back(v);

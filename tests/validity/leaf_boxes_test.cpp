@@ -82,8 +82,9 @@ TEST_F(LeafBoxesTest, BitsAreThoseOfEachPair) {
         meet = meet && boxes.low[c][i] <= boxes.high[c][j] && boxes.low[c][j] <= boxes.high[c][i];
       }
       EXPECT_EQ(near >> (8 * i + j) & 1, meet ? 1U : 0U);
-      const double cosine = dot3(unit3(area_vector(positions_, triangles_[i])),
-                                 unit3(area_vector(positions_, triangles_[j])));
+      const double cosine = area_vector(positions_, triangles_[i])
+                                .normalized()
+                                .dot(area_vector(positions_, triangles_[j]).normalized());
       if (std::abs(cosine - 0.3) > 0.01) {
         EXPECT_EQ(alike >> (8 * i + j) & 1, cosine > 0.3 ? 1U : 0U) << i << ' ' << j;
       }

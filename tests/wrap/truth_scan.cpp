@@ -58,14 +58,14 @@ class Splitter {
  private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-  double length(std::uint32_t a, std::uint32_t b) const { return length3(points_[a] - points_[b]); }
+  double length(std::uint32_t a, std::uint32_t b) const { return (points_[a] - points_[b]).norm(); }
 
   /// Splits the longest edge of each triangle if it is long for a mesh of that many triangles, and
   /// with it that of the neighbour, so that no gap opens.
   bool split_round(std::size_t wanted) {
     double area = 0;
     for (const Triangle& t : triangles_) {
-      area += length3(cross3(points_[t[1]] - points_[t[0]], points_[t[2]] - points_[t[0]])) / 2;
+      area += (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).norm() / 2;
     }
     const double most = 1.5 * std::sqrt(4 / std::sqrt(3.0) * area / static_cast<double>(wanted));
     std::map<Edge, std::uint32_t> middle;
@@ -118,8 +118,7 @@ void scatter(Scan& scan, std::uint64_t seed) {
   const auto area = [&](std::uint32_t t) {
     const Triangle& c = scan.triangles[t];
     const Eigen::Vector3d a = scan.positions.row(c[0]).transpose();
-    return cross3(scan.positions.row(c[1]).transpose() - a,
-                  scan.positions.row(c[2]).transpose() - a);
+    return (row3(scan.positions, c[1]) - a).cross(row3(scan.positions, c[2]) - a);
   };
   for (std::uint32_t v = 0; v < around.size(); ++v) {
     if (rim[v] || around[v].empty()) continue;
@@ -141,8 +140,8 @@ void scatter(Scan& scan, std::uint64_t seed) {
     scan.positions.row(v) = place;
     for (std::size_t i = 0; i < areas.size(); ++i) {
       const Eigen::Vector3d now = area(around[v][i]);
-      if (dot3(now, areas[i]) < 0.5 * length3(now) * length3(areas[i]) ||
-          length3(now) < 0.1 * length3(areas[i])) {
+      if (now.dot(areas[i]) < 0.5 * now.norm() * areas[i].norm() ||
+          now.norm() < 0.1 * areas[i].norm()) {
         scan.positions.row(v) = before;
         break;
       }
@@ -194,7 +193,7 @@ Scan shuffled(const Scan& scan, std::uint64_t seed) {
 
 Similarity random_pose(std::uint64_t seed) {
   const RandomKey key{seed, 0, "truth/pose"};
-  const Eigen::Vector3d axis = unit3(normal3(key));
+  const Eigen::Vector3d axis = normal3(key).normalized();
   Similarity pose;
   pose.rotation = Eigen::AngleAxisd(3 * random_unit(key, 5), axis).toRotationMatrix();
   pose.translation = 700 * normal3({seed, 1, "truth/pose"});

@@ -55,9 +55,9 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
     const auto face = topology.face(f);
     if (!is_skin[face[0]]) continue;
     const Eigen::Vector3d vector = row3(vectors, f);
-    const double share = length3(vector) / 2 / static_cast<double>(face.size());
+    const double share = vector.norm() / 2 / static_cast<double>(face.size());
     for (const std::uint32_t v : face) areas_[v] += share;
-    volume += dot3(vector, row3(mesh_, face[0]) - middle);
+    volume += vector.dot(row3(mesh_, face[0]) - middle);
   }
   side_ = volume < 0 ? -1 : 1;
   double area = 0;
@@ -105,7 +105,7 @@ void FittedSkin::add_coarser(double spacing) {
       std::uint32_t chosen = cells[begin].vertex;
       double least = std::numeric_limits<double>::max();
       for (std::size_t i = begin; i < end; ++i) {
-        const double distance = length3(row3(mesh_, cells[i].vertex) - middle);
+        const double distance = (row3(mesh_, cells[i].vertex) - middle).norm();
         if (distance >= least) continue;
         least = distance;
         chosen = cells[i].vertex;
@@ -128,7 +128,7 @@ double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
   for (double around = reach;; around *= 2) {
     distances.clear();
     for (const std::uint32_t v : finest.grid.about(point, around)) {
-      const double distance = length3(row3(mesh_, v) - point);
+      const double distance = (row3(mesh_, v) - point).norm();
       if (distance <= around) distances.push_back(distance);
     }
     if (distances.size() >= fewest) break;
@@ -140,7 +140,7 @@ void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, d
                              Patch& patch) const {
   if (share <= 0) return;
   for (const std::uint32_t v : level.grid.about(point, patch.reach)) {
-    const double away = std::min(1.0, length3(row3(mesh_, v) - point) / patch.reach);
+    const double away = std::min(1.0, (row3(mesh_, v) - point).norm() / patch.reach);
     const double weight = share * level.areas[v] * biweight(away);
     if (weight <= 0) continue;
     patch.vertices.push_back(v);
@@ -176,8 +176,8 @@ SkinPlace FittedSkin::place_near(const Positions& face, const Positions& normals
                                  std::uint32_t start, const Eigen::Vector3d& point) const {
   const SurfacePoint place = nearest_from(topology_, around_, face,
                                           descend(topology_, around_, face, start, point), point);
-  const Eigen::Vector3d outward = unit3(point_on(normals, place.corners, place.shares));
-  return {place.corners[0], dot3(point - place.position, outward), outward, place.position};
+  const Eigen::Vector3d outward = point_on(normals, place.corners, place.shares).normalized();
+  return {place.corners[0], (point - place.position).dot(outward), outward, place.position};
 }
 
 }  // namespace crowdface

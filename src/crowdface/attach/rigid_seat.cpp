@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/small_program.h"
@@ -53,10 +55,10 @@ RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
   const double weight = 1 / static_cast<double>(missing.size());
   for (const SkinGaps::Missing& one : missing) {
     const Eigen::Vector3d arm = (motion.apply(row3(points_, one.vertex)) - pivot) / radius;
-    const Eigen::Vector3d turned = cross3(arm, one.outward);
+    const Eigen::Vector3d turned = arm.cross(one.outward);
     const Eigen::Vector3d& n = one.outward;
-    program.want({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), dot3(arm, n)},
-                 one.height, weight);
+    program.want({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)}, one.height,
+                 weight);
   }
   for (std::size_t u = 0; u < kUnknowns; ++u) program.want(u, 0, kStillness);
   const SmallProgram::Vector x = program.solve(0);

@@ -72,7 +72,7 @@ class Roots {
     along.search(std::array{at.vertex}, kFarther * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
     return std::ranges::any_of(skin_.grid().about(point, reach), [&](std::uint32_t v) {
-      return length3(row3(skin_.mesh(), v) - point) < reach && std::isinf(along.distance(v));
+      return (row3(skin_.mesh(), v) - point).norm() < reach && std::isinf(along.distance(v));
     });
   }
 
@@ -106,7 +106,7 @@ Positions anchors_of(const std::vector<SkinPlace>& roots, const Positions& point
   Positions anchors(points.rows(), 3);
   for (std::size_t p = 0; p < roots.size(); ++p) {
     const Eigen::Vector3d away = row3(points, p) - roots[p].position;
-    const double distance = length3(away);
+    const double distance = away.norm();
     const double share = distance > off ? (distance - off) / distance : 0;
     anchors.row(static_cast<Index>(p)) = (roots[p].position + share * away).transpose();
   }
@@ -136,7 +136,7 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
     along.search(std::array{roots[p].vertex}, near);
     const double heard = BendPlaces::kHeard * BendPlaces::kApart * patch.reach;
     for (const std::uint32_t q : grid.about(middle, heard)) {
-      const double distance = length3(row3(anchors, q) - middle) / heard;
+      const double distance = (row3(anchors, q) - middle).norm() / heard;
       if (distance >= 1 || along.distance(roots[q].vertex) > near) continue;
       of_point[q].push_back({number, static_cast<float>(biweight(distance))});
       if (distance * BendPlaces::kHeard < 1) covered[q] = true;

@@ -81,8 +81,8 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       for (const std::uint32_t other : around) mean += row3(before, other);
       mean /= static_cast<double>(around.size());
-      const bool is_push = dot3(mean, row3(outward, p)) >= 0;
-      if (is_push && length3(mean) > length3(row3(before, p))) moves.row(p) = mean.transpose();
+      const bool is_push = mean.dot(row3(outward, p)) >= 0;
+      if (is_push && mean.norm() > row3(before, p).norm()) moves.row(p) = mean.transpose();
     });
   }
   points += moves;

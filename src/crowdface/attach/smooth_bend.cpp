@@ -28,7 +28,7 @@ std::vector<std::uint32_t> find_places(const FittedSkin& skin, const Positions& 
     patches.push_back(skin.patch_around(middle));
     const double apart = BendPlaces::kApart * patches.back().reach;
     for (const std::uint32_t other : grid.about(middle, apart)) {
-      if (length3(row3(points, other) - middle) < apart) covered[other] = true;
+      if ((row3(points, other) - middle).norm() < apart) covered[other] = true;
     }
     covered[p] = true;
   }
@@ -49,7 +49,7 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
       const Eigen::Vector3d middle = row3(points, places[n]);
       const double heard = BendPlaces::kHeard * BendPlaces::kApart * places_.patches[n].reach;
       for (const std::uint32_t p : grid.about(middle, heard)) {
-        const double distance = length3(row3(points, p) - middle) / heard;
+        const double distance = (row3(points, p) - middle).norm() / heard;
         const double weight = biweight(std::min(1.0, distance));
         if (weight > 0) put(p, {n, static_cast<float>(weight)});
       }

@@ -19,8 +19,8 @@ double kept_by_smoothing(const Adjacency& adjacency, const Displacements& moves,
   for (const std::uint32_t v : moves.vertices) {
     const Eigen::Vector3d here = row3(whole, v);
     for (const std::uint32_t other : adjacency.of(v)) {
-      all += dot3(here, here);
-      with_neighbours += dot3(here, row3(whole, other));
+      all += here.squaredNorm();
+      with_neighbours += here.dot(row3(whole, other));
     }
   }
   const double kept = all > 0 ? std::max(with_neighbours / all, 0.0) : 1;

@@ -33,7 +33,7 @@ Positions weighted(const Positions& mean, const PartList& parts) {
       const ComponentShape& ball = parts.shapes[part.ball];
       for (Index v = 0; v < mean.rows(); ++v) {
         const Eigen::Vector3d away = row3(mean, v) - ball.centre;
-        const double fall = 1 + dot3(away, away) / (4 * ball.radius * ball.radius);
+        const double fall = 1 + away.squaredNorm() / (4 * ball.radius * ball.radius);
         sizes.row(v) += (kEyes / (fall * fall) * away).transpose();
       }
     } else if (part.part_class == PartClass::kRigid) {

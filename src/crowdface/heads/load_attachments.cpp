@@ -43,16 +43,17 @@ void check_place(const Attachment& item, const Positions& head) {
   constexpr double kFarthest = 0.5, kLargest = 4;  // of the head's diagonal
   const Eigen::RowVector3d low = head.colwise().minCoeff(), high = head.colwise().maxCoeff();
   const Positions& own = item.file.positions;
-  const double diagonal = length3((high - low).transpose());
-  const double size = length3((own.colwise().maxCoeff() - own.colwise().minCoeff()).transpose());
-  const Eigen::RowVector3d middle = (own.colwise().maxCoeff() + own.colwise().minCoeff()) / 2;
+  const Eigen::RowVector3d own_low = own.colwise().minCoeff(), own_high = own.colwise().maxCoeff();
+  const double diagonal = (high - low).norm();
+  const double size = (own_high - own_low).norm();
+  const Eigen::RowVector3d middle = (own_high + own_low) / 2;
   const Eigen::RowVector3d off = (low - middle).cwiseMax(middle - high).cwiseMax(0.0);
-  if (size <= kLargest * diagonal && length3(off.transpose()) <= kFarthest * diagonal) return;
-  refuse_file(item.file.path,
-              concat("expected a mesh beside the head that it was fitted to, in its unit; ",
-                     "the head is ", format_fixed(diagonal, 2), " units across, this mesh ",
-                     format_fixed(size, 2), ", and its middle is ",
-                     format_fixed(length3(off.transpose()), 2), " outside the head's box"));
+  if (size <= kLargest * diagonal && off.norm() <= kFarthest * diagonal) return;
+  refuse_file(
+      item.file.path,
+      concat("expected a mesh beside the head that it was fitted to, in its unit; ", "the head is ",
+             format_fixed(diagonal, 2), " units across, this mesh ", format_fixed(size, 2),
+             ", and its middle is ", format_fixed(off.norm(), 2), " outside the head's box"));
 }
 
 Digest digest_of_attachments(const AttachmentSet& set) {

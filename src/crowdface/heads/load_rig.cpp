@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/load_carried.h"
@@ -29,15 +31,14 @@ struct Frame {
 
   Eigen::Vector3d place(const Eigen::Vector3d& p) const { return scale * direction(p); }
   Eigen::Vector3d direction(const Eigen::Vector3d& d) const {
-    return {dot3(turn.row(0).transpose(), d), dot3(turn.row(1).transpose(), d),
-            dot3(turn.row(2).transpose(), d)};
+    return d.x() * turn.col(0) + d.y() * turn.col(1) + d.z() * turn.col(2);
   }
 };
 
 Frame from_gltf(const Config::Faces& faces) {
   const Eigen::Vector3d up = unit_vector(faces.up), front = unit_vector(faces.front);
   Frame frame;
-  frame.turn.col(0) = cross3(up, front);
+  frame.turn.col(0) = up.cross(front);
   frame.turn.col(1) = up;
   frame.turn.col(2) = front;
   frame.scale = kMmPerMetre / mm_per(faces.units);
@@ -140,11 +141,11 @@ Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, cons
   std::array<double, 3> lengths;
   for (Index c = 0; c < 3; ++c) {
     const Eigen::Vector3d axis = frame.direction(joint.rest.col(c).head<3>());
-    lengths[static_cast<std::size_t>(c)] = length3(axis);
-    axes.col(c) = unit3(axis);
+    lengths[static_cast<std::size_t>(c)] = axis.norm();
+    axes.col(c) = axis.normalized();
   }
   const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
-  const double turned = dot3(cross3(axes.col(0), axes.col(1)), axes.col(2));
+  const double turned = axes.col(0).cross(axes.col(1)).dot(axes.col(2));
   if (!(*least > 0) || *most > (1 + kAlike) * *least || std::abs(turned - 1) > kAlike) {
     refuse_file(config.rig,
                 concat("the joint ", quoted(joint.name),

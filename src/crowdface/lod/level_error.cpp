@@ -16,11 +16,11 @@ namespace {
 constexpr std::ptrdiff_t kVerticesPerBlock = 1024;
 
 double distance_to(const Positions& rows, const Triangle& triangle, const Eigen::Vector3d& point) {
-  const double to_corner = length3(point - row3(rows, triangle[0]));
+  const double to_corner = (point - row3(rows, triangle[0])).norm();
   if (triangle[0] == triangle[1]) return to_corner;
   const auto shares = nearest_in_triangle(row3(rows, triangle[0]), row3(rows, triangle[1]),
                                           row3(rows, triangle[2]), point);
-  const double distance = length3(point - point_on(rows, triangle, shares));
+  const double distance = (point - point_on(rows, triangle, shares)).norm();
   return std::isnan(distance) ? to_corner : distance;
 }
 

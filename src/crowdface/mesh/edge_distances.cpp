@@ -84,11 +84,11 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
   if (goals.empty()) return;
   // A ball around the goals: whoever is farther from it than is left of the limit reaches none.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::uint32_t goal : goals) middle += positions_.row(goal).transpose();
+  for (const std::uint32_t goal : goals) middle += row3(positions_, goal);
   middle /= static_cast<double>(goals.size());
   double radius = 0;
   for (const std::uint32_t goal : goals) {
-    radius = std::max(radius, length3(positions_.row(goal).transpose() - middle));
+    radius = std::max(radius, (row3(positions_, goal) - middle).norm());
   }
   constexpr double kRounding = 1e-9;
   const double farthest = (limit + radius) * (1 + kRounding);
@@ -96,7 +96,7 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
   spread(
       [&](double distance, std::uint32_t vertex) {
         return distance <= limit &&
-               distance + length3(positions_.row(vertex).transpose() - middle) <= farthest;
+               distance + (row3(positions_, vertex) - middle).norm() <= farthest;
       },
       [&](std::uint32_t vertex) {
         left -= std::ranges::count(goals, vertex);
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
     open.pop();
     if (distance > distances[v]) continue;
     for (const std::uint32_t next : adjacency.of(v)) {
-      const double there = distance + length3(row3(positions, next) - row3(positions, v));
+      const double there = distance + (row3(positions, next) - row3(positions, v)).norm();
       if (there >= distances[next]) continue;
       distances[next] = there;
       nearest[next] = nearest[v];

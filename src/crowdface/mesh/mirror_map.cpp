@@ -12,7 +12,7 @@ constexpr Index kRows = 4096;  ///< a task
 }  // namespace
 
 Eigen::Vector3d MirrorPlane::image(const Eigen::Vector3d& point) const {
-  return point - 2 * (dot3(normal, point) - offset) * normal;
+  return point - 2 * (normal.dot(point) - offset) * normal;
 }
 
 Positions mirrored(const MirrorMap& map, const Positions& positions) {

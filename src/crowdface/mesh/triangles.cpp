@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/mesh/triangles.h"
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -42,17 +44,17 @@ Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count)
 
 Eigen::Vector3d area_vector(const Positions& positions, const Triangle& triangle) {
   const Eigen::Vector3d a = row3(positions, triangle[0]);
-  return cross3(row3(positions, triangle[1]) - a, row3(positions, triangle[2]) - a);
+  return (row3(positions, triangle[1]) - a).cross(row3(positions, triangle[2]) - a);
 }
 
 std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c, const Eigen::Vector3d& p) {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = dot3(ab, ap), d2 = dot3(ac, ap);
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = dot3(ab, bp), d4 = dot3(ac, bp);
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
   if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double d5 = dot3(ab, cp), d6 = dot3(ac, cp);
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
   if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
   const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) {
@@ -80,7 +82,8 @@ Positions vertex_normals_or_zero(const std::vector<Triangle>& triangles,
     const Eigen::RowVector3d area = area_vector(positions, t).transpose();
     for (const std::uint32_t v : t) normals.row(v) += area;
   }
-  for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
+  for (Index v = 0; v < normals.rows(); ++v)
+    normals.row(v) = row3(normals, v).normalized().transpose();
   return normals;
 }
 

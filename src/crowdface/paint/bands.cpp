@@ -46,7 +46,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   if (!(step > 0)) return std::nullopt;
   const Eigen::Vector3d side = axes.side();
   const auto breadth_at = [&](const Eigen::Vector3d& p) {
-    return std::abs(dot3(p, side) - marks.middle);
+    return std::abs(p.dot(side) - marks.middle);
   };
   // The head's half breadth at each height, from its edges.
   std::array<double, kBins> breadth{};
@@ -56,8 +56,8 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     for (std::size_t c = 0; c < face_corners.size(); ++c) {
       Eigen::Vector3d a = row3(positions, face_corners[c]);
       Eigen::Vector3d b = row3(positions, face_corners[(c + 1) % face_corners.size()]);
-      if (dot3(a, axes.up) > dot3(b, axes.up)) std::swap(a, b);
-      const double ha = (dot3(a, axes.up) - low) / step, hb = (dot3(b, axes.up) - low) / step;
+      if (a.dot(axes.up) > b.dot(axes.up)) std::swap(a, b);
+      const double ha = (a.dot(axes.up) - low) / step, hb = (b.dot(axes.up) - low) / step;
       if (!(hb >= 0) || !(ha <= kBins - 1)) continue;
       const int last = static_cast<int>(std::floor(std::min<double>(hb, kBins - 1)));
       for (int i = std::max(0, static_cast<int>(std::ceil(ha))); i <= last; ++i) {
@@ -89,7 +89,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
-    const double height = dot3(p, axes.up), front = dot3(p, axes.front);
+    const double height = p.dot(axes.up), front = p.dot(axes.front);
     if (!skin[static_cast<std::size_t>(v)] || height < ears.bottom || height > ears.top) continue;
     if (breadth_at(p) - head_at(height) < kOfMost * most) continue;
     ears.back = std::min(ears.back, front);
@@ -157,9 +157,9 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   double least = marks.chin, middle_front = 0;
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
-    heights[v] = dot3(p, axes.up);
+    heights[v] = p.dot(axes.up);
     least = std::min(least, heights[v]);
-    middle_front += dot3(p, axes.front) / static_cast<double>(positions.rows());
+    middle_front += p.dot(axes.front) / static_cast<double>(positions.rows());
   }
   if (neck < count && least > marks.chin - 2 * kBelowChin * marks.face()) {
     throw InvalidInput("no neck: the head ends at its chin");
@@ -175,10 +175,10 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   const double soft = kNeckSoft * marks.face();
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
-    const double front = dot3(p, axes.front);
+    const double front = p.dot(axes.front);
     double rest = 1;
     if (ear < count) {
-      const double away = std::abs(dot3(p, side) - marks.middle);
+      const double away = std::abs(p.dot(side) - marks.middle);
       alpha(v, ear) = ear_share(ears, marks.face(), away, heights[v], front);
       rest -= alpha(v, ear);
     }

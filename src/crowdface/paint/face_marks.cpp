@@ -27,7 +27,7 @@ class Outline {
     double high = -low_;
     for (Index v = 0; v < positions.rows(); ++v) {
       if (!skin[static_cast<std::size_t>(v)]) continue;
-      const double height = dot3(row3(positions, v), axes.up);
+      const double height = row3(positions, v).dot(axes.up);
       low_ = std::min(low_, height);
       high = std::max(high, height);
     }
@@ -41,10 +41,10 @@ class Outline {
       for (std::size_t c = 0; c < face.size(); ++c) {
         const Eigen::Vector3d a = row3(positions, face[c]);
         const Eigen::Vector3d b = row3(positions, face[(c + 1) % face.size()]);
-        const double da = dot3(a, side) - middle, db = dot3(b, side) - middle;
+        const double da = a.dot(side) - middle, db = b.dot(side) - middle;
         if ((da < 0) == (db < 0)) continue;
         const Eigen::Vector3d at = a + da / (da - db) * (b - a);
-        cut.emplace_back(dot3(at, axes.up), dot3(at, axes.front));
+        cut.emplace_back(at.dot(axes.up), at.dot(axes.front));
       }
       for (std::size_t i = 1; i < cut.size(); ++i) add(cut[i - 1], cut[i]);
     }
@@ -161,7 +161,7 @@ double diagonal_of(const Positions& positions, const std::vector<bool>& skin) {
   for (Index v = 0; v < positions.rows(); ++v) {
     if (skin[static_cast<std::size_t>(v)]) box.extend(row3(positions, v));
   }
-  return box.isEmpty() ? 0 : length3(box.sizes());
+  return box.isEmpty() ? 0 : box.sizes().norm();
 }
 
 /// How far a head is from being its own mirror image across `side`: mean difference of the outlines
@@ -171,7 +171,7 @@ double asymmetry(const Positions& positions, const std::vector<bool>& skin, cons
   const Eigen::Vector3d side = axes.side();
   const auto in_frame = [&](Index v) {
     const Eigen::Vector3d p = row3(positions, v);
-    return Eigen::Vector3d(dot3(p, side), dot3(p, axes.up), dot3(p, axes.front));
+    return Eigen::Vector3d(p.dot(side), p.dot(axes.up), p.dot(axes.front));
   };
   Eigen::AlignedBox3d box;
   for (Index v = 0; v < positions.rows(); ++v) {
@@ -230,8 +230,8 @@ double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes
     const auto face = topology.face(f);
     if (!head.skin[face[0]]) continue;
     double middle = 0;
-    for (const std::uint32_t v : face) middle += dot3(row3(head.positions, v), side);
-    const double weight = length3(face_area_vector(topology, f, head.positions));
+    for (const std::uint32_t v : face) middle += row3(head.positions, v).dot(side);
+    const double weight = face_area_vector(topology, f, head.positions).norm();
     sum += weight * middle / static_cast<double>(face.size());
     area += weight;
   }
@@ -281,7 +281,7 @@ std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadSha
   if (!head.eyeballs.empty()) {
     marks.eyes = 0;
     for (const Eigen::Vector3d& eye : head.eyeballs) {
-      marks.eyes += dot3(eye, axes.up) / static_cast<double>(head.eyeballs.size());
+      marks.eyes += eye.dot(axes.up) / static_cast<double>(head.eyeballs.size());
     }
   }
   const double face = marks.face();

@@ -76,7 +76,7 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
   double sum = 0;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     for (const std::uint32_t n : neighbours.of(i)) {
-      sum += length3(row3(positions, n) - row3(positions, touched[i].vertex));
+      sum += (row3(positions, n) - row3(positions, touched[i].vertex)).norm();
     }
   }
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());

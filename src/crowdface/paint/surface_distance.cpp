@@ -21,14 +21,14 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// along its edges where the straight way does not cross it.
 double across(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
               double from_a, double from_b) {
-  const double along_edges = std::min(from_a + length3(c - a), from_b + length3(c - b));
-  const double length = length3(b - a);
+  const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
+  const double length = (b - a).norm();
   if (!(length > 0)) return along_edges;
   // a at the origin, b at (length, 0), c above, the source at (x, −y).
   const double x = (from_a * from_a - from_b * from_b + length * length) / (2 * length);
   const double y = std::sqrt(std::max(0.0, from_a * from_a - x * x));
-  const double c_x = dot3(c - a, b - a) / length;
-  const double c_y = std::sqrt(std::max(0.0, dot3(c - a, c - a) - c_x * c_x));
+  const double c_x = (c - a).dot(b - a) / length;
+  const double c_y = std::sqrt(std::max(0.0, (c - a).squaredNorm() - c_x * c_x));
   if (!(y + c_y > 0)) return along_edges;
   const double crossing = x + (c_x - x) * y / (y + c_y);
   if (crossing < 0 || crossing > length) return along_edges;
@@ -108,7 +108,7 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
       const auto face = topology_.face(f);
       if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;
       for (const std::uint32_t v : face) {
-        reached(v, length3(row3(positions_, v) - place.position));
+        reached(v, (row3(positions_, v) - place.position).norm());
       }
     }
   }
@@ -127,7 +127,7 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
         const std::uint32_t to = face[i];
         if (to == vertex || done[to]) continue;
         const Eigen::Vector3d there = row3(positions_, to);
-        reached(to, way + length3(there - here));
+        reached(to, way + (there - here).norm());
         for (std::size_t j = 0; j < face.size(); ++j) {
           const std::uint32_t other = face[j];
           const bool near = face.size() <= 4 || (i + 1) % face.size() == j ||

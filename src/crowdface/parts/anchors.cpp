@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
@@ -43,12 +45,12 @@ Anchors::Anchors(const Topology& topology, const FacesAround& faces, const Posit
     const std::vector<std::uint32_t> ring = ring_of(topology, faces, place.corners);
     const Eigen::Vector3d middle = centre_of(positions, ring);
     const Eigen::Vector3d along =
-        unit3(row3(positions, place.corners[1]) - row3(positions, place.corners[0]));
-    const Eigen::Vector3d across = cross3(normal_at(positions, place), along);
+        (row3(positions, place.corners[1]) - row3(positions, place.corners[0])).normalized();
+    const Eigen::Vector3d across = normal_at(positions, place).cross(along);
     std::vector<RingVertex> weighted;
     for (const std::uint32_t r : ring) {
       const Eigen::Vector3d from = row3(positions, r) - middle;
-      weighted.push_back({r, dot3(from, along), dot3(from, across)});
+      weighted.push_back({r, from.dot(along), from.dot(across)});
     }
     rings_.add_group(weighted);
     sites_.push_back(place.corners);
@@ -64,8 +66,8 @@ Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) c
     along += ring.along * from;
     across += ring.across * from;
   }
-  const Eigen::Vector3d x = unit3(along), z = unit3(cross3(x, across));
-  return {x, cross3(z, x), z};
+  const Eigen::Vector3d x = along.normalized(), z = x.cross(across).normalized();
+  return {x, z.cross(x), z};
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
@@ -85,7 +87,7 @@ std::vector<Eigen::Vector3d> Anchors::places(const Positions& head) const {
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const Eigen::Vector3d offset = head.row(bound_[i]).transpose() - origin(i, head);
     const Frame& frame = frames[site_of_[i]];
-    result.emplace_back(dot3(offset, frame[0]), dot3(offset, frame[1]), dot3(offset, frame[2]));
+    result.emplace_back(offset.dot(frame[0]), offset.dot(frame[1]), offset.dot(frame[2]));
   }
   return result;
 }

@@ -21,9 +21,9 @@ double radius_along(const Topology& topology, const FacesAround& faces, const Po
     const SurfacePoint place = nearest_from(topology, faces, head, nearest, point);
     nearest = place.corners[0];
     Eigen::Vector3d outward = normal_at(head, place);
-    if (dot3(outward, place.position - centre) < 0) outward = -outward;
-    const double slope = std::max(dot3(outward, direction), kLeastSlope);
-    along -= dot3(outward, point - place.position) / slope;
+    if (outward.dot(place.position - centre) < 0) outward = -outward;
+    const double slope = std::max(outward.dot(direction), kLeastSlope);
+    along -= outward.dot(point - place.position) / slope;
   }
   return std::clamp(along, (1 - kMostChange) * radius, (1 + kMostChange) * radius);
 }
@@ -59,11 +59,11 @@ BallMap::BallMap(const Topology& topology, const FacesAround& faces, const Posit
 }
 
 BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
-  const double distance = length3(from);
+  const double distance = from.norm();
   if (!(distance > 0)) return {-radius_, axes_.front};
   const Eigen::Vector3d direction = from / distance;
-  const double down = 1 / std::max(1 + dot3(direction, axes_.front), 0.1);
-  const double p = dot3(direction, side_) * down, q = dot3(direction, axes_.up) * down;
+  const double down = 1 / std::max(1 + direction.dot(axes_.front), 0.1);
+  const double p = direction.dot(side_) * down, q = direction.dot(axes_.up) * down;
   constexpr double kPerWidth = (kNodes - 1) / (2 * kWidth), kLast = kNodes - 1.001;
   const double x = std::clamp((p + kWidth) * kPerWidth, 0.0, kLast);
   const double y = std::clamp((q + kWidth) * kPerWidth, 0.0, kLast);
@@ -77,8 +77,8 @@ BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
   const Eigen::Vector3d slope =
       down * (by_p * (side_ - p * axes_.front) + by_q * (axes_.up - q * axes_.front));
   const Eigen::Vector3d gradient =
-      direction - (slope - dot3(slope, direction) * direction) / distance;
-  const double length = length3(gradient);
+      direction - (slope - slope.dot(direction) * direction) / distance;
+  const double length = gradient.norm();
   return {(distance - radius) / length, gradient / length};
 }
 

@@ -131,7 +131,7 @@ double radius_about(const Eigen::Vector3d& middle, const Positions& positions,
   double squares = 0;
   for (const std::uint32_t v : vertices) {
     const Eigen::Vector3d from = row3(positions, v) - middle;
-    squares += dot3(from, from);
+    squares += from.squaredNorm();
   }
   return std::sqrt(squares / static_cast<double>(vertices.size()));
 }

@@ -92,7 +92,7 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
     for (const auto& of_head : nearest) {
       const std::uint32_t v = of_head[i];
       const auto is_near = [&](std::uint32_t start) {
-        return length3((positions.row(v) - positions.row(start)).transpose()) < apart;
+        return (row3(positions, v) - row3(positions, start)).norm() < apart;
       };
       if (v == kNoIndex || count == kStarts ||
           std::any_of(starts.begin(), starts.begin() + count, is_near)) {
@@ -142,7 +142,7 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
 double Contact::rough_height(const Pair& pair, const Eigen::Vector3d& point,
                              const Positions& skin) const {
   const Eigen::Vector3d place = point_on(skin, pair.corners, pair.shares);
-  return side_ * dot3(unit3(area_vector(skin, pair.corners)), point - place);
+  return side_ * area_vector(skin, pair.corners).normalized().dot(point - place);
 }
 
 Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions& skin) const {
@@ -154,13 +154,12 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
       const auto face = topology_->face(f);
       const Eigen::Vector3d first = skin.row(face[0]).transpose();
       for (std::size_t j = 1; j + 1 < face.size(); ++j) {
-        at_corner += cross3(skin.row(face[j]).transpose() - first,
-                            skin.row(face[j + 1]).transpose() - first);
+        at_corner += (row3(skin, face[j]) - first).cross(row3(skin, face[j + 1]) - first);
       }
     }
-    normal += place.shares[k] * unit3(at_corner);
+    normal += place.shares[k] * at_corner.normalized();
   }
-  return side_ * unit3(normal);
+  return side_ * normal.normalized();
 }
 
 Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
@@ -176,7 +175,7 @@ Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
   }
   const Eigen::Vector3d normal = normal_near(place, skin);
   const Eigen::Vector3d from = point - place.position;
-  const double side = dot3(from, normal) < 0 ? -1 : 1;
+  const double side = from.dot(normal) < 0 ? -1 : 1;
   if (place.distance < 1e-3 * reach_) return {side * place.distance, normal};
   return {side * place.distance, side / place.distance * from};
 }
@@ -219,7 +218,7 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
     if (now.height > kFar * reach_) continue;
     near[kept++] = i;
     const Eigen::Vector3d from = point - middle;
-    const Eigen::Vector3d arm = cross3(from, now.outward) / radius;
+    const Eigen::Vector3d arm = from.cross(now.outward) / radius;
     const bool never = pair.least > kFree * reach_;
     const double least = never ? std::clamp(pair.least, 0.2 * margin, margin) : pair.least;
     missing = missing || now.height < least - kDone * reach_;
@@ -229,7 +228,7 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
                               arm.x(),
                               arm.y(),
                               arm.z(),
-                              dot3(from, now.outward) / radius};
+                              from.dot(now.outward) / radius};
     a[never ? kNewSlack : kDeepSlack] = 1;
     program.demand(a, least - now.height);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/contains.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/smooth/symmetric_eigen.h"
@@ -20,16 +22,16 @@ Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, 
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) {
     const Eigen::Vector3d from = pair.middle - middle;
-    if (length3(from) > reach) continue;
-    const Eigen::Vector3d flat = from - dot3(from, up) * up;
+    if (from.norm() > reach) continue;
+    const Eigen::Vector3d flat = from - from.dot(up) * up;
     spread += flat * flat.transpose();
   }
   const Eigen::Vector3d main = symmetric_eigen(spread).vectors.col(0);
-  const Eigen::Vector3d flat = main - dot3(main, up) * up;
-  if (length3(flat) > 0.1) return unit3(flat);
+  const Eigen::Vector3d flat = main - main.dot(up) * up;
+  if (flat.norm() > 0.1) return flat.normalized();
   const Eigen::Vector3d axis =
       std::abs(up.x()) < 0.7 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-  return unit3(cross3(up, axis));
+  return up.cross(axis).normalized();
 }
 
 bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b) {
@@ -62,11 +64,11 @@ std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing)
     const Eigen::Vector3d middle = group[next].middle;
     Eigen::Vector3d up = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < group.size(); ++i) {
-      const double distance = length3(group[i].middle - middle);
+      const double distance = (group[i].middle - middle).norm();
       nearest[i] = std::min(nearest[i], distance);
       if (distance <= kUp * spacing) up += group[i].up;
     }
-    up = unit3(up);
+    up = up.normalized();
     places.push_back({middle, up, course(group, middle, kCourse * spacing, up), {}, {}});
     next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
@@ -77,7 +79,7 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
                   double reach, ContactPlace& place) {
   const auto off_cut = [&](std::uint32_t v) {
-    return dot3(mean.row(v).transpose() - place.middle, place.along);
+    return (row3(mean, v) - place.middle).dot(place.along);
   };
   for (const std::uint32_t a : vertices) {
     const double at = off_cut(a);
@@ -89,7 +91,7 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
       const EdgePoint point{a, b, at / (at - bt)};
       const Eigen::Vector3d position =
           ((1 - point.share) * mean.row(a) + point.share * mean.row(b)).transpose();
-      if (length3(position - place.middle) > reach) continue;
+      if ((position - place.middle).norm() > reach) continue;
       (side[a] > 0 ? place.high : place.low).push_back(point);
     }
   }

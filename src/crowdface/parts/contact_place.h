@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/mesh/vector3.h"
@@ -30,7 +32,7 @@ struct ContactPlace {
   /// they overlap.
   double gap(const Positions& positions) const;
   /// Unit: into the contact, within the cut.
-  Eigen::Vector3d deep() const { return cross3(along, up); }
+  Eigen::Vector3d deep() const { return along.cross(up); }
 };
 
 /// Places evenly spread over a group, without profiles.
@@ -48,8 +50,8 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
 /// Of an edge's point above the origin, along a direction.
 inline double height_of(const EdgePoint& point, const Eigen::Vector3d& up,
                         const Positions& positions) {
-  return (1 - point.share) * dot3(row3(positions, point.a), up) +
-         point.share * dot3(row3(positions, point.b), up);
+  return (1 - point.share) * row3(positions, point.a).dot(up) +
+         point.share * row3(positions, point.b).dot(up);
 }
 
 /// How far apart the two profiles of a place are where one is above the other. Of an upper lip whose inner

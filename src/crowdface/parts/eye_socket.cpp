@@ -72,12 +72,12 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   for (const std::uint32_t v : skin) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const Eigen::Vector3d from = point - centre;
-    const double distance = length3(from);
-    if (distance > radius + 2 * reach || dot3(from, axes.front) < -reach) continue;
+    const double distance = from.norm();
+    if (distance > radius + 2 * reach || from.dot(axes.front) < -reach) continue;
     if (eyeball.nearest(point, reach).vertex == kNoIndex) continue;
     near.push_back(v);
-    const double cosine = dot3(from, axes.front) / distance;
-    Innermost& best = innermost[sector(dot3(from, side), dot3(from, axes.up))];
+    const double cosine = from.dot(axes.front) / distance;
+    Innermost& best = innermost[sector(from.dot(side), from.dot(axes.up))];
     if (cosine > best.cosine) best = {v, cosine};
   }
   Lids lids;
@@ -92,7 +92,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   for (const std::uint32_t v : rim) {
     const auto at = std::ranges::lower_bound(lids.vertices, v);
     lids.rim.push_back(static_cast<std::uint32_t>(at - lids.vertices.begin()));
-    lids.upper.push_back(dot3(positions.row(v).transpose() - centre, axes.up) > 0);
+    lids.upper.push_back((row3(positions, v) - centre).dot(axes.up) > 0);
   }
   return lids;
 }
@@ -128,7 +128,7 @@ RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
   RigidMotion fitted = motion;
   for (int k = 0; k < kSteps; ++k) {
     const RigidMotion next = step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, lids);
-    const double change = length3(next.to - fitted.to);
+    const double change = (next.to - fitted.to).norm();
     fitted = next;
     if (change < kDoneShift * maps_[target].radius()) break;
   }
@@ -155,7 +155,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   for (const Lid& lid : lids) {
     const std::uint32_t r = rim_of_[lid.number];
     const Eigen::Vector3d from = lid.point - centre;
-    if (r == kNoIndex && dot3(from, from) > outside * outside) continue;
+    if (r == kNoIndex && from.squaredNorm() > outside * outside) continue;
     BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());
     gap.gap *= motion.scale;
     if (r == kNoIndex && gap.gap > far * radius) continue;
@@ -163,7 +163,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
     // A shift by x changes the gap by −x · normal.
     SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
-    a[kBallSize] = -dot3(normal, lid.point - gap.gap * normal - centre) / radius;
+    a[kBallSize] = -normal.dot(lid.point - gap.gap * normal - centre) / radius;
     if (r != kNoIndex) {
       const double missing = gaps_[target][r] - gap.gap;
       program.want(a, missing, 1 / rim);

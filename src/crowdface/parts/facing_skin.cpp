@@ -67,7 +67,7 @@ double outward_side(const Positions& positions, const Positions& normals,
   const Eigen::Vector3d middle = centre_of(positions, skin);
   double volume = 0;
   for (const std::uint32_t v : skin) {
-    volume += dot3(row3(positions, v) - middle, row3(normals, v));
+    volume += (row3(positions, v) - middle).dot(row3(normals, v));
   }
   return volume < 0 ? -1 : 1;
 }
@@ -85,13 +85,13 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
   std::vector<Candidate> found;
   for (const std::uint32_t w : grid.about(here, kReach * extent)) {
     const Eigen::Vector3d other = normals.row(w).transpose();
-    if (dot3(normal, other) > kOpposed) continue;
+    if (normal.dot(other) > kOpposed) continue;
     const Eigen::Vector3d from = positions.row(w).transpose() - here;
-    const double distance = length3(from);
+    const double distance = from.norm();
     if (distance > kReach * extent) continue;
-    const Eigen::Vector3d across = side * unit3(normal - other);
-    const double gap = dot3(from, across);
-    const double aside = length3(from - gap * across);
+    const Eigen::Vector3d across = side * (normal - other).normalized();
+    const double gap = from.dot(across);
+    const double aside = (from - gap * across).norm();
     if (gap < -kOverlap * extent || aside > kSideways * std::max(gap, kAside * extent)) continue;
     found.push_back({distance, w, across});
   }
@@ -107,7 +107,7 @@ void agree_on_sides(FacingGroup& group) {
   for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();
   const Eigen::Vector3d up = symmetric_eigen(spread).vectors.col(0);
   for (FacingPair& pair : group) {
-    if (dot3(pair.up, up) >= 0) continue;
+    if (pair.up.dot(up) >= 0) continue;
     std::swap(pair.low, pair.high);
     pair.up = -pair.up;
   }
@@ -118,7 +118,7 @@ double mean_edge(const Adjacency& adjacency, const Positions& positions, const F
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {
     for (const std::uint32_t n : adjacency.of(pair.low)) {
-      sum += length3((positions.row(n) - positions.row(pair.low)).transpose());
+      sum += (row3(positions, n) - row3(positions, pair.low)).norm();
       ++count;
     }
   }

@@ -120,7 +120,7 @@ class PlaceFinder {
         auto pairs = walk_.from(
             {seed.vertex, to}, {partner_of_to, seed.partner}, [&](const MirroredPair& pair) {
               const Eigen::Vector3d off = image(pair.vertex) - row3(mean_, pair.partner);
-              squares += dot3(off, off);
+              squares += off.squaredNorm();
               return squares <= most;
             });
         if (!pairs || pairs->size() != here.size()) continue;
@@ -179,7 +179,7 @@ class PlaceFinder {
     for (const std::uint32_t f : around_.of(vertex)) {
       const auto face = topology_.face(f);
       for (std::size_t c = 0; c < face.size(); ++c) {
-        sum += length3(row3(mean_, face[c]) - row3(mean_, face[(c + 1) % face.size()]));
+        sum += (row3(mean_, face[c]) - row3(mean_, face[(c + 1) % face.size()])).norm();
         ++count;
       }
     }
@@ -200,8 +200,8 @@ double mean_square(const MirrorMap& map, const Positions& mean, double* largest 
   double squares = 0, most = 0;
   for (Index v = 0; v < mean.rows(); ++v) {
     const Eigen::Vector3d off = row3(image, v) - row3(mean, v);
-    squares += dot3(off, off);
-    most = std::max(most, length3(off));
+    squares += off.squaredNorm();
+    most = std::max(most, off.norm());
   }
   if (largest != nullptr) *largest = most;
   return squares / static_cast<double>(mean.rows());
@@ -232,7 +232,7 @@ void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   for (std::size_t i = 0; i < map.without.size(); ++i) {
     const auto v = static_cast<Index>(map.without[i]);
     const Eigen::Vector3d off = row3(mean, v) - row3(image, v);
-    const double length = length3(off);
+    const double length = off.norm();
     const double share = length > reach ? 1 - reach / length : 0;
     map.kept.row(static_cast<Index>(i)) = (share * off).transpose();
   }
@@ -256,7 +256,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   const Box box = bounding_box(mean, skin);
   const double extent = box.sizes().maxCoeff();
   map.plane = find_mirror_plane(topology, around, mean, skin,
-                                {side, dot3(side, 0.5 * (box.min() + box.max()))});
+                                {side, side.dot(0.5 * (box.min() + box.max()))});
   {
     PlaceFinder finder(topology, around, mean, map.plane, extent);
     const Vertices partners = component_partners(mean, of_component, map.plane, kBoxReach * extent);

@@ -64,7 +64,7 @@ class PlaneSearch {
     double squares = 0;
     for (std::size_t i = 0; i < some_.size(); ++i) {
       const Eigen::Vector3d off = tried.image(row3(mean_, some_[i])) - places_[i];
-      squares += dot3(off, off);
+      squares += off.squaredNorm();
     }
     if (squares >= least_) return;
     least_ = squares;
@@ -93,9 +93,9 @@ void PlaneFit::add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner)
 
 MirrorPlane PlaneFit::plane(const Eigen::Vector3d& side) const {
   MirrorPlane plane;
-  plane.normal = unit3(symmetric_eigen(along_).vectors.col(0));
-  if (dot3(plane.normal, side) < 0) plane.normal = -plane.normal;
-  plane.offset = dot3(plane.normal, middles_ / count_);
+  plane.normal = symmetric_eigen(along_).vectors.col(0).normalized();
+  if (plane.normal.dot(side) < 0) plane.normal = -plane.normal;
+  plane.offset = plane.normal.dot(middles_ / count_);
   return plane;
 }
 

@@ -52,7 +52,7 @@ void GroupingTree::join_near(std::uint32_t n, const Eigen::Vector3d& place, doub
     join_near(node.second, place, reach, component);
   } else {
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const double distance = length3(row3(points_, rows_[i]) - place);
+      const double distance = (row3(points_, rows_[i]) - place).norm();
       if (distance <= reach) groups_.join(component, components_[rows_[i]]);
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -9,7 +11,7 @@ namespace crowdface {
 struct HeadAxes {
   Eigen::Vector3d front = {0, 0, 1}, up = {0, 1, 0};
 
-  Eigen::Vector3d side() const { return cross3(up, front); }
+  Eigen::Vector3d side() const { return up.cross(front); }
 };
 
 }  // namespace crowdface

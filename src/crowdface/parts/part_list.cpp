@@ -51,8 +51,7 @@ Box box_of(const Positions& positions, const std::vector<std::uint32_t>& vertice
   Box box;
   for (const std::uint32_t v : vertices) {
     const Eigen::Vector3d point = row3(positions, v);
-    box.extend(
-        Eigen::Vector3d(dot3(point, axes.side()), dot3(point, axes.up), dot3(point, axes.front)));
+    box.extend(Eigen::Vector3d(point.dot(axes.side()), point.dot(axes.up), point.dot(axes.front)));
   }
   return box;
 }

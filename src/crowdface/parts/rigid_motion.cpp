@@ -81,7 +81,7 @@ RigidMotion fit_rigid_motion(const Positions& from, const Positions& to,
     const Eigen::Vector3d b = row3(to, vertices[i]) - motion.to;
     const Eigen::Vector3d weighted = weights[i] * a;  // before the product: so it is rounded
     s += weighted * b.transpose();
-    variance += weights[i] * dot3(a, a);
+    variance += weights[i] * a.squaredNorm();
   }
   motion.rotation = best_turn(s);
   double along = 0;  // trace(Rᵀ Σ w b aᵀ)

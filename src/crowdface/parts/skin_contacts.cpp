@@ -79,7 +79,7 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   for (const std::uint32_t v : sides.vertices) {
     for (const std::uint32_t n : adjacency.of(v)) {
       const Eigen::Vector3d edge = (mean.row(n) - mean.row(v)).transpose();
-      squares += dot3(edge, edge);
+      squares += edge.squaredNorm();
       ++count;
     }
   }
@@ -159,7 +159,7 @@ void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint3
   for (const std::uint32_t v : around) {
     std::vector<Share> shares;
     for (std::size_t p = contact.begin; p < contact.end; ++p) {
-      const double distance = length3(mean.row(v).transpose() - places_[p].middle) / reach;
+      const double distance = (row3(mean, v) - places_[p].middle).norm() / reach;
       const double weight = side[v] * bump(distance);
       if (std::abs(weight) > kLeastWeight) {
         shares.push_back({static_cast<std::uint32_t>(p), weight});
@@ -180,8 +180,8 @@ void SkinContacts::find_motions(Contact& contact) const {
       if (row == kNoIndex) return;
       for (const auto& [place, weight] : contact.shares.of(row)) {
         Motions& motions = contact.motions[place - contact.begin];
-        motions.heights.back() += share * weight * dot3(up, places_[place].up);
-        motions.depths.back() += share * weight * dot3(deep, places_[place].up);
+        motions.heights.back() += share * weight * up.dot(places_[place].up);
+        motions.depths.back() += share * weight * deep.dot(places_[place].up);
       }
     };
     for (const auto* profile : {&places_[p].low, &places_[p].high}) {

@@ -14,7 +14,7 @@ namespace {
 SurfacePoint bare_vertex(const Positions& positions, std::uint32_t vertex,
                          const Eigen::Vector3d& point) {
   const Eigen::Vector3d place = row3(positions, vertex);
-  return {{vertex, vertex, vertex}, {1, 0, 0}, place, length3(point - place)};
+  return {{vertex, vertex, vertex}, {1, 0, 0}, place, (point - place).norm()};
 }
 
 /// Makes the best place one of this face's if that is nearer, or if the best is a bare vertex.
@@ -26,7 +26,7 @@ void try_face(std::span<const std::uint32_t> face, const Positions& positions,
         nearest_in_triangle(row3(positions, corners[0]), row3(positions, corners[1]),
                             row3(positions, corners[2]), point);
     const Eigen::Vector3d place = point_on(positions, corners, shares);
-    const double distance = length3(point - place);
+    const double distance = (point - place).norm();
     if (std::isnan(distance)) continue;  // a triangle without area
     if (distance < best.distance || best.corners[0] == best.corners[1]) {
       best = {corners, shares, place, distance};
@@ -63,7 +63,7 @@ std::uint32_t descend(const Topology& topology, const FacesAround& faces,
                       const Eigen::Vector3d& point) {
   const auto square_to = [&](std::uint32_t vertex) {
     const Eigen::Vector3d from = row3(positions, vertex) - point;
-    return dot3(from, from);
+    return from.squaredNorm();
   };
   double least = square_to(start);
   for (std::uint32_t vertex = start;;) {
@@ -102,7 +102,7 @@ SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
 }
 
 Eigen::Vector3d normal_at(const Positions& positions, const SurfacePoint& place) {
-  return unit3(area_vector(positions, place.corners));
+  return area_vector(positions, place.corners).normalized();
 }
 
 }  // namespace crowdface

@@ -34,7 +34,7 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
   while (landmarks.size() > kFewestLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
     const auto off = [&](const WrapLandmark& landmark) {
-      return length3(carried(back, landmark.place) - row3(shape.positions, landmark.vertex));
+      return (carried(back, landmark.place) - row3(shape.positions, landmark.vertex)).norm();
     };
     const auto worst = std::ranges::max_element(landmarks, {}, off);
     if (off(*worst) <= kOffMm) return;
@@ -63,7 +63,7 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
       const auto found = of_scan.find(name);
       if (found == of_scan.end()) continue;
       const std::uint32_t there = found->second;
-      if (length3(row3(placed, there) - row3(shape.positions, vertex)) > kFarMm) continue;
+      if ((row3(placed, there) - row3(shape.positions, vertex)).norm() > kFarMm) continue;
       landmarks.push_back({name, vertex, row3(scan.positions, there), true});
     }
     drop_outliers(shape, landmarks);

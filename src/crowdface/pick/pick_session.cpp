@@ -31,7 +31,7 @@ PoseHint guess_bearing(const Scan& scan) {
 
 /// The power of ten that is at most a millionth of the mesh's size.
 double step_of(const PickableMesh& mesh) {
-  const double size = length3(mesh.high() - mesh.low());
+  const double size = (mesh.high() - mesh.low()).norm();
   return size > 0 ? std::pow(10.0, std::floor(std::log10(size)) - 6) : 1e-6;
 }
 

@@ -67,7 +67,7 @@ PickedPlace PickableMesh::place_of(const Triangle& corners,
     place.point += shares[k] * row3(positions_, corners[k]);
     place.normal += shares[k] * row3(normals_, corners[k]);
   }
-  place.normal = unit3(place.normal);
+  place.normal = place.normal.normalized();
   place.vertex = *std::ranges::min_element(corners, {}, [&](std::uint32_t corner) {
     return (row3(positions_, corner) - place.point).squaredNorm();
   });
@@ -76,7 +76,7 @@ PickedPlace PickableMesh::place_of(const Triangle& corners,
 
 std::optional<PickableMesh::Met> PickableMesh::meet(const Eigen::Vector3d& origin,
                                                     const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3d way = unit3(direction);
+  const Eigen::Vector3d way = direction.normalized();
   const Ray ray{(origin - middle_).cast<float>(), way.cast<float>()};
   const auto hit = scene_.nearest_hits(std::span(&ray, 1)).front();
   if (!hit) return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<PickedPlace> PickableMesh::cast(const Eigen::Vector3d& origin,
     const Triangle& corners = skin_[met->triangle];
     return place_of(corners, nearest_on_triangle(positions_, corners, met->point).shares);
   }
-  return nearest(met->point, -unit3(direction), 0, beside);
+  return nearest(met->point, -direction.normalized(), 0, beside);
 }
 
 std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,

@@ -33,7 +33,7 @@ class FrontView {
   FrontView(const PickableMesh& mesh, const HeadAxes& axes)
       : mesh_(mesh), axes_(axes), side_(axes.side()) {
     const Eigen::Vector3d middle = (mesh.low() + mesh.high()) / 2;
-    start_ = dot3(middle, axes.front) + length3(mesh.high() - mesh.low());
+    start_ = middle.dot(axes.front) + (mesh.high() - mesh.low()).norm();
   }
   std::optional<PickableMesh::Met> look(double across, double height) const {
     return mesh_.meet(across * side_ + height * axes_.up + start_ * axes_.front, -axes_.front);
@@ -42,9 +42,9 @@ class FrontView {
     return mesh_.cast(across * side_ + height * axes_.up + start_ * axes_.front, -axes_.front,
                       kBesideMm);
   }
-  double across(const Eigen::Vector3d& point) const { return dot3(point, side_); }
-  double height(const Eigen::Vector3d& point) const { return dot3(point, axes_.up); }
-  double front(const Eigen::Vector3d& point) const { return dot3(point, axes_.front); }
+  double across(const Eigen::Vector3d& point) const { return point.dot(side_); }
+  double height(const Eigen::Vector3d& point) const { return point.dot(axes_.up); }
+  double front(const Eigen::Vector3d& point) const { return point.dot(axes_.front); }
   const HeadAxes& axes() const { return axes_; }
   const PickableMesh& mesh() const { return mesh_; }
 
@@ -116,7 +116,7 @@ using Places = std::vector<Eigen::Vector3d>;
 
 Eigen::Vector3d farthest(const Places& places, const Eigen::Vector3d& direction) {
   return *std::ranges::max_element(
-      places, {}, [&](const Eigen::Vector3d& place) { return dot3(place, direction); });
+      places, {}, [&](const Eigen::Vector3d& place) { return place.dot(direction); });
 }
 
 /// Where an eyeball shows between the lids, from the front.
@@ -128,7 +128,7 @@ Places find_opening(const FrontView& view, const Eigen::Vector3d& centre, double
     for (int y = -kSteps; y <= kSteps; ++y) {
       const auto met = view.look(view.across(centre) + kFar * radius * x / kSteps,
                                  view.height(centre) + kFar * radius * y / kSteps);
-      if (met && !met->is_skin && length3(met->point - centre) < kFar * radius) {
+      if (met && !met->is_skin && (met->point - centre).norm() < kFar * radius) {
         opening.push_back(met->point);
       }
     }

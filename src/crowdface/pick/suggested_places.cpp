@@ -62,7 +62,7 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   std::vector<double> residuals;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Similarity pose = fit(pairs, used, i).value_or(whole);
-    residuals.push_back(length3(carried(pose, pairs[i].from) - pairs[i].to) / pose.scale);
+    residuals.push_back((carried(pose, pairs[i].from) - pairs[i].to).norm() / pose.scale);
   }
   return residuals;
 }
@@ -105,7 +105,7 @@ std::optional<PickedPlace> outermost(const PickableMesh& mesh,
                                      const std::optional<PickedPlace>& place, double depth) {
   if (!place) return place;
   const auto outside = mesh.cast(place->point + depth * place->normal, -place->normal, 0);
-  return outside && dot3(outside->normal, place->normal) > 0 ? outside : place;
+  return outside && outside->normal.dot(place->normal) > 0 ? outside : place;
 }
 
 /// The places on the template that names have, picked or suggested.
@@ -119,7 +119,7 @@ std::map<std::string, PickedPlace> suggest_on_template(
     const auto other = landmark.vertex ? mirrored_name(landmark.name) : std::nullopt;
     if (!other) continue;
     const PickedPlace here = mesh.at_vertex(*landmark.vertex);
-    const Eigen::Vector3d facing = here.normal - 2 * dot3(plane.normal, here.normal) * plane.normal;
+    const Eigen::Vector3d facing = here.normal - 2 * plane.normal.dot(here.normal) * plane.normal;
     const auto there = mesh.nearest(plane.image(here.point), facing, kLeastCosine, kReachMm);
     if (there) places[*other] = mesh.at_vertex(there->vertex);
   }

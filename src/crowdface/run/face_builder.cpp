@@ -173,7 +173,7 @@ void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) con
     std::size_t other = p;
     double nearest = HUGE_VAL;
     for (std::size_t q = 0; q < own.size(); ++q) {
-      const double distance = length3(contacts_->place(q).middle - image);
+      const double distance = (contacts_->place(q).middle - image).norm();
       if (distance >= nearest) continue;
       nearest = distance;
       other = q;

@@ -102,7 +102,7 @@ double EvenedField::distance(const Eigen::Vector3d& place) const {
   double least = std::numeric_limits<double>::max();
   for (const Eigen::Vector3d& other : around_) {
     const Eigen::Vector3d from = other - place;
-    least = std::min(least, dot3(from, from));
+    least = std::min(least, from.squaredNorm());
   }
   return std::sqrt(least);
 }

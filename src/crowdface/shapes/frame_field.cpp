@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/core/smooth_step.h"
@@ -31,7 +33,7 @@ std::vector<std::uint32_t> spread_over(const Positions& positions,
     chosen.push_back(vertices[next]);
     const Eigen::Vector3d here = row3(positions, vertices[next]);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      nearest[i] = std::min(nearest[i], length3(row3(positions, vertices[i]) - here));
+      nearest[i] = std::min(nearest[i], (row3(positions, vertices[i]) - here).norm());
     }
     next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
@@ -43,12 +45,12 @@ std::vector<std::uint32_t> spread_over(const Positions& positions,
 Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m) {
   const Eigen::Vector3d a = m.row(0).transpose(), b = m.row(1).transpose(),
                         c = m.row(2).transpose();
-  const Eigen::Vector3d bc = cross3(b, c), ca = cross3(c, a), ab = cross3(a, b);
+  const Eigen::Vector3d bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
   Eigen::Matrix3d inverse;
   inverse.col(0) = bc;
   inverse.col(1) = ca;
   inverse.col(2) = ab;
-  return inverse / dot3(a, bc);
+  return inverse / a.dot(bc);
 }
 
 FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
@@ -60,7 +62,7 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
     const Eigen::Vector3d middle = row3(neutral, chosen[p]);
     std::vector<std::uint32_t> patch;
     for (const std::uint32_t v : skin) {
-      if (length3(row3(neutral, v) - middle) < kPatch * extent) patch.push_back(v);
+      if ((row3(neutral, v) - middle).norm() < kPatch * extent) patch.push_back(v);
     }
     places_[p] = place_at(neutral, some_of(patch, kMostPatch), kPatch * extent, chosen[p]);
   });
@@ -69,7 +71,7 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
     Share nearest{0, std::numeric_limits<double>::max()};
     double sum = 0;
     for (std::uint32_t p = 0; p < places_.size(); ++p) {
-      const double distance = length3(row3(neutral, v) - places_[p].middle);
+      const double distance = (row3(neutral, v) - places_[p].middle).norm();
       if (distance < nearest.weight) nearest = {p, distance};
       const double weight = biweight(std::min(1.0, distance / (kBetween * extent)));
       if (weight > 0) shares.push_back({p, weight});
@@ -90,7 +92,7 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
   double sum = 0;
   for (const std::uint32_t v : patch) {
     const Eigen::Vector3d from = row3(neutral, v) - place.middle;
-    weights.push_back(biweight(std::min(1.0, length3(from) / reach)));
+    weights.push_back(biweight(std::min(1.0, from.norm() / reach)));
     mean += weights.back() * from;
     sum += weights.back();
   }

@@ -44,7 +44,7 @@ Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool uppe
   for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
     if (eye.lids.upper[r] != upper) continue;
     const Eigen::Vector3d point = row3(shape, eye.lids.vertices[eye.lids.rim[r]]);
-    const double distance = std::abs(dot3(point, along) - at);
+    const double distance = std::abs(point.dot(along) - at);
     if (distance >= nearest) continue;
     nearest = distance;
     found = point;
@@ -59,7 +59,7 @@ void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<sig
     double nearest = std::numeric_limits<double>::max();
     for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
       const std::uint32_t rim = eye.lids.vertices[eye.lids.rim[r]];
-      const double distance = length3(row3(neutral, v) - row3(neutral, rim));
+      const double distance = (row3(neutral, v) - row3(neutral, rim)).norm();
       if (distance >= nearest) continue;
       nearest = distance;
       side[v] = eye.lids.upper[r] ? 1 : -1;
@@ -92,18 +92,18 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
     const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
-    const double cosine = dot3(from, axes.front) / length3(from);
+    const double cosine = from.dot(axes.front) / from.norm();
     Lid lid{row, v, i, 0, 0};
     lid.hold = smooth_step(kNoHold * radius_, kWholeHold * radius_,
                            std::min(std::abs(gap_before), std::abs(gap_after))) *
                std::clamp((cosine - kHoldFrom) / kHoldOver, 0.0, 1.0);
     if (!places_.empty())
-      lid.share = smooth_step(kNoShare * radius_, kWholeShare * radius_, length3(from));
+      lid.share = smooth_step(kNoShare * radius_, kWholeShare * radius_, from.norm());
     if (lid.share > 0 || lid.hold > 0) lids_.push_back(lid);
   }
   put_profiles_first();
   for (const Lid& lid : lids_) {
-    const double at = dot3(row3(neutral, lid.vertex) + row3(shape.moves, lid.row), along);
+    const double at = (row3(neutral, lid.vertex) + row3(shape.moves, lid.row)).dot(along);
     const std::size_t first = heard_.size();
     double sum = 0;
     for (const Place& place : places_) {
@@ -139,7 +139,7 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
   const std::vector<double> side(sides.begin(), sides.end());
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
-    const double at = dot3(row3(neutral, eye.lids.vertices[r]), along);
+    const double at = row3(neutral, eye.lids.vertices[r]).dot(along);
     low = std::min(low, at);
     high = std::max(high, at);
   }
@@ -147,7 +147,7 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kPlaces;
     const Eigen::Vector3d middle =
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
-    ContactPlace cut{middle + (at - dot3(middle, along)) * along, axes.up, along, {}, {}};
+    ContactPlace cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
@@ -215,8 +215,8 @@ LidClosure::Rim LidClosure::rim_point(const std::vector<Point>& points, double s
         (1 - point.on.share) * row3(face, point.on.a) + point.on.share * row3(face, point.on.b);
     if (point.row_a != kNoIndex) at += (1 - point.on.share) * row3(moves, point.row_a);
     if (point.row_b != kNoIndex) at += point.on.share * row3(moves, point.row_b);
-    const double height = sign * dot3(at, axes.up);
-    if (height > rim.height) rim = {dot3(at, axes.along), height};
+    const double height = sign * at.dot(axes.up);
+    if (height > rim.height) rim = {at.dot(axes.along), height};
   }
   return {rim.along, sign * rim.height};
 }
@@ -250,7 +250,7 @@ void LidClosure::close(std::size_t count, const Eigen::Vector3d& up, const Posit
     const Lid& lid = lids_[i];
     const Eigen::Vector3d move = row3(carried, lid.row);
     const double gain = fixed_dot(heard(i), gains);
-    moves.row(lid.row) = (move + gain * dot3(move, up) * up).transpose();
+    moves.row(lid.row) = (move + gain * move.dot(up) * up).transpose();
   }
 }
 

@@ -62,24 +62,24 @@ std::vector<bool> skin_that_may_meet(const SkinTriangles& skin, const Positions&
   std::vector<bool> meets(representative.size(), false), folds = meets;
   for (const std::uint32_t v : skin.vertices) {
     const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
-    if (dot3(move, move) == 0) continue;
+    if (move.squaredNorm() == 0) continue;
     double reach = kMeetingReach * extent;
     for (const std::uint32_t t : skin.around.of(v)) {
       for (const std::uint32_t w : skin.triangles[t]) {
-        const double edge = length3(row3(shaped, w) - at);
+        const double edge = (row3(shaped, w) - at).norm();
         reach = std::max(reach, kMeetingReachEdges * edge);
-        const double shorter = std::min(edge, length3(row3(neutral, w) - row3(neutral, v)));
-        if (length3(move_of(w) - move) > kFolds * shorter) folds[v] = folds[w] = true;
+        const double shorter = std::min(edge, (row3(neutral, w) - row3(neutral, v)).norm());
+        if ((move_of(w) - move).norm() > kFolds * shorter) folds[v] = folds[w] = true;
       }
     }
     if (representative[v] != v) continue;
     for (const std::uint32_t w : grid.about(at, reach)) {
-      if ((meets[v] && meets[w]) || dot3(row3(normals, w), row3(normals, v)) > 0) continue;
-      const double distance = length3(row3(shaped, w) - at);
+      if ((meets[v] && meets[w]) || row3(normals, w).dot(row3(normals, v)) > 0) continue;
+      const double distance = (row3(shaped, w) - at).norm();
       if (distance > reach) continue;
       const Eigen::Vector3d other = move_of(w);
       const double may_differ =
-          kOfMove * std::max(length3(move), length3(other)) + kOfDifference * length3(move - other);
+          kOfMove * std::max(move.norm(), other.norm()) + kOfDifference * (move - other).norm();
       if (may_differ >= distance) meets[v] = meets[w] = true;
     }
   }

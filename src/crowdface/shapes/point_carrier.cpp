@@ -14,14 +14,14 @@ namespace {
 double nearest(const Eigen::Vector3d& point, const Positions& mesh,
                std::span<const std::uint32_t> vertices) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t v : vertices) least = std::min(least, length3(row3(mesh, v) - point));
+  for (const std::uint32_t v : vertices) least = std::min(least, (row3(mesh, v) - point).norm());
   return least;
 }
 
 /// Whether a point is nearer to the middle of an eyeball than its surface is.
 bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
   const Eigen::Vector3d middle = centre_of(mesh, eyeball.surface);
-  return length3(point - middle) < nearest(middle, mesh, eyeball.surface);
+  return (point - middle).norm() < nearest(middle, mesh, eyeball.surface);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ Socket PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& me
   constexpr double kFurther = 1.5;
   constexpr std::size_t kFewest = 60;
   std::vector<std::pair<double, std::uint32_t>> by_distance;
-  for (const std::uint32_t v : skin) by_distance.emplace_back(length3(row3(mesh, v) - point), v);
+  for (const std::uint32_t v : skin) by_distance.emplace_back((row3(mesh, v) - point).norm(), v);
   std::sort(by_distance.begin(), by_distance.end());
   const std::size_t fewest = std::min(kFewest, by_distance.size());
   const double reach = std::max(kFurther * to_skin, by_distance[fewest - 1].first);

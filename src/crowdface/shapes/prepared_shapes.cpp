@@ -132,7 +132,7 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
   eye.of_template.lids = find_lids(set.neutral, PointGrid(set.neutral, part.vertices),
                                    here.centre(), here.radius(), axes, skin);
   for (const std::uint32_t v : skin) {
-    if (length3(row3(set.neutral, v) - here.centre()) < kEyeSkin * here.radius()) {
+    if ((row3(set.neutral, v) - here.centre()).norm() < kEyeSkin * here.radius()) {
       eye.of_template.skin.push_back(v);
     }
   }
@@ -145,7 +145,7 @@ void PreparedShapes::find_inner(const PartList& parts) {
     std::ranges::copy_if(part.vertices, std::back_inserter(inner), [&](std::uint32_t v) {
       return std::ranges::none_of(eyes, [&](const ActingEye& eye) {
         const BallMap& ball = eye.of_template.ball;
-        return length3(row3(set.neutral, v) - ball.centre()) < kEyeSkin * ball.radius();
+        return (row3(set.neutral, v) - ball.centre()).norm() < kEyeSkin * ball.radius();
       });
     });
   }

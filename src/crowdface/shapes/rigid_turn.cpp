@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/shapes/frame_field.h"
@@ -30,8 +32,8 @@ void normalize(std::array<double, 4>& q) {
 
 Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
   const Vector3d axis(q[1], q[2], q[3]);
-  const Vector3d once = 2 * cross3(axis, v);
-  return v + q[0] * once + cross3(axis, once);
+  const Vector3d once = 2 * axis.cross(v);
+  return v + q[0] * once + axis.cross(once);
 }
 
 /// As the template has it.

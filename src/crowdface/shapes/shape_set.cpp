@@ -14,7 +14,7 @@ Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh
   Shape shape{std::move(name), {}};
   std::vector<std::uint32_t>& vertices = shape.moves.vertices;
   for (std::uint32_t v = 0; v < neutral.rows(); ++v) {
-    if (length3(row3(mesh, v) - row3(neutral, v)) > kStill * extent) vertices.push_back(v);
+    if ((row3(mesh, v) - row3(neutral, v)).norm() > kStill * extent) vertices.push_back(v);
   }
   shape.moves.moves = mesh(vertices, Eigen::all) - neutral(vertices, Eigen::all);
   return shape;

@@ -184,7 +184,7 @@ class SkinCrossings::Mending {
     const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
       const ShapeRow& row = watched_.rows[number];
-      if (side(row.vertex) != 0) by -= (1 - kClosing) * dot3(by, up) * up;
+      if (side(row.vertex) != 0) by -= (1 - kClosing) * by.dot(up) * up;
       move(row, by);
     }
   }
@@ -224,8 +224,8 @@ class SkinCrossings::Mending {
         middle[k] = row3(face_.rest, a) + row3(face_.rest, b) + row3(face_.rest, c);
       }
       const double side_of_first = side_of(pair[0]);
-      Eigen::Vector3d over = unit3(middle[0] - middle[1]) + side_of_first * front;
-      over = unit3(over - dot3(over, up) * up);
+      Eigen::Vector3d over = (middle[0] - middle[1]).normalized() + side_of_first * front;
+      over = (over - over.dot(up) * up).normalized();
       for (std::size_t k = 0; k < 2; ++k) {
         for (const std::uint32_t v : watched_.search.triangles()[pair[k]]) {
           if (side(v) < 0) continue;
@@ -233,7 +233,7 @@ class SkinCrossings::Mending {
         }
       }
     }
-    for (auto& [v, push] : wanted) push = unit3(push);
+    for (auto& [v, push] : wanted) push = push.normalized();
     const double reach = kPushed * skin_.extent_, by = grown * kPush * skin_.extent_;
     for (const ShapeRow& row : watched_.rows) {
       if (side(row.vertex) == 0) continue;
@@ -242,7 +242,7 @@ class SkinCrossings::Mending {
       double weights = 0, most = 0;
       for (const auto& [v, push] : wanted) {
         if (side(v) != side(row.vertex) && v != row.vertex) continue;
-        const double distance = length3(row3(face_.rest, v) - here) / reach;
+        const double distance = (row3(face_.rest, v) - here).norm() / reach;
         if (distance >= 1) continue;
         const double weight = biweight(distance);
         sum += weight * push;

@@ -33,7 +33,7 @@ constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
 
 Eigen::Vector3d normal_of(const Corners& corners) {
-  return unit3(cross3(corners[1] - corners[0], corners[2] - corners[0]));
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
 }
 
 /// How far a triangle is in front of a point, if it is in front of or behind it.
@@ -41,8 +41,8 @@ std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corn
                                const HeadAxes& axes, const Eigen::Vector3d& side) {
   std::array<double, 3> x{}, y{}, shares{};
   for (std::size_t k = 0; k < 3; ++k) {
-    x[k] = dot3(corners[k] - point, side);
-    y[k] = dot3(corners[k] - point, axes.up);
+    x[k] = (corners[k] - point).dot(side);
+    y[k] = (corners[k] - point).dot(axes.up);
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
@@ -51,7 +51,7 @@ std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corn
   const auto [least, most] = std::ranges::minmax(shares);
   if (least == most || (least < 0 && most > 0)) return std::nullopt;
   double ahead = 0;
-  for (std::size_t k = 0; k < 3; ++k) ahead += shares[k] * dot3(corners[k] - point, axes.front);
+  for (std::size_t k = 0; k < 3; ++k) ahead += shares[k] * (corners[k] - point).dot(axes.front);
   return ahead / (shares[0] + shares[1] + shares[2]);
 }
 
@@ -92,7 +92,7 @@ class FrontView {
   using Cell = std::pair<std::int64_t, std::int64_t>;
 
   Eigen::Vector2d seen(const Eigen::Vector3d& point) const {
-    return {dot3(point, side_), dot3(point, axes_.up)};
+    return {point.dot(side_), point.dot(axes_.up)};
   }
   Cell cell_of(const Eigen::Vector2d& at) const {
     return {static_cast<std::int64_t>(std::floor(at.x() / cell_)),
@@ -130,7 +130,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     return;
   }
   double area = 0;
-  for (const Triangle& t : around) area += length3(area_vector(shaped, t));
+  for (const Triangle& t : around) area += area_vector(shaped, t).norm();
   const double edge =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, around.size())));
   const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kFewestRings, kMostRings));
@@ -145,7 +145,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     if (taken.contains(at)) continue;
     const auto hit = view.foremost(point);
     if (!hit || hit->ahead <= 0) continue;
-    const double facing = dot3(axes.front, normal_of(corners_of(shaped, around[hit->triangle])));
+    const double facing = axes.front.dot(normal_of(corners_of(shaped, around[hit->triangle])));
     const double depth = hit->ahead * facing;
     if (facing < kFacesFront || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
@@ -177,7 +177,7 @@ void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
   for (const Covered& covered : covered_) {
     double least = HUGE_VAL;
     for (const std::uint32_t v : covered.over) {
-      least = std::min(least, length3(row3(mesh, v) - row3(rest, v)));
+      least = std::min(least, (row3(mesh, v) - row3(rest, v)).norm());
     }
     most.push_back(least);
   }
@@ -201,7 +201,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
     if (most[i] <= 0) continue;
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
     const Corners over = corners_of(mesh, covered.over);
-    if (dot3(over[0] - point, normal_of(over)) > kNear * scale * extent_) continue;
+    if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
     std::optional<double> foremost;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const Triangle& triangle : covered.near) {
@@ -211,7 +211,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
       foremost = ahead;
       normal = normal_of(corners);
     }
-    const double facing = dot3(axes.front, normal);
+    const double facing = axes.front.dot(normal);
     if (!foremost || facing < kFacesFront) continue;
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
@@ -235,14 +235,14 @@ void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<c
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double longest = 0;
     for (const Push& push : pushes) {
-      const double distance = length3(push.at - here) / reach;
+      const double distance = (push.at - here).norm() / reach;
       if (distance >= 1) continue;
       const double weight = biweight(distance);
       sum += weight * push.by;
-      longest = std::max(longest, weight * length3(push.by));
+      longest = std::max(longest, weight * push.by.norm());
     }
     if (longest == 0) continue;
-    const Eigen::RowVector3d by = (longest * unit3(sum)).transpose();
+    const Eigen::RowVector3d by = (longest * sum.normalized()).transpose();
     shape.moves.row(row) += by;
     mesh.row(v) += by;
   }

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/vector3.h"
@@ -29,7 +31,7 @@ std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& 
   const Eigen::Vector3d origin = row3(head, triangles.front()[0]);
   double volume = 0;
   for (const Triangle& triangle : triangles) {
-    volume += dot3(row3(head, triangle[0]) - origin, area_vector(head, triangle));
+    volume += (row3(head, triangle[0]) - origin).dot(area_vector(head, triangle));
   }
   if (volume < 0) {
     for (Triangle& triangle : triangles) std::swap(triangle[1], triangle[2]);
@@ -45,7 +47,7 @@ constexpr int kMostAlongEdge = 8;
 
 int points_along_edge(const Corners& at, double mm_per_unit) {
   const double longest =
-      std::max({length3(at[1] - at[0]), length3(at[2] - at[1]), length3(at[0] - at[2])});
+      std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
   return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMostAlongEdge);
 }
 
@@ -53,11 +55,11 @@ int points_along_edge(const Corners& at, double mm_per_unit) {
 /// \param in_the_way  #directions: of the last ray to each viewer
 double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
                      const Viewing& viewing, std::span<std::uint32_t> in_the_way) {
-  const Eigen::Vector3d normal = cross3(at[1] - at[0], at[2] - at[0]);
+  const Eigen::Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
   std::vector<std::size_t> behind;
   for (std::size_t i = 0; i < viewing.directions.size(); ++i) {
     const Eigen::Vector3d& viewer = viewing.directions[i];
-    if (-dot3(normal, viewer) > kFlattestCosine * length3(normal) * length3(viewer)) {
+    if (-normal.dot(viewer) > kFlattestCosine * normal.norm() * viewer.norm()) {
       behind.push_back(i);
     }
   }
@@ -113,7 +115,7 @@ double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& tri
     const double share =
         exposed_share(scene, corners_of(positions, triangles[t]), t, viewing, in_the_way);
     if (share == 0) continue;
-    exposed += 0.5 * share * length3(area_vector(positions, triangles[t]));
+    exposed += 0.5 * share * area_vector(positions, triangles[t]).norm();
     look_around(t);
   }
   return exposed;

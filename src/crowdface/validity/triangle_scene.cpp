@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/validity/triangles.h"
@@ -24,15 +26,15 @@ class Ray {
     const Eigen::Vector3d a = row3(positions, triangle[0]);
     const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
     const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
-    const Eigen::Vector3d p = cross3(direction_, ac);
-    const double determinant = dot3(ab, p);
+    const Eigen::Vector3d p = direction_.cross(ac);
+    const double determinant = ab.dot(p);
     if (determinant == 0) return false;
     const Eigen::Vector3d from_a = origin_ - a;
-    const double u = dot3(from_a, p) / determinant;
+    const double u = from_a.dot(p) / determinant;
     if (u < 0 || u > 1) return false;
-    const Eigen::Vector3d q = cross3(from_a, ab);
-    const double v = dot3(direction_, q) / determinant;
-    return v >= 0 && u + v <= 1 && dot3(ac, q) / determinant > 0;
+    const Eigen::Vector3d q = from_a.cross(ab);
+    const double v = direction_.dot(q) / determinant;
+    return v >= 0 && u + v <= 1 && ac.dot(q) / determinant > 0;
   }
 
  private:

@@ -57,7 +57,7 @@ TriangleTree::TriangleTree(const std::vector<Triangle>& triangles, const Positio
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     middles.emplace_back(row3(positions, a) + row3(positions, b) + row3(positions, c));
-    if (apart > 0) middles.back() += 3 * apart * unit3(area_vector(positions, triangles[t]));
+    if (apart > 0) middles.back() += 3 * apart * area_vector(positions, triangles[t]).normalized();
     if (!left_out[t]) order.push_back(t);
   }
   if (order.empty()) return;

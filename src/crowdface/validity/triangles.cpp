@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -17,7 +19,7 @@ using Vector = Eigen::Vector3d;
 /// \return false if none of them is beyond it, or all are.
 bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
                    std::array<double, 3>& distance) {
-  for (std::size_t c = 0; c < 3; ++c) distance[c] = dot3(normal, other[c] - t[0]);
+  for (std::size_t c = 0; c < 3; ++c) distance[c] = normal.dot(other[c] - t[0]);
   const auto [least, most] = std::ranges::minmax(distance);
   return least < 0 && most > 0;
 }
@@ -46,11 +48,11 @@ TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const P
   for (const Triangle& t : triangles) {
     const Vector u = row3(target, t[1]) - row3(target, t[0]);
     const Vector v = row3(target, t[2]) - row3(target, t[0]);
-    const Vector normal = cross3(u, v);
-    if (!(dot3(normal, normal) > kSliver * kSliver * dot3(u, u) * dot3(v, v))) continue;
-    const double length = std::sqrt(dot3(u, u));
-    const double shift = dot3(u, v) / length;
-    frames_.push_back({t, normal, length, shift, std::sqrt(dot3(normal, normal)) / length});
+    const Vector normal = u.cross(v);
+    if (!(normal.squaredNorm() > kSliver * kSliver * u.squaredNorm() * v.squaredNorm())) continue;
+    const double length = std::sqrt(u.squaredNorm());
+    const double shift = u.dot(v) / length;
+    frames_.push_back({t, normal, length, shift, std::sqrt(normal.squaredNorm()) / length});
   }
 }
 
@@ -63,15 +65,15 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const Vector origin = row3(positions, frame.corners[0]);
     const Vector u = row3(positions, frame.corners[1]) - origin;
     const Vector v = row3(positions, frame.corners[2]) - origin;
-    const Vector normal = cross3(u, v);
-    const bool turned = dot3(normal, frame.normal) < 0;
+    const Vector normal = u.cross(v);
+    const bool turned = normal.dot(frame.normal) < 0;
     const bool collapsed =
-        dot3(normal, normal) < kCollapsed * kCollapsed * dot3(frame.normal, frame.normal);
+        normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
     if (turned || collapsed) ++defects.flipped;
     // The largest singular value, squared, of the map from the frame: images of its two axes.
     const Vector x = u / frame.length;
     const Vector y = (v - frame.shift * x) / frame.height;
-    const double a = dot3(x, x), b = dot3(x, y), c = dot3(y, y);
+    const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();
     stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
   }
   defects.compared = static_cast<Index>(stretches.size());
@@ -90,12 +92,12 @@ Corners corners_of(const Positions& positions, const Triangle& triangle) {
 bool triangles_intersect(const Positions& positions, const Triangle& a, const Triangle& b) {
   const Corners p = corners_of(positions, a), q = corners_of(positions, b);
   std::array<double, 3> p_side, q_side;
-  const Vector n = cross3(p[1] - p[0], p[2] - p[0]);
+  const Vector n = (p[1] - p[0]).cross(p[2] - p[0]);
   if (!crosses_plane(p, n, q, q_side)) return false;
-  const Vector m = cross3(q[1] - q[0], q[2] - q[0]);
+  const Vector m = (q[1] - q[0]).cross(q[2] - q[0]);
   if (!crosses_plane(q, m, p, p_side)) return false;
   Index axis = 0;
-  cross3(n, m).cwiseAbs().maxCoeff(&axis);
+  n.cross(m).cwiseAbs().maxCoeff(&axis);
   const auto [p_low, p_high] = interval_on_line(p, p_side, axis);
   const auto [q_low, q_high] = interval_on_line(q, q_side, axis);
   return p_low < q_high && q_low < p_high;

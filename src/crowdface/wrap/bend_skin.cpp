@@ -39,7 +39,7 @@ double robust(double distance, double spread) {
 double spread_of(const std::vector<Pull>& pulls, double reach) {
   std::vector<double> distances;
   for (const Pull& pull : pulls) {
-    if (pull.found) distances.push_back(std::abs(dot3(pull.normal, pull.offset)));
+    if (pull.found) distances.push_back(std::abs(pull.normal.dot(pull.offset)));
   }
   return outlier_distance(std::move(distances), reach);
 }
@@ -161,7 +161,7 @@ class Bending {
     for (std::uint32_t v = 0; v < pulls.size(); ++v) {
       const Pull& pull = pulls[v];
       if (!pull.found) continue;
-      const double weight = pull.weight * robust(length3(pull.offset), spread);
+      const double weight = pull.weight * robust(pull.offset.norm(), spread);
       wishes.add(v, pull.normal, weight * (1 - tangential), weight * tangential,
                  pull.offset + row3(displacements_, v));
     }
@@ -185,7 +185,7 @@ class Bending {
     for (std::size_t i = 0; i < pulls.size(); ++i) {
       const Pull& pull = pulls[i];
       if (!pull.found) continue;
-      const double weight = pull.weight * robust(length3(pull.offset), spread);
+      const double weight = pull.weight * robust(pull.offset.norm(), spread);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = skin_.triangles[hits[i].triangle][k];
         const double share = weight * hits[i].shares[k] * visible_[v];

@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/smooth/iterate.h"
@@ -101,7 +103,7 @@ AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Pos
       const auto place = scan.nearest(point, normal, kNoWall, kReachMm, before);
       before = place.triangle;
       if (!place.found) continue;
-      const double off = dot3(place.point - point, place.normal) / dot3(normal, place.normal);
+      const double off = (place.point - point).dot(place.normal) / normal.dot(place.normal);
       const double share = off / kReachMm;
       asked.values(v) = off;
       asked.weights(v) += 1 / ((1 + share * share) * (1 + share * share));
@@ -117,11 +119,11 @@ bool turns_over(const Positions& rest, const Positions& before, const Positions&
     return row3(before, v) + along(v) * row3(normals, v);
   };
   const Eigen::Vector3d was = area_vector(before, t), first = moved(t[0]);
-  const Eigen::Vector3d is = cross3(moved(t[1]) - first, moved(t[2]) - first);
-  if (dot3(was, is) <= kLeastLeft * dot3(was, was)) return true;
+  const Eigen::Vector3d is = (moved(t[1]) - first).cross(moved(t[2]) - first);
+  if (was.dot(is) <= kLeastLeft * was.squaredNorm()) return true;
   const Eigen::Vector3d of_rest = area_vector(rest, t);
-  const double least = kLeastFaceCosine * length3(of_rest);
-  return dot3(of_rest, is) <= least * length3(is) && dot3(of_rest, was) > least * length3(was);
+  const double least = kLeastFaceCosine * of_rest.norm();
+  return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
 /// Triangles that offsets turn over, of those with a vertex at which they changed.
@@ -216,7 +218,8 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
     const auto times = static_cast<std::uint64_t>(smoothings);
     normals = iterate(lazy, normals, times);
-    for (Index v = 0; v < normals.rows(); ++v) normals.row(v) = unit3(row3(normals, v)).transpose();
+    for (Index v = 0; v < normals.rows(); ++v)
+      normals.row(v) = row3(normals, v).normalized().transpose();
     const AskedOfSkin asked = ask_scan(skin, result, normals, scan);
     Columns sums(result.rows(), 2);
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;

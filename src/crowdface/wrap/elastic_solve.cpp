@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
 #include "crowdface/core/error.h"
@@ -77,7 +78,7 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
   double sum = 0;
   for (const Triangle& t : triangles) {
-    const double area = length3(area_vector(positions, t)) / 2;
+    const double area = area_vector(positions, t).norm() / 2;
     for (const std::uint32_t v : t) areas(v) += area / 3;
     sum += area;
   }
@@ -96,8 +97,8 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
       const auto i = static_cast<int>(t[(k + 1) % 3]), j = static_cast<int>(t[(k + 2) % 3]);
       const Eigen::Vector3d apex = row3(positions, t[k]);
       const Eigen::Vector3d a = row3(positions, i) - apex, b = row3(positions, j) - apex;
-      const double area = length3(cross3(a, b));
-      const double cotangent = area > 0 ? std::min(dot3(a, b) / area, 1 / kLeastCotangent) : 0;
+      const double area = a.cross(b).norm();
+      const double cotangent = area > 0 ? std::min(a.dot(b) / area, 1 / kLeastCotangent) : 0;
       const double weight = std::max(cotangent, kLeastCotangent) / 2;
       entries.insert(entries.end(), {Entry(i, j, weight), Entry(j, i, weight), Entry(i, i, -weight),
                                      Entry(j, j, -weight)});

@@ -39,7 +39,7 @@ void GrowingPatch::grow() {
 PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
     : skin_(skin), around_(topology_of(skin.triangles, skin.vertex_count())) {
   double area = 0;
-  for (const Triangle& t : skin.triangles) area += length3(area_vector(rest, t));
+  for (const Triangle& t : skin.triangles) area += area_vector(rest, t).norm();
   const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
   most_rings_ = static_cast<int>(std::clamp(kMostPatchMm / edge, kLeastRings, kMostRings));
 }

@@ -22,7 +22,7 @@ double residual_of(const Positions& positions, const std::vector<WrapLandmark>& 
   std::vector<double> off;
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d there = carried(pose, row3(positions, landmark.vertex));
-    off.push_back(length3(there - landmark.place) / pose.scale);
+    off.push_back((there - landmark.place).norm() / pose.scale);
   }
   const std::size_t middle = off.size() / 2;
   return value_of_rank(std::move(off), middle);

@@ -81,8 +81,7 @@ std::optional<double> nose_length(const WrapTemplate& shape, const SkinRegions& 
   std::uint32_t tip = kNoIndex;
   for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
     if (!regions.is(v, "nose")) continue;
-    if (tip == kNoIndex ||
-        dot3(of_rest(v), shape.axes.front) > dot3(of_rest(tip), shape.axes.front)) {
+    if (tip == kNoIndex || of_rest(v).dot(shape.axes.front) > of_rest(tip).dot(shape.axes.front)) {
       tip = v;
     }
   }
@@ -91,16 +90,16 @@ std::optional<double> nose_length(const WrapTemplate& shape, const SkinRegions& 
   std::vector<double> cheeks;
   for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
     const Eigen::Vector3d from_tip = of_rest(v) - of_rest(tip);
-    const double aside = std::abs(dot3(from_tip, normal_side));
+    const double aside = std::abs(from_tip.dot(normal_side));
     if (!regions.is(v, "nose") || aside < kNearestMm || aside > kFarthestMm ||
-        std::abs(dot3(from_tip, shape.axes.up)) > kNearestMm ||
-        dot3(from_tip, shape.axes.front) < -2 * kFarthestMm) {
+        std::abs(from_tip.dot(shape.axes.up)) > kNearestMm ||
+        from_tip.dot(shape.axes.front) < -2 * kFarthestMm) {
       continue;
     }
-    cheeks.push_back(dot3(row3(positions, skin[v]), shape.axes.front));
+    cheeks.push_back(row3(positions, skin[v]).dot(shape.axes.front));
   }
   if (cheeks.size() < kFewest) return std::nullopt;
-  return dot3(row3(positions, skin[tip]), shape.axes.front) - percentile(cheeks, 0.5);
+  return row3(positions, skin[tip]).dot(shape.axes.front) - percentile(cheeks, 0.5);
 }
 
 /// Whether a place that nobody picked has a nose where the template has one.

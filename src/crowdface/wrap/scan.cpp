@@ -43,7 +43,7 @@ std::vector<double> areas_of_pieces(const Scan& scan) {
   }
   std::vector<double> of_group(static_cast<std::size_t>(scan.positions.rows()), 0.0), areas;
   for (const Triangle& t : scan.triangles) {
-    of_group[groups.root(t[0])] += length3(area_vector(scan.positions, t));
+    of_group[groups.root(t[0])] += area_vector(scan.positions, t).norm();
   }
   for (const Triangle& t : scan.triangles) areas.push_back(of_group[groups.root(t[0])]);
   return areas;
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
   for (const auto& [a, b] : edges) rims.join(a, b);
   std::vector<double> length(static_cast<std::size_t>(positions.rows()), 0.0);
   for (const auto& [a, b] : edges) {
-    length[rims.root(a)] += length3((positions.row(a) - positions.row(b)).transpose());
+    length[rims.root(a)] += (row3(positions, a) - row3(positions, b)).norm();
   }
   std::vector<std::uint32_t> vertices;
   for (const auto& [a, b] : edges) {

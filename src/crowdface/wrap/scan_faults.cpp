@@ -34,8 +34,8 @@ std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
   std::vector<double> upper, lower;
   for (std::size_t i = 0; i < lids.rim.size(); ++i) {
     const std::uint32_t v = lids.vertices[lids.rim[i]];
-    if (std::abs(dot3(row3(rest, v) - ball.centre, axes.side())) > kMiddle * ball.radius) continue;
-    (lids.upper[i] ? upper : lower).push_back(dot3(row3(positions, v), axes.up));
+    if (std::abs((row3(rest, v) - ball.centre).dot(axes.side())) > kMiddle * ball.radius) continue;
+    (lids.upper[i] ? upper : lower).push_back(row3(positions, v).dot(axes.up));
   }
   const auto above = median(upper), below = median(lower);
   if (!above || !below) return std::nullopt;
@@ -93,7 +93,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   std::vector<double> out;
   std::size_t far = 0;
   for (const std::uint32_t v : skull) {
-    out.push_back(dot3(row3(wrapped, v) - row3(placed, v), row3(normals, v)));
+    out.push_back((row3(wrapped, v) - row3(placed, v)).dot(row3(normals, v)));
     if (result.distance_mm(v) > kFarFromScanMm) ++far;
   }
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());

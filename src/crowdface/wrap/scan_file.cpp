@@ -18,7 +18,7 @@ constexpr double kFarthest = 1e9;  // as landmarks may be
 
 bool has_area(const Scan& scan) {
   return std::ranges::any_of(scan.triangles, [&](const Triangle& triangle) {
-    return length3(area_vector(scan.positions, triangle)) > 0;
+    return area_vector(scan.positions, triangle).norm() > 0;
   });
 }
 

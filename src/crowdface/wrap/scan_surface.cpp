@@ -34,7 +34,7 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
     place.normal += hit.shares[k] * normals_.row(corners[k]).transpose();
     if (hit.shares[k] > 0 && !rim_[corners[k]]) rim = false;
   }
-  place.normal = unit3(place.normal);
+  place.normal = place.normal.normalized();
   place.on_rim = rim;
   place.found = !rim && !place.normal.isZero();
   return place;

@@ -122,7 +122,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian_of(const ShapeModel& model, co
 
 void apply(const Eigen::VectorXd& step, const Eigen::Vector3d& middle, ShapeFit& fit) {
   const Eigen::Vector3d turn = step.head<3>();
-  const double angle = length3(turn);
+  const double angle = turn.norm();
   const Eigen::Matrix3d rotation = angle > 0
                                        ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
                                        : Eigen::Matrix3d::Identity();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
@@ -60,7 +61,7 @@ class Regression {
       const Asked& one = asked[static_cast<std::size_t>(i)];
       for (Index k = 0; k < modes; ++k) {
         along(k, i) =
-            dot3(row3(model_.modes[static_cast<std::size_t>(k)], one.vertex), one.direction);
+            row3(model_.modes[static_cast<std::size_t>(k)], one.vertex).dot(one.direction);
       }
       pose.col(i) = pose_modes(one.vertex) * one.direction;
       directions.col(i) = one.direction;
@@ -108,7 +109,7 @@ class Regression {
     Eigen::Matrix<double, kPose, 3> modes;
     modes.topRows<3>() = kShiftMm * Eigen::Matrix3d::Identity();
     for (Index k = 0; k < 3; ++k) {
-      modes.row(3 + k) = kTurn * cross3(Eigen::Vector3d::Unit(k), arm).transpose();
+      modes.row(3 + k) = kTurn * Eigen::Vector3d::Unit(k).cross(arm).transpose();
     }
     modes.row(6) = kPoseGrowth * arm.transpose();
     return modes;
@@ -138,8 +139,8 @@ std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
     const std::uint32_t v = places[i];
     const auto place = scan.nearest(row3(positions, v), row3(normals, v), kLeastCosine, reach);
     if (!place.found) return;
-    const double off = dot3(place.normal, place.point - row3(positions, v));
-    asked[i] = {v, place.normal, dot3(place.normal, place.point - row3(model.mean, v)), off};
+    const double off = place.normal.dot(place.point - row3(positions, v));
+    asked[i] = {v, place.normal, place.normal.dot(place.point - row3(model.mean, v)), off};
   });
   std::erase_if(asked, [](const Asked& one) { return one.vertex == kNoIndex; });
   std::vector<double> distances;

@@ -22,7 +22,7 @@ SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corne
   SurfaceHit hit;
   hit.shares = {std::max(0.0, 1 - v - w), v, w};
   hit.point = a + v * (b - a) + w * (c - a);
-  hit.distance = length3(point - hit.point);
+  hit.distance = (point - hit.point).norm();
   return hit;
 }
 
@@ -32,9 +32,9 @@ SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>
   Positions centres(static_cast<Index>(triangles.size()), 3);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    facing_.push_back(unit3(row3(normals, a) + row3(normals, b) + row3(normals, c)));
+    facing_.push_back((row3(normals, a) + row3(normals, b) + row3(normals, c)).normalized());
     centres.row(t) = positions.row(a) + positions.row(b) + positions.row(c);
-    if (!unit3(area_vector(positions, triangles[t])).isZero()) order_.push_back(t);
+    if (!area_vector(positions, triangles[t]).normalized().isZero()) order_.push_back(t);
   }
   nodes_.reserve(order_.size());
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), centres);
@@ -66,10 +66,10 @@ void SurfaceTree::build(std::uint32_t begin, std::uint32_t end, const Positions&
 void SurfaceTree::find_cone(Node& node) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::uint32_t i = node.begin; i < node.end; ++i) sum += facing_[order_[i]];
-  node.axis = unit3(sum);
+  node.axis = sum.normalized();
   node.cosine = 1;
   for (std::uint32_t i = node.begin; i < node.end; ++i) {
-    node.cosine = std::min(node.cosine, dot3(node.axis, facing_[order_[i]]));
+    node.cosine = std::min(node.cosine, node.axis.dot(facing_[order_[i]]));
   }
   node.cosine = std::max(-1.0, node.cosine - 1e-9);
   node.sine = std::sqrt(1 - node.cosine * node.cosine);
@@ -133,12 +133,12 @@ SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                        double least_cosine, double reach,
                                        std::uint32_t guess) const {
-  const auto accept = [&](std::uint32_t t) { return dot3(facing_[t], facing) >= least_cosine; };
+  const auto accept = [&](std::uint32_t t) { return facing_[t].dot(facing) >= least_cosine; };
   // The angle to the axis is at most the cone's plus that of least_cosine.
   const double least_sine = std::sqrt(1 - least_cosine * least_cosine);
   const auto accept_node = [&](const Node& node) {
     if (node.cosine <= -least_cosine) return true;  // together 180° or more
-    return dot3(node.axis, facing) >= node.cosine * least_cosine - node.sine * least_sine;
+    return node.axis.dot(facing) >= node.cosine * least_cosine - node.sine * least_sine;
   };
   if (guess != kNoIndex && !accept(guess)) guess = kNoIndex;
   return search(point, on_triangle(guess, point, reach), accept_node, accept);

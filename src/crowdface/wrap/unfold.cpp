@@ -13,7 +13,7 @@ constexpr double kLeastArea = 0.025;  // validity counts those below 0.02
 bool is_folded(const Positions& rest, const Positions& positions, const Triangle& t) {
   const Eigen::Vector3d was = area_vector(rest, t), is = area_vector(positions, t);
   if (was.isZero()) return false;
-  return dot3(was, is) <= 0 || length3(is) < kLeastArea * length3(was);
+  return was.dot(is) <= 0 || is.norm() < kLeastArea * was.norm();
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   std::vector<LandmarkResidual> result;
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
-    result.push_back({landmark.name, length3(carried(pose, point) - landmark.place) / pose.scale});
+    result.push_back({landmark.name, (carried(pose, point) - landmark.place).norm() / pose.scale});
     result.back().by_shape = landmark.by_shape;
   }
   return result;
@@ -53,8 +53,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    residuals[i].final_mm =
-        length3(wrapped.row(landmarks[i].vertex).transpose() - landmarks[i].place);
+    residuals[i].final_mm = (row3(wrapped, landmarks[i].vertex) - landmarks[i].place).norm();
     all.push_back(residuals[i].final_mm);
   }
   if (all.empty()) return;
@@ -229,7 +228,7 @@ std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const 
     const Similarity back = inverse(result.pose);
     for (const WrapLandmark& landmark : left_out) {
       unseen[landmark.name] =
-          length3(row3(result.positions, landmark.vertex) - carried(back, landmark.place));
+          (row3(result.positions, landmark.vertex) - carried(back, landmark.place)).norm();
     }
   }
   return unseen;
