@@ -64,7 +64,7 @@ cross() {
     qemu-aarch64-static "build/arm64/bin/crowdface_${test}_test" --gtest_brief=1
   done
   local crowdface='qemu-aarch64-static build/arm64/bin/crowdface'
-  $crowdface synth -o out/arm_heads --count 16 --vertices 20000 --seed 1
+  $crowdface synth -o out/arm_heads --count 16 --vertices 20000 --seed 1 --textures 64 --hair
   for head in out/arm_heads/*.obj; do cmp <(grep ^v "$head") <(grep ^v "out/demo_heads/${head##*/}"); done
   $crowdface generate configs/demo.yaml
 }
