@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/memory.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <new>
@@ -10,7 +9,6 @@
 
 #include <gtest/gtest.h>
 #include <malloc.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -127,28 +125,6 @@ TEST(PeakMemory, GrowsWithWhatIsHeld) {
   EXPECT_GE(peak_memory(), before);
   EXPECT_GE(peak_memory(), kMore);
   EXPECT_LE(peak_memory(), machine_memory());
-}
-
-TEST(Memory, PagesAreLaidOnceAndKeepWhatStands) {
-  constexpr std::size_t kBytes = (std::size_t{32} << 20U) + 12345;
-  std::vector<char> held;
-  held.reserve(kBytes);
-  const auto faults = [] {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_minflt;
-  };
-  const long before = faults();
-  lay_pages(held.data() + 1, kBytes - 1);
-  const long laid = faults();
-  held.resize(kBytes, 'x');
-  // Where the system knows how, what is written afterwards finds its pages there.
-  if (laid > before + 1000) {
-    EXPECT_LT(faults(), laid + 100);
-  }
-  lay_pages(held.data() + 4095, kBytes - 4095);
-  EXPECT_EQ(std::ranges::count(held, 'x'), static_cast<std::ptrdiff_t>(kBytes));
-  lay_pages(held.data(), 0);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they allocate by themselves

@@ -247,7 +247,9 @@ TEST_P(ObjDialect, IsReadAsTheTextItStandsFor) {
   EXPECT_TRUE(file.is_mended);
   EXPECT_EQ(file.topology.face_count(), 1);
   EXPECT_EQ(file.notes.size(), GetParam().note.empty() ? 0U : 1U);
-  if (!file.notes.empty()) EXPECT_THAT(file.notes[0], ::testing::HasSubstr(GetParam().note));
+  if (!file.notes.empty()) {
+    EXPECT_THAT(file.notes[0], ::testing::HasSubstr(GetParam().note));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ObjDialect, ::testing::ValuesIn(kDialects),

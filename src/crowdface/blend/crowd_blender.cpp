@@ -351,9 +351,7 @@ void CrowdBlender::blend_at(const Wanted& wanted, std::span<const Recipe* const>
   parallel_for_each(recipes.size(), [&](std::size_t f) {
     require_fit(faces_, regions_, *recipes[f]);
     Positions& result = results[f];
-    if (result.rows() == faces_.topology.vertex_count) return;
     result.resize(faces_.topology.vertex_count, 3);
-    lay_pages(result.data(), static_cast<std::size_t>(result.size()) * sizeof(double));
   });
   const Crowd crowd(*this, recipes, results);
   parallel_blocks(patches_.size(), kPatchesATask, [&](std::size_t begin, std::size_t end) {

@@ -7,12 +7,10 @@
 #include <new>
 
 #include <malloc.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "crowdface/core/contains.h"
-#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -87,17 +85,6 @@ void give_back_large_blocks() {
   // memory. No large block must fit into what it keeps.
   constexpr int kHeapEnd = kLarge / 4 * 3;
   ::mallopt(M_TRIM_THRESHOLD, kHeapEnd);  // NOLINT(concurrency-mt-unsafe)
-}
-
-void lay_pages(void* memory, std::size_t bytes) {
-  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
-  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
-  if (bytes < before + page) return;
-  char* const first = static_cast<char*>(memory) + before;
-  constexpr std::size_t kPiece = 4 << 20;  // for one thread at a time
-  parallel_blocks((bytes - before) / page * page, kPiece, [&](std::size_t from, std::size_t to) {
-    ::madvise(first + from, to - from, MADV_POPULATE_WRITE);
-  });
 }
 
 void watch_for_lack_of_memory() {

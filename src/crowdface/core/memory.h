@@ -27,10 +27,6 @@ std::uint64_t peak_memory();
 /// stays, and leaves holes that no later block fits in. For programs, at their start.
 void give_back_large_blocks();
 
-/// Has the system lay pages behind memory that is about to be written for the first time. All at once that takes a third to
-/// two thirds of the time that it takes page by page. Where the system knows no such thing it stays as it is.
-void lay_pages(void* memory, std::size_t bytes);
-
 /// From now on `memory_ran_out` knows of every `new` that failed, whoever called it: libraries catch
 /// what it throws and go on with less than they should have made. For programs, at their start.
 void watch_for_lack_of_memory();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "crowdface/core/block_shelf.h"
 #include "crowdface/core/file.h"
 
 namespace crowdface {
@@ -27,7 +26,7 @@ void EncodedFile::keep(std::shared_ptr<const void> owner) {
 }
 
 char* EncodedFile::reserve(std::size_t capacity) {
-  const std::shared_ptr<char[]> memory = take_block(capacity);
+  const auto memory = std::make_shared_for_overwrite<char[]>(capacity);
   keep(memory);
   memory_bytes_ += capacity;
   return memory.get();

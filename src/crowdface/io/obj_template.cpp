@@ -19,17 +19,6 @@ char* copy(std::string_view text, char* out) {
   return out + text.size();
 }
 
-/// Whether three numbers are set apart by one blank each.
-bool has_single_spaces(std::string_view numbers) {
-  int spaces = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!is_blank(numbers[i])) continue;
-    if (numbers[i] != ' ' || is_blank(numbers[i + 1])) return false;  // the last is no blank
-    ++spaces;
-  }
-  return spaces == 2;
-}
-
 /// The x y z of a `v` or `vn` line.
 struct Coordinates {
   std::string_view text;  ///< empty if the line is another
@@ -70,14 +59,6 @@ void require_counts(const ObjFile& target, std::uint32_t vertices, Index expecte
                             normals));
 }
 
-char* write_row(char* out, const Positions& rows, Index i) {
-  out = write_single(out, rows(i, 0));
-  *out++ = ' ';
-  out = write_single(out, rows(i, 1));
-  *out++ = ' ';
-  return write_single(out, rows(i, 2));
-}
-
 /// The three numbers of a row in the place of three others, with the old blanks between them.
 char* write_like(std::string_view old, char* out, const Positions& rows, Index i) {
   std::size_t at = 0;
@@ -88,22 +69,6 @@ char* write_like(std::string_view old, char* out, const Positions& rows, Index i
   }
   return out;
 }
-
-/// The numbers in a text where the same gap stands between each two places, found as they are asked
-/// for, in ascending order.
-class OldNumbers {
- public:
-  OldNumbers(std::string_view text, std::string_view gap) : text_(text), gap_(gap) {}
-  std::string_view at(std::uint32_t index) {
-    for (; index_ < index; ++index_) begin_ = text_.find(gap_, begin_) + gap_.size();
-    return text_.substr(begin_, text_.find(gap_, begin_) - begin_);
-  }
-
- private:
-  std::string_view text_, gap_;
-  std::uint32_t index_ = 0;
-  std::size_t begin_ = 0;
-};
 
 bool is_zero(const Positions& rows, Index i) {
   return rows(i, 0) == 0 && rows(i, 1) == 0 && rows(i, 2) == 0;
@@ -131,7 +96,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
     }
     places.push_back({static_cast<std::uint64_t>(numbers.data() - text_.data()),
                       static_cast<std::uint32_t>(numbers.size()),
-                      is_normal ? normals++ : vertices++, is_normal});
+                      (is_normal ? normals++ : vertices++) & 0x7fffffffU, is_normal});
   }
   if (!places.empty()) add_block(places);
   require_counts(target, vertices, vertices_, normals);
@@ -143,32 +108,17 @@ void ObjTemplate::add_block(const std::vector<Place>& places) {
   block.begin = blocks_.empty() ? 0 : blocks_.back().end;
   block.end = places.back().begin + places.back().length;
   block.buffer = buffer_size_;
-  block.count = static_cast<std::uint32_t>(places.size());
-  block.first = places.front();
-  find_gap(block, places);
-  if (block.gap.empty()) block.places = places;
-  // New numbers at their longest beside all of the old text; where no old text but the gap stays,
-  // that alone.
-  const std::size_t old_text =
-      block.gap.empty() || block.first.is_normal
-          ? block.end - block.begin
-          : block.first.begin - block.begin + (block.gap.size() + 2) * places.size();
-  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kLongestSingle;
-  blocks_.push_back(std::move(block));
-}
-
-void ObjTemplate::find_gap(Block& block, const std::vector<Place>& places) const {
-  if (places.size() < 2) return;
-  const auto end_of = [&](std::size_t i) { return places[i].begin + places[i].length; };
-  const std::string_view gap = text_.substr(end_of(0), places[1].begin - end_of(0));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool is_even =
-        has_single_spaces(text_.substr(places[i].begin, places[i].length)) &&
-        places[i].is_normal == places[0].is_normal &&
-        (i == 0 || text_.substr(end_of(i - 1), places[i].begin - end_of(i - 1)) == gap);
-    if (!is_even) return;
+  // New numbers at their longest beside the old text, without the digits of vertices: a normal that no face
+  // uses keeps its own.
+  std::size_t old_text = block.end - block.begin;
+  for (const Place& place : places) {
+    if (place.is_normal) continue;
+    old_text -= static_cast<std::size_t>(std::ranges::count_if(
+        text_.substr(place.begin, place.length), [](char c) { return !is_blank(c); }));
   }
-  block.gap = gap;
+  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kLongestSingle;
+  block.places = places;
+  blocks_.push_back(std::move(block));
 }
 
 std::size_t ObjTemplate::memory_bytes() const {
@@ -201,29 +151,11 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
 }
 
 char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out) const {
-  if (!block.gap.empty()) return encode_even(block, rows, out);
   std::uint64_t at = block.begin;
   for (const Place& place : block.places) {
     out = copy(text_.substr(at, place.begin - at), out);
     out = encode_place(place, rows, out);
     at = place.begin + place.length;
-  }
-  return out;
-}
-
-/// Where nothing but numbers changes from line to line, the old text need not be looked at.
-char* ObjTemplate::encode_even(const Block& block, const Rows& rows, char* out) const {
-  const Positions& source = block.first.is_normal ? rows.normals : rows.positions;
-  OldNumbers old(text_.substr(block.first.begin, block.end - block.first.begin), block.gap);
-  out = copy(text_.substr(block.begin, block.first.begin - block.begin), out);
-  for (std::uint32_t i = 0; i < block.count; ++i) {
-    if (i > 0) out = copy(block.gap, out);
-    const Index row = static_cast<Index>(block.first.row) + i;
-    if (block.first.is_normal && is_zero(source, row)) {
-      out = copy(old.at(i), out);
-    } else {
-      out = write_row(out, source, row);
-    }
   }
   return out;
 }

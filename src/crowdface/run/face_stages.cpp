@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "crowdface/core/block_shelf.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -209,7 +208,6 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   const std::uint64_t room = memory - standing - faces_held(at_once_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
                               std::max(waiting_bytes_, FaceWriter::kMostWaitingBytes));
-  encoded_bytes_ = of_threads + 2 * waiting_bytes_;
 }
 
 /// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
@@ -261,7 +259,6 @@ void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
                        std::span<FaceResult* const> results, StageBusy& busy) const {
   lists.make_folders(faces);
   Progress progress("faces", faces.size());
-  const KeptBlocks kept(encoded_bytes_);
   FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
   Output output(*this, lists, renders, writer, busy);
   FaceMemory memory;

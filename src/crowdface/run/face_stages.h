@@ -59,7 +59,6 @@ class FaceStages {
   std::optional<SkinCheck> check_;  ///< none: no mesh is judged
   std::size_t at_once_;
   std::uint64_t waiting_bytes_;  ///< of files that are ready, at most
-  std::uint64_t encoded_bytes_;  ///< of all files that are not written, at most
 };
 
 }  // namespace crowdface
