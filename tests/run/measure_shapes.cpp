@@ -182,7 +182,7 @@ int main(int argc, char** argv) try {
   if (argc < 2) throw UsageError("usage: crowdface_measure_shapes CONFIG [FACES]");
   const Job job = load_job(argv[1], {}, cache_directory());
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache_directory());
-  const Cast cast = crowdface::cast(job.config, job.inputs, prepared, {});
+  const Cast cast = crowdface::cast(job.config, job.inputs, prepared, {}, cache_directory());
   const FaceBuilder builder(job.config, job.inputs, prepared);
   const FaceShapes shapes(job.config, job.inputs);
   const Crossings crossings(job.inputs);

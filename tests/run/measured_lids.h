@@ -58,7 +58,7 @@ class MeasuredLids {
       if (sum == 3) upper_.push_back(t);
       if (sum == -3) lower_.push_back(t);
     }
-    const Positions normals = vertex_normals(triangles, neutral);
+    const Positions normals = vertex_normals_or_zero(triangles, neutral);
     for (const std::uint32_t v : eye.skin) {
       const BallMap::Gap gap = ball.gap_at(row3(neutral, v) - ball.centre());
       if (gap.normal.dot(row3(normals, v)) > 0) outer_.push_back(v);

@@ -15,64 +15,58 @@ constexpr std::uint32_t kMostInLeaf = 8;
 
 GroupingTree::GroupingTree(const Positions& points, std::vector<std::uint32_t> rows,
                            const std::vector<std::uint32_t>& components, Grouping& groups)
-    : points_(points), rows_(std::move(rows)), components_(components), groups_(groups) {
-  if (!rows_.empty()) build(0, static_cast<std::uint32_t>(rows_.size()));
+    : points_(points),
+      components_(components),
+      groups_(groups),
+      tree_(std::move(rows), points, kMostInLeaf),
+      boxes_(tree_.nodes.size()),
+      only_groups_(tree_.nodes.size(), kNoIndex) {
+  for (std::size_t n = tree_.nodes.size(); n-- > 0;) {
+    for (const std::uint32_t row : rows_of(n)) boxes_[n].extend(row3(points_, row));
+    only_groups_[n] = only_group(n);
+  }
 }
 
-void GroupingTree::build(std::uint32_t begin, std::uint32_t end) {
-  const auto n = static_cast<std::uint32_t>(nodes_.size());
-  Eigen::AlignedBox3d box;
-  for (std::uint32_t i = begin; i < end; ++i) box.extend(row3(points_, rows_[i]));
-  nodes_.push_back({box, begin, end});
-  if (end - begin > kMostInLeaf) {
-    Index axis = 0;
-    box.sizes().maxCoeff(&axis);
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(rows_.begin() + begin, rows_.begin() + middle, rows_.begin() + end,
-                     [&](auto a, auto b) { return points_(a, axis) < points_(b, axis); });
-    build(begin, middle);
-    nodes_[n].second = static_cast<std::uint32_t>(nodes_.size());
-    build(middle, end);
-  }
-  nodes_[n].component = only_group(n);
+std::span<const std::uint32_t> GroupingTree::rows_of(std::size_t n) const {
+  const auto& [begin, end, second] = tree_.nodes[n];
+  return std::span(tree_.order).subspan(begin, end - begin);
 }
 
 void GroupingTree::join_near(const Eigen::Vector3d& place, double reach, std::uint32_t component) {
-  if (!nodes_.empty()) join_near(0, place, reach, component);
+  if (!boxes_.empty()) join_near(0, place, reach, component);
 }
 
-void GroupingTree::join_near(std::uint32_t n, const Eigen::Vector3d& place, double reach,
+void GroupingTree::join_near(std::size_t n, const Eigen::Vector3d& place, double reach,
                              std::uint32_t component) {
-  Node& node = nodes_[n];
   // Computed as a point's distance is below, so that rounding cannot make a box the farther one.
-  if (node.box.exteriorDistance(place) > reach) return;
-  if (node.component != kNoIndex && groups_.root(node.component) == groups_.root(component)) return;
-  if (node.second != 0) {
-    join_near(n + 1, place, reach, component);
-    join_near(node.second, place, reach, component);
-  } else {
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const double distance = (row3(points_, rows_[i]) - place).norm();
-      if (distance <= reach) groups_.join(component, components_[rows_[i]]);
+  if (boxes_[n].exteriorDistance(place) > reach) return;
+  std::uint32_t& only = only_groups_[n];
+  if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;
+  if (tree_.nodes[n].is_leaf()) {
+    for (const std::uint32_t row : rows_of(n)) {
+      const double distance = (row3(points_, row) - place).norm();
+      if (distance <= reach) groups_.join(component, components_[row]);
     }
+  } else {
+    join_near(n + 1, place, reach, component);
+    join_near(tree_.nodes[n].second, place, reach, component);
   }
-  if (node.component == kNoIndex) node.component = only_group(n);
+  if (only == kNoIndex) only = only_group(n);
 }
 
 /// A component of the group that all points of a box belong to, as far as its children know;
 /// kNoIndex if there are several.
-std::uint32_t GroupingTree::only_group(std::uint32_t n) {
-  const Node& node = nodes_[n];
-  if (node.second != 0) {
-    const std::uint32_t a = nodes_[n + 1].component;
-    const std::uint32_t b = nodes_[node.second].component;
+std::uint32_t GroupingTree::only_group(std::size_t n) {
+  const MedianSplitTree::Node& node = tree_.nodes[n];
+  if (!node.is_leaf()) {
+    const std::uint32_t a = only_groups_[n + 1], b = only_groups_[node.second];
     const bool one = a != kNoIndex && b != kNoIndex && groups_.root(a) == groups_.root(b);
     return one ? a : kNoIndex;
   }
-  const std::uint32_t first = components_[rows_[node.begin]];
-  const bool one = std::all_of(
-      rows_.begin() + node.begin, rows_.begin() + node.end,
-      [&](std::uint32_t row) { return groups_.root(components_[row]) == groups_.root(first); });
+  const std::uint32_t first = components_[tree_.order[node.begin]];
+  const bool one = std::ranges::all_of(rows_of(n), [&](std::uint32_t row) {
+    return groups_.root(components_[row]) == groups_.root(first);
+  });
   return one ? first : kNoIndex;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "crowdface/mesh/grouping.h"
+#include "crowdface/mesh/median_split_tree.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -27,23 +29,18 @@ class GroupingTree {
   void join_near(const Eigen::Vector3d& place, double reach, std::uint32_t component);
 
  private:
-  struct Node {
-    Eigen::AlignedBox3d box;
-    std::uint32_t begin, end;            ///< of the rows
-    std::uint32_t second = 0;            ///< the first child is the next node; 0: it has none
-    std::uint32_t component = kNoIndex;  ///< one of its only group; kNoIndex: several were seen
-  };
-
-  void build(std::uint32_t begin, std::uint32_t end);
-  void join_near(std::uint32_t node, const Eigen::Vector3d& place, double reach,
+  std::span<const std::uint32_t> rows_of(std::size_t node) const;
+  void join_near(std::size_t node, const Eigen::Vector3d& place, double reach,
                  std::uint32_t component);
-  std::uint32_t only_group(std::uint32_t node);
+  std::uint32_t only_group(std::size_t node);
 
   const Positions& points_;
-  std::vector<std::uint32_t> rows_;
   const std::vector<std::uint32_t>& components_;
   Grouping& groups_;
-  std::vector<Node> nodes_;  ///< each before its children
+  MedianSplitTree tree_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of each node
+  std::vector<std::uint32_t>
+      only_groups_;  ///< of each node a component of its only group; kNoIndex: several were seen
 };
 
 }  // namespace crowdface

@@ -58,10 +58,10 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     const TriangleTree::Node& node = tree.nodes[n];
     if (node.is_leaf()) {
-      boxes_[n] = leaves_[node.leaf()].whole();
+      boxes_[n] = leaves_[TriangleTree::leaf_number(node)].whole();
       continue;
     }
-    const Box &left = boxes_[n + 1], &right = boxes_[node.right];
+    const Box &left = boxes_[n + 1], &right = boxes_[node.second];
     for (std::size_t c = 0; c < 3; ++c) {
       boxes_[n].low[c] = std::min(left.low[c], right.low[c]);
       boxes_[n].high[c] = std::max(left.high[c], right.high[c]);
@@ -77,14 +77,14 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
   };
   if (pair.a == pair.b) {
     add(pair.a + 1, pair.a + 1);
-    add(a.right, a.right);
-    add(pair.a + 1, a.right);
+    add(a.second, a.second);
+    add(pair.a + 1, a.second);
   } else if (a.end - a.begin >= b.end - b.begin) {
     add(pair.a + 1, pair.b);
-    add(a.right, pair.b);
+    add(a.second, pair.b);
   } else {
     add(pair.a, pair.b + 1);
-    add(pair.a, b.right);
+    add(pair.a, b.second);
   }
 }
 
@@ -131,7 +131,8 @@ void TriangleScene::visit_leaves(const NodePair& from, const Use& use) const {
     const NodePair pair = waiting.back();
     waiting.pop_back();
     if (are_leaves(pair)) {
-      use(tree_.nodes[pair.a].leaf(), tree_.nodes[pair.b].leaf());
+      use(TriangleTree::leaf_number(tree_.nodes[pair.a]),
+          TriangleTree::leaf_number(tree_.nodes[pair.b]));
     } else {
       split(pair, waiting);
     }
@@ -172,9 +173,9 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
     const TriangleTree::Node& node = tree_.nodes[n];
     if (node.end <= leaf * kLeaf || !overlap(boxes_[n], here)) continue;
     if (node.is_leaf()) {
-      near.push_back(node.leaf());
+      near.push_back(TriangleTree::leaf_number(node));
     } else {
-      waiting.push_back(node.right);
+      waiting.push_back(node.second);
       waiting.push_back(n + 1);
     }
   }
@@ -201,12 +202,13 @@ std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
       // First where the guess is: what is in the way there is often in the way here.
-      const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.right].begin;
-      waiting[count++] = right_first ? n + 1 : node.right;
-      waiting[count++] = right_first ? node.right : n + 1;
+      const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second].begin;
+      waiting[count++] = right_first ? n + 1 : node.second;
+      waiting[count++] = right_first ? node.second : n + 1;
       continue;
     }
-    unsigned left = met(box_ray, leaves_[node.leaf()]) & ((1U << (node.end - node.begin)) - 1);
+    unsigned left = met(box_ray, leaves_[TriangleTree::leaf_number(node)]) &
+                    ((1U << (node.end - node.begin)) - 1);
     for (; left != 0; left &= left - 1) {
       const std::uint32_t place = node.begin + static_cast<std::uint32_t>(std::countr_zero(left));
       if (is_met(place)) return place;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/mesh/median_split_tree.h"
 #include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
@@ -42,15 +43,13 @@ class SurfaceTree {
                             std::uint32_t guess = kNoIndex) const;
 
  private:
-  struct Node {
+  /// What the triangles of a node of the tree lie and face within.
+  struct Bounds {
     Eigen::AlignedBox3d box;
-    Eigen::Vector3d axis;      ///< its triangles face within an angle of this one
-    double cosine, sine;       ///< of the angle; 180° where they face everywhere
-    std::uint32_t begin, end;  ///< of order_
-    std::uint32_t second = 0;  ///< the first child is the next node; 0: a leaf
+    Eigen::Vector3d axis;  ///< the triangles face within an angle of this one
+    double cosine, sine;   ///< of the angle; 180° where they face everywhere
   };
-  void build(std::uint32_t begin, std::uint32_t end, const Positions& centres);
-  void find_cone(Node& node) const;
+  Bounds bounds_of(const MedianSplitTree::Node& node) const;
   /// That of one triangle; none beyond the reach.
   SurfaceHit on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point, double reach) const;
   template <class AcceptNode, class Accept>
@@ -60,8 +59,8 @@ class SurfaceTree {
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;
   std::vector<Eigen::Vector3d> facing_;  ///< of each triangle
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  MedianSplitTree tree_;                 ///< of the triangles with an area
+  std::vector<Bounds> bounds_;           ///< of each node
 };
 
 }  // namespace crowdface
