@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edit.h"
 
-#include "crowdface/heads/seen_files.h"
-
 #include "cli/commands.h"
 #include "cli/common_options.h"
 
@@ -32,6 +30,7 @@ void edit(const EditorOptions& options) {
   constexpr std::uint64_t kLargestPort = 65535, kMostVertices = 10'000'000;
   EditOptions edited;
   edited.cache = options.config.cache_path();
+  edited.cache.trusts_seen_files = !options.hash_all;
   edited.generate_arguments = options.limit_arguments();
   if (!options.threads.empty()) {
     edited.generate_arguments.insert(edited.generate_arguments.end(),
@@ -40,7 +39,6 @@ void edit(const EditorOptions& options) {
   edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   edited.preview_vertices =
       whole_number("--preview-vertices", options.preview_vertices, 100, kMostVertices);
-  trust_seen_files(!options.hash_all);
   if (options.benchmark) {
     print(benchmark_edit(options.config.config, options.config.overrides, edited));
     return;

@@ -16,11 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file and a cache; files are trusted while it lives.
+/// A file and a cache that trusts seen files.
 class SeenFiles : public ::testing::Test {
  protected:
-  SeenFiles() { trust_seen_files(true); }
-  ~SeenFiles() override { trust_seen_files(false); }
+  SeenFiles() { cache_.trusts_seen_files = true; }
 
   void write(std::string_view text) const { folder_.write("head.obj", text); }
   static void let_settle() { std::this_thread::sleep_for(std::chrono::milliseconds(1100)); }
@@ -29,7 +28,8 @@ class SeenFiles : public ::testing::Test {
 
   static constexpr Digest kDigest = {1, 2};
   testing::TemporaryFolder folder_;
-  fs::path file_ = folder_ / "head.obj", cache_ = folder_ / "cache";
+  fs::path file_ = folder_ / "head.obj";
+  CacheFolder cache_ = folder_ / "cache";
 };
 
 TEST_F(SeenFiles, AreKnownUntilSomebodyWritesToThem) {
@@ -82,9 +82,9 @@ TEST_F(SeenFiles, AreTrustedByNobodyWhoDoesNotAskForIt) {
   write("v 0 0 0");
   let_settle();
   remember();
-  trust_seen_files(false);
+  cache_.trusts_seen_files = false;
   EXPECT_FALSE(known().has_value());
-  trust_seen_files(true);
+  cache_.trusts_seen_files = true;
   EXPECT_EQ(known(), kDigest);
 }
 

@@ -58,7 +58,7 @@ class EditorLock {
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
                                             const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",
-                                        options.cache.string()};
+                                        options.cache.path.string()};
   arguments.insert(arguments.end(), options.generate_arguments.begin(),
                    options.generate_arguments.end());
   const auto add = [&](const char* option, const std::optional<std::string>& value) {

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "crowdface/config/config_reader.h"
+#include "crowdface/heads/cache_folder.h"
 
 namespace crowdface {
 
 struct EditOptions {
-  std::filesystem::path cache;  ///< folder of prepared heads
-  int port = 0;                 ///< 0: any that is free
+  CacheFolder cache;  ///< of prepared heads
+  int port = 0;       ///< 0: any that is free
   std::size_t preview_vertices = 50'000;
   std::vector<std::string> generate_arguments =
       {};  ///< further ones of the run that makes the crowd

@@ -86,13 +86,13 @@ std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
 }  // namespace
 
 Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
-                    const std::filesystem::path& cache) {
+                    const CacheFolder& cache) {
   if (!is_folder(given)) return load_job(given, overrides, cache);
   if (!overrides.out) overrides.out = given.string();
   return load_job(CrowdDirectory{given}.config(), overrides, cache);
 }
 
-EditSession::EditSession(Job job, const std::filesystem::path& cache, std::size_t preview_vertices)
+EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_vertices)
     : job_(std::move(job)),
       textures_(job_.inputs),
       reducing_(std::async(std::launch::async,

@@ -15,6 +15,7 @@
 #include "crowdface/cast/face_point_index.h"
 #include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/texture_atlas.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/preview/preview_mesh.h"
 #include "crowdface/run/casting.h"
@@ -25,7 +26,7 @@ namespace crowdface {
 
 /// \param given  a config, or a crowd's folder: the config in it, whose faces go there.
 Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
-                    const std::filesystem::path& cache);
+                    const CacheFolder& cache);
 
 /// What an editor says about a face beside its shape.
 struct FaceMeasures {
@@ -42,7 +43,7 @@ class EditSession {
  public:
   /// \param cache             the folder of prepared heads
   /// \param preview_vertices  about how many the page shows at most
-  EditSession(Job job, const std::filesystem::path& cache, std::size_t preview_vertices);
+  EditSession(Job job, const CacheFolder& cache, std::size_t preview_vertices);
   EditSession(const EditSession&) = delete;
   EditSession& operator=(const EditSession&) = delete;
 

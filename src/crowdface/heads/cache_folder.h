@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "crowdface/core/error.h"
@@ -17,6 +18,18 @@ namespace crowdface {
 /// Where heads are kept, as read and prepared, unless `--cache` says otherwise:
 /// $XDG_CACHE_HOME/crowdface, else ~/.cache/crowdface, else a folder for temporary files.
 std::filesystem::path cache_directory();
+
+/// A cache and how its files are read.
+struct CacheFolder {
+  std::filesystem::path path;  ///< empty: nothing is kept
+  /// Whether heads' texts and entries of the cache are taken for what they were when they were last read whole, if
+  /// nobody has written to them since: see SeenFile.
+  bool trusts_seen_files = false;
+
+  CacheFolder() = default;
+  CacheFolder(std::filesystem::path folder) : path(std::move(folder)) {}  // NOLINT(*-explicit-*)
+  operator const std::filesystem::path&() const { return path; }          // NOLINT(*-explicit-*)
+};
 
 /// The endings of the cache's files; docs/cache-format.md specifies their bytes.
 inline constexpr std::string_view kPreparedEnding = ".cfhead", kReadEnding = ".cfread",

@@ -97,7 +97,7 @@ Header header_of(const Digest& key, const HeadCacheShape& shape) {
 
 }  // namespace
 
-std::optional<PreparedHead> read_cached_head(const fs::path& cache, const Digest& key,
+std::optional<PreparedHead> read_cached_head(const CacheFolder& cache, const Digest& key,
                                              const HeadCacheShape& shape) {
   const fs::path path = cache_entry(cache, key, kPreparedEnding);
   const SeenFile seen(cache, path);

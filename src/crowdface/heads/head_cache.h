@@ -10,6 +10,7 @@
 #include "crowdface/config/config.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
@@ -42,7 +43,7 @@ struct HeadCacheShape {
 
 /// Reads an entry, whose fields stay in the file, mapped. \return nothing if there is none.
 /// \throws InvalidInput if it is damaged, of another version or of another shape.
-std::optional<PreparedHead> read_cached_head(const std::filesystem::path& cache, const Digest& key,
+std::optional<PreparedHead> read_cached_head(const CacheFolder& cache, const Digest& key,
                                              const HeadCacheShape& shape);
 
 /// Writes an entry. \throws CannotCreate, IoError.

@@ -77,7 +77,7 @@ std::size_t AttachmentSet::index(const std::string& name) const {
   return static_cast<std::size_t>(found - items.begin());
 }
 
-void load_attachments(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+void load_attachments(const Config& config, const CacheFolder& cache, Inputs& inputs,
                       Problems& problems) {
   const std::vector<Config::Attachment>& asked = config.attachments.items;
   if (asked.empty()) return;

@@ -7,6 +7,7 @@
 
 #include "crowdface/config/config.h"
 #include "crowdface/core/problems.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/inputs.h"
 
 namespace crowdface {
@@ -14,7 +15,7 @@ namespace crowdface {
 /// The shapes, read in parallel. What a head lacks is carried to it from the template. A problem is a mesh
 /// that cannot be read, or is not in the heads' topology.
 /// \param cache  the folder that keeps what was read; empty: none
-void load_shapes(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems);
 
 /// The points, after the shapes. Problems are told with their line: a value that is no position, a head
@@ -29,7 +30,7 @@ void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 /// The attachments, read in parallel. A problem is a mesh that cannot be read, one that lies far from the
 /// head, a fitted head in another topology. What their materials lack is warned of.
 /// \param cache  as of load_shapes
-void load_attachments(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+void load_attachments(const Config& config, const CacheFolder& cache, Inputs& inputs,
                       Problems& problems);
 
 }  // namespace crowdface

@@ -366,7 +366,7 @@ HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) 
   }
 }
 
-void read_textures(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+void read_textures(const Config& config, const CacheFolder& cache, Inputs& inputs,
                    Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
   const bool shown = sheet && sheet->texture != SheetTexture::kNo;
@@ -425,8 +425,7 @@ void Inputs::warn(std::string text) {
   warnings.push_back(std::move(text));
 }
 
-void check_inputs(const ConfigReading& reading, const std::filesystem::path& cache,
-                  Problems& problems) {
+void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Problems& problems) {
   // Of files that are not there whoever read the config has told.
   const auto is_missing = [](const std::filesystem::path& file) { return !is_there(file); };
   if (reading.heads_known) {
@@ -441,7 +440,7 @@ void check_inputs(const ConfigReading& reading, const std::filesystem::path& cac
   }
 }
 
-std::optional<FaceSet> load_faces(const Config::Faces& faces, const std::filesystem::path& cache,
+std::optional<FaceSet> load_faces(const Config::Faces& faces, const CacheFolder& cache,
                                   Problems& problems) {
   const std::size_t before = problems.size();
   std::vector<HeadFile> heads = read_heads(faces.files, cache, problems);
@@ -456,7 +455,7 @@ std::optional<FaceSet> load_faces(const Config::Faces& faces, const std::filesys
   return set;
 }
 
-std::optional<Inputs> load_inputs(const Config& config, const std::filesystem::path& cache,
+std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache,
                                   Problems& problems) {
   std::vector<HeadFile> heads = read_heads(config.faces.files, cache, problems);
   compare_with_first(heads, problems);

@@ -24,7 +24,7 @@ namespace {
 struct Source {
   const Config& config;
   const Topology& topology;
-  const std::filesystem::path& cache;
+  const CacheFolder& cache;
 };
 
 /// Reads many meshes in parallel. \param asked  those that are empty are left out
@@ -174,7 +174,7 @@ Digest digest_of_shapes(const ShapeSet& set) {
 
 }  // namespace
 
-void load_shapes(const Config& config, const std::filesystem::path& cache, Inputs& inputs,
+void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems) {
   if (config.shapes.names.empty()) return;
   const Source source{config, inputs.faces.topology, cache};

@@ -86,7 +86,7 @@ class HeadPreparation {
   Prepared& prepared_;
 };
 
-std::optional<PreparedHead> from_cache(const std::filesystem::path& cache, const Digest& key,
+std::optional<PreparedHead> from_cache(const CacheFolder& cache, const Digest& key,
                                        const HeadCacheShape& shape) {
   try {
     return read_cached_head(cache, key, shape);
@@ -142,7 +142,7 @@ HeadCacheShape cache_shape(const Config& config, const Inputs& inputs, const Pre
 
 /// All heads' fields on patches, from the cache or made for it.
 KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                       const std::vector<Digest>& keys, const std::filesystem::path& cache) {
+                       const std::vector<Digest>& keys, const CacheFolder& cache) {
   const double tolerance = config.smoothing.tolerance_mm / mm_per(config.faces.units);
   double missed = 0;  // by the heads' own fields
   std::vector<Index> ranks;
@@ -170,8 +170,7 @@ KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepare
 }  // namespace
 
 void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                  const std::filesystem::path& cache,
-                  const std::function<bool(std::size_t)>& is_wanted) {
+                  const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted) {
   Prepared prepared = shared_by_heads(config, inputs);
   const HeadCacheShape shape = cache_shape(config, inputs, prepared);
   clean(cache);
@@ -186,7 +185,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
 }
 
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                 const std::filesystem::path& cache) {
+                 const CacheFolder& cache) {
   Prepared prepared = shared_by_heads(config, inputs);
   const HeadCacheShape shape = cache_shape(config, inputs, prepared);
   clean(cache);

@@ -13,6 +13,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/head_cache.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/heads/kept_patches.h"
@@ -45,13 +46,12 @@ void require_whole(const Prepared& prepared);
 /// made anew with a warning; a cache that cannot be written costs a warning, not the run.
 /// \param cache  the cache's folder, see cache_directory.
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                 const std::filesystem::path& cache);
+                 const CacheFolder& cache);
 
 /// Into the cache only: heads that it has not. \param is_wanted  of a head's place, from 0.
 /// \throws CannotCreate, IoError if a head cannot be kept.
 void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                  const std::filesystem::path& cache,
-                  const std::function<bool(std::size_t)>& is_wanted);
+                  const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
 
 /// The fitted levels in the form that blending takes.
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);

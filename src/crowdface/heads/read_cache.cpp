@@ -171,7 +171,7 @@ fs::path mesh_entry(const fs::path& cache, const Digest& mesh) {
   return cache_entry(cache, mesh, kMeshEnding);
 }
 
-std::optional<Digest> find_head(const fs::path& cache, const Digest& text, ObjFile& head) {
+std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head) {
   const fs::path path = head_entry(cache, text);
   const SeenFile seen(cache, path);
   auto content = find(path, seen);
@@ -191,7 +191,7 @@ std::optional<Digest> find_head(const fs::path& cache, const Digest& text, ObjFi
   return header.mesh;
 }
 
-std::optional<HeadMesh> find_mesh(const fs::path& cache, const Digest& mesh) {
+std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh) {
   const fs::path path = mesh_entry(cache, mesh);
   const SeenFile seen(cache, path);
   auto content = find(path, seen);

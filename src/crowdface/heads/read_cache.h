@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/io/obj_file.h"
 
 namespace crowdface {
@@ -27,9 +28,8 @@ std::filesystem::path mesh_entry(const std::filesystem::path& cache, const Diges
 /// \param text  digest of the whole file.
 /// \return the digest of its mesh, or nothing if the cache does not know the text.
 /// \throws InvalidInput if the entry is damaged or of another version.
-std::optional<Digest> find_head(const std::filesystem::path& cache, const Digest& text,
-                                ObjFile& head);
-std::optional<HeadMesh> find_mesh(const std::filesystem::path& cache, const Digest& mesh);
+std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head);
+std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh);
 
 /// Write entries. \throws CannotCreate, IoError.
 void keep_head(const std::filesystem::path& cache, const Digest& text, const Digest& mesh,

@@ -34,7 +34,7 @@ bool by_digest(const Digest& a, const Digest& b) {
 /// The meshes of the heads read so far, each once.
 class MeshShelf {
  public:
-  explicit MeshShelf(const fs::path& cache) : cache_(cache) {}
+  explicit MeshShelf(const CacheFolder& cache) : cache_(cache) {}
 
   /// \return null if neither we nor the cache have it. \throws InvalidInput of the cache's entry.
   std::shared_ptr<HeadMesh> find(const Digest& digest) {
@@ -74,7 +74,7 @@ class MeshShelf {
     std::shared_ptr<HeadMesh> mesh;
   };
 
-  const fs::path& cache_;
+  const CacheFolder& cache_;
   std::mutex mutex_;
   std::map<Digest, std::shared_ptr<HeadMesh>, decltype(&by_digest)> meshes_{by_digest};
   std::map<Digest, Known, decltype(&by_digest)> of_outline_{by_digest};
@@ -113,7 +113,7 @@ void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
 }
 
 /// Fills in what the cache knows of a head. \return false if it does not.
-bool read_from_cache(HeadFile& head, const fs::path& cache, MeshShelf& shelf) {
+bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf) {
   try {
     const auto mesh = find_head(cache, head.text, head.file);
     if (!mesh) return false;
@@ -159,7 +159,7 @@ void read_other_format(HeadReading& reading, MeshShelf& shelf) {
 }
 
 /// Reads all but the mesh if another head has the same, which may not be there yet.
-HeadReading begin_reading(const fs::path& path, const fs::path& cache, MeshShelf& shelf) {
+HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshShelf& shelf) {
   HeadReading reading;
   HeadFile& head = reading.head;
   head.file.path = path;
@@ -167,7 +167,7 @@ HeadReading begin_reading(const fs::path& path, const fs::path& cache, MeshShelf
   head.file.file = MappedFile(path);
   head.text = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
   head.is_kept =
-      !cache.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
+      !cache.path.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
   if (head.is_kept) {
     seen.remember(head.text);
     return reading;
@@ -234,8 +234,8 @@ void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
 }  // namespace
 
 std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>& paths,
-                                                     std::string_view what, const fs::path& cache,
-                                                     Problems& problems) {
+                                                     std::string_view what,
+                                                     const CacheFolder& cache, Problems& problems) {
   std::vector<std::optional<HeadFile>> files(paths.size());
   std::vector<std::optional<Error>> errors(paths.size());
   MeshShelf shelf(cache);
@@ -351,7 +351,7 @@ void put_in_order(std::vector<HeadFile>& heads) {
 
 }  // namespace
 
-std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const fs::path& cache,
+std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const CacheFolder& cache,
                                  Problems& problems) {
   std::vector<HeadFile> read;
   std::size_t kept = 0;

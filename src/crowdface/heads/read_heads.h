@@ -10,6 +10,7 @@
 
 #include "crowdface/core/hash.h"
 #include "crowdface/core/problems.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/read_cache.h"
 #include "crowdface/io/obj_file.h"
 
@@ -33,11 +34,11 @@ struct HeadFile {
 /// \return #paths; those that could not be read are problems.
 std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
-    const std::filesystem::path& cache, Problems& problems);
+    const CacheFolder& cache, Problems& problems);
 
 /// The same of heads. \return those that could be read, in their order; the others are problems.
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,
-                                 const std::filesystem::path& cache, Problems& problems);
+                                 const CacheFolder& cache, Problems& problems);
 
 /// The positions of a mesh. \throws Error, InvalidInput if it has another topology than `others`, which
 /// messages call so.

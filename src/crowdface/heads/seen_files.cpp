@@ -8,14 +8,11 @@
 #include <sys/stat.h>
 
 #include "crowdface/core/error.h"
-#include "crowdface/heads/cache_folder.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool trusted = false;
 
 std::int64_t nanoseconds(const timespec& time) {
   constexpr std::int64_t kSecond = 1'000'000'000;
@@ -24,10 +21,6 @@ std::int64_t nanoseconds(const timespec& time) {
 
 }  // namespace
 
-void trust_seen_files(bool trust) {
-  trusted = trust;
-}
-
 std::optional<SeenFile::Stamp> SeenFile::stamp_of(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return std::nullopt;
@@ -35,9 +28,9 @@ std::optional<SeenFile::Stamp> SeenFile::stamp_of(const fs::path& file) {
                nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
 }
 
-SeenFile::SeenFile(const fs::path& cache, const fs::path& file) : file_(file) {
+SeenFile::SeenFile(const CacheFolder& cache, const fs::path& file) : file_(file) {
   static_assert(std::has_unique_object_representations_v<Stamp>);
-  if (!trusted || cache.empty()) return;
+  if (!cache.trusts_seen_files || cache.path.empty()) return;
   stamp_ = stamp_of(file);
   if (!stamp_) return;
   const Digest place = Hasher().add(stamp_->device).add(stamp_->inode).digest();

@@ -6,20 +6,17 @@
 #include <optional>
 
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
 
 namespace crowdface {
 
-/// Whether this process takes heads' texts and entries of the cache for what they were when they were last
-/// read whole, if nobody has written to them since: as told by device, inode, size, and the times of the last
-/// change of the bytes and of the file (ctime, which no program can set). Then gigabytes need not be hashed
-/// before a page opens. At first it does not. To be called before any file is read.
-void trust_seen_files(bool trust);
-
-/// A file that is about to be read whole: what is known of it from the last time.
+/// A file that is about to be read whole: what is known of it from the last time, if the cache trusts seen files and
+/// nobody has written to the file since: as told by device, inode, size, and the times of the last change of the bytes
+/// and of the file (ctime, which no program can set). Then gigabytes need not be hashed before a page opens.
 class SeenFile {
  public:
-  /// \param cache  in whose folder it is kept what was seen; empty: nowhere.
-  SeenFile(const std::filesystem::path& cache, const std::filesystem::path& file);
+  /// \param cache  in whose folder it is kept what was seen.
+  SeenFile(const CacheFolder& cache, const std::filesystem::path& file);
 
   /// The hash of its bytes, if files are trusted and this one has not changed since.
   const std::optional<Digest>& digest() const { return digest_; }

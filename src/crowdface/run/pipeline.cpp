@@ -156,7 +156,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
 }
 
 std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& overrides,
-                                 const std::filesystem::path& cache, Problems& problems) {
+                                 const CacheFolder& cache, Problems& problems) {
   ConfigReading reading = read_with_kept_reviews(read, overrides, problems);
   if (!reading.complete) {
     check_inputs(reading, cache, problems);
@@ -183,14 +183,14 @@ std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& 
 }  // namespace
 
 std::optional<Job> load_job(const std::filesystem::path& config_file,
-                            const ConfigOverrides& overrides, const std::filesystem::path& cache,
+                            const ConfigOverrides& overrides, const CacheFolder& cache,
                             Problems& problems) {
   return load_read_job([&](const ConfigOverrides& more,
                            Problems& out) { return read_config_parts(config_file, more, out); },
                        overrides, cache, problems);
 }
 
-Job load_job(const Config& config, const std::filesystem::path& cache) {
+Job load_job(const Config& config, const CacheFolder& cache) {
   const std::filesystem::path file = config.file.empty() ? "config" : config.file;
   const std::string text = effective_config(config, std::filesystem::absolute(file).parent_path());
   Problems problems;
@@ -204,7 +204,7 @@ Job load_job(const Config& config, const std::filesystem::path& cache) {
 }
 
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
-             const std::filesystem::path& cache) {
+             const CacheFolder& cache) {
   Problems problems;
   std::optional<Job> job = load_job(config_file, overrides, cache, problems);
   problems.throw_if_any();

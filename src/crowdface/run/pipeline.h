@@ -8,6 +8,7 @@
 #include "crowdface/config/config_reader.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/plan_file.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/heads/prepare.h"
 
@@ -26,15 +27,15 @@ struct Job {
 /// \param cache  the folder that keeps heads as they were read, see cache_directory; empty: none.
 /// \return nothing if there is any problem.
 std::optional<Job> load_job(const std::filesystem::path& config_file,
-                            const ConfigOverrides& overrides, const std::filesystem::path& cache,
+                            const ConfigOverrides& overrides, const CacheFolder& cache,
                             Problems& problems);
 /// \throws Error with all problems.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
-             const std::filesystem::path& cache = {});
+             const CacheFolder& cache = {});
 
 /// The same of a config at hand. What it says is checked as the text of a file is, of which its paths are: it is
 /// written out and read again.
-Job load_job(const Config& config, const std::filesystem::path& cache = {});
+Job load_job(const Config& config, const CacheFolder& cache = {});
 
 /// How many faces the config asks for.
 std::uint64_t face_count(const Config& config);
