@@ -158,7 +158,6 @@ int run_program(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   // What the image library brings may be OpenBLAS, which raises SIGINT where it gets no threads. Nothing uses any.
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
-  give_back_large_blocks();
   watch_for_lack_of_memory();
   watch_mapped_files();
   guard_start_of_libraries();

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,24 +125,6 @@ TEST(PeakMemory, GrowsWithWhatIsHeld) {
   EXPECT_GE(peak_memory(), kMore);
   EXPECT_LE(peak_memory(), machine_memory());
 }
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they allocate by themselves
-TEST(Memory, LargeBlocksGoBackEvenAfterLargerOnesWereFreed) {
-  give_back_large_blocks();
-  constexpr std::size_t kMiB = std::size_t{1} << 20U;
-  const auto allocate = [](std::size_t size) {
-    void* volatile block = std::malloc(size);  // volatile: not to be left out
-    return block;
-  };
-  std::free(allocate(16 * kMiB));  // makes glibc keep up to that much, unless told otherwise
-  const auto mapped = [] { return static_cast<std::size_t>(::mallinfo2().hblkhd); };
-  const std::size_t before = mapped();
-  void* const block = allocate(4 * kMiB);
-  EXPECT_GE(mapped(), before + 4 * kMiB);
-  std::free(block);
-  EXPECT_EQ(mapped(), before);
-}
-#endif
 
 // A run said that it was done although a library had caught this and drawn a sheet without letters.
 TEST(MemoryRanOut, KnowsWhatSomebodyElseCaught) {

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <new>
 
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -75,16 +74,6 @@ std::optional<std::uint64_t> memory_limit_of_groups(const std::filesystem::path&
     lower(line.substr(first + 1, second - first - 1), line.substr(second + 1));
   }
   return least;
-}
-
-void give_back_large_blocks() {
-  // glibc raises this by itself whenever such a block is freed, up to 32 MiB; once set it stays.
-  constexpr int kLarge = 1 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, kLarge);  // NOLINT(concurrency-mt-unsafe): before any thread
-  // With that set, glibc would give back a heap's end from 128 KiB on, at every loop that takes a little
-  // memory. No large block must fit into what it keeps.
-  constexpr int kHeapEnd = kLarge / 4 * 3;
-  ::mallopt(M_TRIM_THRESHOLD, kHeapEnd);  // NOLINT(concurrency-mt-unsafe)
 }
 
 void watch_for_lack_of_memory() {

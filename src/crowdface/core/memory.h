@@ -22,11 +22,6 @@ std::optional<std::uint64_t> memory_limit_of_groups(
 /// The most memory this process has held so far, in bytes.
 std::uint64_t peak_memory();
 
-/// From now on blocks of a megabyte or more go back to the system when they are freed. Else a long run
-/// grows from face to face: what is large and short-lived shares the heap with what is small and
-/// stays, and leaves holes that no later block fits in. For programs, at their start.
-void give_back_large_blocks();
-
 /// From now on `memory_ran_out` knows of every `new` that failed, whoever called it: libraries catch
 /// what it throws and go on with less than they should have made. For programs, at their start.
 void watch_for_lack_of_memory();
