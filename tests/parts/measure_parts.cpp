@@ -24,7 +24,6 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
-#include "crowdface/mesh/vector3.h"
 #include "crowdface/paint/bands.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/part_list.h"

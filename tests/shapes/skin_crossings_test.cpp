@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/mesh/vector3.h"
 #include "crowdface/validity/intersections.h"
 
 namespace crowdface {

@@ -10,8 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/mesh/vector3.h"
-
 namespace crowdface {
 namespace {
 

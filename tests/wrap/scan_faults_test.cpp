@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/skin_contacts.h"

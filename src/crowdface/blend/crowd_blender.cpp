@@ -8,7 +8,6 @@
 
 #include "crowdface/blend/crowd_product_kernels.h"
 #include "crowdface/blend/recipe_check.h"
-#include "crowdface/core/memory.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"

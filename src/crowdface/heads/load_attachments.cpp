@@ -11,7 +11,6 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/read_heads.h"
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -3,8 +3,6 @@
 // adds every problem that it has.
 #pragma once
 
-#include <filesystem>
-
 #include "crowdface/config/config.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/heads/cache_folder.h"

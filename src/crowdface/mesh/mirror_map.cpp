@@ -2,7 +2,6 @@
 #include "crowdface/mesh/mirror_map.h"
 
 #include "crowdface/core/parallel.h"
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/parts/find_mirror_plane.h"
 
-#include <cmath>
-
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"

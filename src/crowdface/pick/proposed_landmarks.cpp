@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "crowdface/core/error.h"
-#include "crowdface/mesh/vector3.h"
 #include "crowdface/paint/bands.h"
 #include "crowdface/paint/face_marks.h"
 

@@ -2,7 +2,6 @@
 #include "crowdface/run/face_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "crowdface/blend/blend.h"
@@ -10,7 +9,6 @@
 #include "crowdface/core/units.h"
 #include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/named_parts.h"
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

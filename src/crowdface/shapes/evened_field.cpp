@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "crowdface/core/smooth_step.h"
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

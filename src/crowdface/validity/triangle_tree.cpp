@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "crowdface/mesh/vector3.h"
-
 namespace crowdface {
 namespace {
 

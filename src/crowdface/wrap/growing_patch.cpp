@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "crowdface/core/interrupt.h"
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

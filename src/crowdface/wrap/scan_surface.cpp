@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "crowdface/core/selection.h"
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {

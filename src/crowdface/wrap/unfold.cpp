@@ -2,7 +2,6 @@
 #include "crowdface/wrap/unfold.h"
 
 #include "crowdface/mesh/alignment.h"
-#include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/growing_patch.h"
 
 namespace crowdface {
