@@ -171,6 +171,7 @@ std::string other_bearing(const WrapInputs& shared, const Scan& scan,
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
               const Digest& inputs) {
   const Scan scan = read_scan(task.scan);
+  for (const std::string& note : scan.notes) log_warning(concat(task.scan.string(), ": ", note));
   const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan);
   const WrapResult result = [&] {
     try {

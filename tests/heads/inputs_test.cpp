@@ -87,6 +87,21 @@ TEST(Inputs, OtherVertexCountsAreRefused) {
   expect_refused(fewer, ExitCode::kBadData, {"cyd.obj", "119", "118"});
 }
 
+TEST(Inputs, SurfacesThatNoFaceIsMadeOfAreTold) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  const SmallCrowdFolder folder(crowd);
+  const auto warnings_of = [&](const std::string& name) {
+    ConfigOverrides overrides;
+    overrides.set = {concat("output.surfaces={", name, ": eye}")};
+    return join(load_job(folder.config(), overrides).inputs.warnings);
+  };
+  const std::string known = load_job(folder.config(), {}).inputs.materials.names.back();
+  const std::string told = "which no face of";
+  EXPECT_NE(warnings_of("nobody").find(told), std::string::npos);
+  EXPECT_EQ(warnings_of(known).find(told), std::string::npos) << known;
+}
+
 TEST(Inputs, PermutedFacesArePutInOrder) {
   const SmallCrowdFolder folder{SmallCrowd{}};
   const auto before = load_job(folder.config(), {});

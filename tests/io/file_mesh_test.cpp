@@ -12,6 +12,7 @@
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/read_mesh.h"
+#include "crowdface/mesh/winding.h"
 
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -334,6 +335,24 @@ TEST(JoinSplitVertices, GivesOurOwnFilesTheirVerticesBack) {
   EXPECT_EQ(head.topology.vertex_count, 8);
   EXPECT_TRUE(head.is_mended);
   EXPECT_EQ(head.notes.size(), 1U);
+}
+
+TEST(RightSideOut, TurnsFacesInTheTextToo) {
+  const std::string vertices =
+      "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nv 0 0 1\r\nvt 0 0\r\nvt 1 0\r\nvt 0 1\r\n";
+  const std::string inside_out = vertices +
+                                 "g left\r\nf 1/1 2/2 3/3\r\n f 1 4 2\r\nf 1 3 4\r\n"
+                                 "f -3/1 -1/2 -2/3";
+  const TemporaryFolder folder;
+  const ObjFile turned = read_mesh_as_obj(folder.write("in.obj", inside_out));
+  EXPECT_EQ(turned.file.bytes(), vertices +
+                                     "g left\r\nf 1/1 3/3 2/2\r\nf 1 2 4\r\nf 1 4 3\r\n"
+                                     "f -3/1 -2/3 -1/2");
+  EXPECT_EQ(winding(turned.topology, turned.positions), 1);
+  EXPECT_TRUE(turned.is_mended);
+  EXPECT_EQ(turned.notes.size(), 1U);
+  const auto outward = folder.write("out.obj", turned.file.bytes());
+  EXPECT_EQ(read_mesh_as_obj(outward).notes.size(), 0U);
 }
 
 TEST(ReadMesh, TellsFormatsByWhatTheyHoldAndWhatIsNone) {

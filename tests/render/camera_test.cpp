@@ -55,18 +55,20 @@ TEST(Camera, EveryHeadFitsWithItsMarginAndTouchesIt) {
   }
 }
 
-// Masks of faces, and busts that end at the throat, lost their chins.
+// Masks of faces, and busts that end at the throat, lost their chins. A mask's nose lies as low as a bust's chin.
 TEST(Camera, NeverCutsAChin) {
-  const auto lowest_shown = [](double front_of_lowest) {
+  const auto lowest_shown = [](double front_of_lowest, double height_of_nose) {
     Positions head(9, 3);
     head << -2, 0, front_of_lowest, 2, 0, front_of_lowest, 0, 1, front_of_lowest,  //
-        -5, 5, 8.5, 5, 5, 8.5, 0, 9, 10, -7, 12, 0, 7, 12, 0, 0, 20, 6;
+        -5, 5, 8.5, 5, 5, 8.5, 0, height_of_nose, 10, -7, 12, 0, 7, 12, 0, 0, 20, 6;
     const Positions* heads[] = {&head};
-    const Camera camera = fit_camera(heads, {}, View::kFront, {.cut_below = 0.1});
+    const Camera camera = fit_camera(heads, {}, View::kFront, {.cut_below = 0.22});
     return testing::project(camera, head.row(0).transpose()).y();
   };
-  EXPECT_LE(lowest_shown(8), 0.94 + 1e-9);
-  EXPECT_GT(lowest_shown(3), 0.94 + 1e-9);
+  for (const double nose : {7.0, 9.0}) {
+    EXPECT_LE(lowest_shown(8, nose), 0.94 + 1e-9) << "a mask, its nose at " << nose;
+    EXPECT_GT(lowest_shown(3, nose), 0.94 + 1e-9) << "a neck, the nose at " << nose;
+  }
 }
 
 TEST(Camera, ShowsWhatIsBesideTheHeadsUnlessItIsTooLow) {
@@ -154,16 +156,16 @@ TEST(Camera, ScalesWithTheUnit) {
 }
 
 TEST(Camera, CutBelowGivesUpTheLowestPartOnly) {
-  const auto heads = two_heads();  // heights 95 to 114
-  const Camera camera = fit_camera(pointers(heads), {}, View::kFront, {.cut_below = 0.5});
-  EXPECT_LT(camera.distance, fit_camera(pointers(heads), {}, View::kFront).distance);
-  for (const Positions& head : heads) {
-    for (Index i = 0; i < head.rows(); ++i) {
-      if (head(i, 1) < 104.5) continue;
-      const Eigen::Vector2d place = testing::project(camera, head.row(i));
-      EXPECT_GE(place.minCoeff(), 0.06 - 1e-9);
-      EXPECT_LE(place.maxCoeff(), 0.94 + 1e-9);
-    }
+  Positions head(10, 3);  // a neck up to 4, a chin at 5, a nose at 9, ears, a skull
+  head << -2, 0, 3, 2, 0, 3, 0, 4, 3, 0, 5, 8.5, -5, 6, 5, 5, 6, 5, 0, 9, 10, -7, 12, 0, 7, 12, 0,
+      0, 20, 6;
+  const Positions* heads[] = {&head};
+  const Camera camera = fit_camera(heads, {}, View::kFront, {.cut_below = 0.22});
+  EXPECT_LT(camera.distance, fit_camera(heads, {}, View::kFront).distance);
+  for (Index i = 3; i < head.rows(); ++i) {
+    const Eigen::Vector2d place = testing::project(camera, head.row(i));
+    EXPECT_GE(place.minCoeff(), 0.06 - 1e-9);
+    EXPECT_LE(place.maxCoeff(), 0.94 + 1e-9);
   }
 }
 

@@ -119,6 +119,25 @@ std::vector<Eigen::RowVector3d> corners_of(const Scan& scan) {
   return corners;
 }
 
+// Programs that wind triangles the other way, or mirror a scan, leave it inside out.
+TEST(ReadScan, TurnsAScanThatIsInsideOut) {
+  const TemporaryFolder folder;
+  Scan inside_out = cube();
+  for (Triangle& triangle : inside_out.triangles) std::swap(triangle[1], triangle[2]);
+  for (const auto& [name, bytes] : {std::pair("in.stl", binary_stl(inside_out)),
+                                    std::pair("in.ply", encode_scan(inside_out))}) {
+    const Scan scan = read_scan(folder.write(name, bytes));
+    EXPECT_EQ(join(scan.notes), "its faces looked inward (inside out) and are turned round")
+        << name;
+    double volume = 0;
+    for (const Triangle& t : scan.triangles) {
+      volume += dot3(row3(scan.positions, t[0]), area_vector(scan.positions, t));
+    }
+    EXPECT_GT(volume, 0) << name;
+  }
+  EXPECT_TRUE(read_scan(folder.write("out.stl", binary_stl(cube()))).notes.empty());
+}
+
 TEST(ScanFile, EveryFormatGivesTheSameSurface) {
   const TemporaryFolder folder;
   const Scan scan = cube();

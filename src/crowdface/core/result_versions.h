@@ -21,7 +21,7 @@ inline constexpr int kFaceSpaceVersion = 1;
 /// What the cache keeps besides: neighbours, masks at vertices, samples and their cells, the other side.
 inline constexpr int kSharedVersion = 1;
 /// A picture, what is found about a skin, or a mesh file of the same positions.
-inline constexpr int kFaceFilesVersion = 21;
+inline constexpr int kFaceFilesVersion = 22;
 inline constexpr int kShapesVersion =
     9;  ///< shapes carried to a face of the same positions, and shown
 inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
@@ -29,6 +29,6 @@ inline constexpr int kRigVersion = 1;          ///< joints that follow, and what
 inline constexpr int kAttachmentsVersion = 5;  ///< attachments of a face of the same positions
 inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
 inline constexpr int kTextureVersion = 3;      ///< textures of faces' own
-inline constexpr int kSheetVersion = 16;  ///< contact sheets and the gallery, of the same pictures
+inline constexpr int kSheetVersion = 17;  ///< contact sheets and the gallery, of the same pictures
 
 }  // namespace crowdface

@@ -91,7 +91,7 @@ void load_attachments(const Config& config, const CacheFolder& cache, Inputs& in
   std::vector<std::filesystem::path> paths;
   for (const Config::Attachment& item : asked) paths.push_back(item.file);
   std::vector<HeadFile> files;
-  for (auto& file : read_mesh_files(paths, "attachments", cache, problems)) {
+  for (auto& file : read_mesh_files(paths, "attachments", cache, problems, Winding::kAsItIs)) {
     if (file) files.push_back(std::move(*file));
   }
   keep_heads(files, cache);

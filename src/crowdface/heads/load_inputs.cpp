@@ -16,6 +16,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/alignment_check.h"
+#include "crowdface/heads/expression_check.h"
 #include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/load_carried.h"
@@ -297,6 +298,23 @@ std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
   return warnings;
 }
 
+/// A warning if output.surfaces names materials that no face has.
+std::optional<std::string> unknown_surfaces(const Config& config, const Inputs& inputs) {
+  const std::vector<std::string>& known = inputs.materials.names;
+  std::vector<std::string> unknown, materials;
+  for (const auto& [name, surface] : config.output.surfaces) {
+    if (std::ranges::find(known, name) == known.end()) unknown.push_back(quoted(name));
+  }
+  if (unknown.empty()) return std::nullopt;
+  for (const std::string& name : known) {
+    if (!name.empty()) materials.push_back(quoted(name));
+  }
+  return concat("output.surfaces names ", join(unknown), ", which no face of ",
+                config.faces.files.front().string(), " is made of; ",
+                materials.empty() ? "its faces name no materials (usemtl)"
+                                  : concat("its materials are ", join(materials)));
+}
+
 /// A warning if single precision, in which meshes are written, keeps no hundredth of a millimetre where
 /// the heads stand.
 std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs) {
@@ -496,6 +514,12 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : same_persons(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
+  for (std::string& text : odd_expressions(inputs.faces, skin_of(inputs),
+                                           axes_of(Bearing{config.faces.up, config.faces.front}),
+                                           mm_per(config.faces.units))) {
+    inputs.warn(std::move(text));
+  }
+  if (auto text = unknown_surfaces(config, inputs)) inputs.warn(std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
     inputs.regions = load_regions(config, inputs);

@@ -20,6 +20,7 @@
 #include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/seen_files.h"
 #include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/same_graph.h"
 
 namespace crowdface {
@@ -34,7 +35,8 @@ bool by_digest(const Digest& a, const Digest& b) {
 /// The meshes of the heads read so far, each once.
 class MeshShelf {
  public:
-  explicit MeshShelf(const CacheFolder& cache) : cache_(cache) {}
+  MeshShelf(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}
+  Winding winding() const { return winding_; }
 
   /// \return null if neither we nor the cache have it. \throws InvalidInput of the cache's entry.
   std::shared_ptr<HeadMesh> find(const Digest& digest) {
@@ -75,6 +77,7 @@ class MeshShelf {
   };
 
   const CacheFolder& cache_;
+  Winding winding_;
   std::mutex mutex_;
   std::map<Digest, std::shared_ptr<HeadMesh>, decltype(&by_digest)> meshes_{by_digest};
   std::map<Digest, Known, decltype(&by_digest)> of_outline_{by_digest};
@@ -136,7 +139,7 @@ struct HeadReading {
 /// Sorts what was read into the head and its mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
-  file = std::move(read);
+  file = shelf.winding() == Winding::kOutward ? right_side_out(std::move(read)) : std::move(read);
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);
@@ -235,10 +238,11 @@ void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
 
 std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>& paths,
                                                      std::string_view what,
-                                                     const CacheFolder& cache, Problems& problems) {
+                                                     const CacheFolder& cache, Problems& problems,
+                                                     Winding winding) {
   std::vector<std::optional<HeadFile>> files(paths.size());
   std::vector<std::optional<Error>> errors(paths.size());
-  MeshShelf shelf(cache);
+  MeshShelf shelf(cache, winding);
   Progress progress(concat("reading ", what), paths.size());
   std::vector<HeadReading> readings(paths.size());
   const auto for_each_sound = [&](const auto& read) {

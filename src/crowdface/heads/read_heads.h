@@ -28,13 +28,16 @@ struct HeadFile {
   bool is_kept = false;            ///< the cache has it
 };
 
+/// What becomes of meshes whose faces look inward.
+enum class Winding { kAsItIs, kOutward };
+
 /// Reads meshes side by side, those that the cache knows from there.
 /// \param what   they are, for the bar that shows how far it is
 /// \param cache  its folder; empty: none.
 /// \return #paths; those that could not be read are problems.
 std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
-    const CacheFolder& cache, Problems& problems);
+    const CacheFolder& cache, Problems& problems, Winding winding = Winding::kOutward);
 
 /// The same of heads. \return those that could be read, in their order; the others are problems.
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,

@@ -8,6 +8,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/io/read_mesh.h"
+#include "crowdface/io/right_side_out.h"
 
 namespace crowdface {
 
@@ -59,8 +60,7 @@ FileMesh read_joined_mesh(const std::filesystem::path& path) {
 }
 
 ObjFile read_mesh_as_obj(const std::filesystem::path& path) {
-  if (is_obj(path)) return read_obj(path);
-  return as_obj(read_joined_mesh(path), path);
+  return right_side_out(is_obj(path) ? read_obj(path) : as_obj(read_joined_mesh(path), path));
 }
 
 }  // namespace crowdface

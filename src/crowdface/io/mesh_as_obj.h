@@ -19,7 +19,7 @@ ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path);
 
 /// A mesh of any format; vertices that a format split are joined, and it is said.
 FileMesh read_joined_mesh(const std::filesystem::path& path);
-/// The same as an OBJ file; one that is OBJ as it is.
+/// The same as an OBJ file, one that is OBJ as it is; a mesh that is inside out is turned.
 ObjFile read_mesh_as_obj(const std::filesystem::path& path);
 
 }  // namespace crowdface

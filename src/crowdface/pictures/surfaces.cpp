@@ -2,9 +2,88 @@
 #include "crowdface/pictures/surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "crowdface/core/error.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/surface_materials.h"
+
 namespace crowdface {
+namespace {
+
+/// How much of some faces a picture's channel covers, by samples within each face.
+/// \param value  of an image at a pixel
+template <class Value>
+double covered(const Image& image, const Topology& topology, const TextureCoordinates& uvs,
+               const std::vector<Index>& faces, const Value& value) {
+  constexpr double kMiddle = 0.5;
+  double sum = 0;
+  std::size_t count = 0;
+  const auto sample = [&](const Eigen::RowVector2d& uv) {
+    const auto pixel = [](double at, int size) {
+      const double inside = at - std::floor(at);
+      return std::min(size - 1, static_cast<int>(inside * size));
+    };
+    sum += value(image, pixel(uv.x(), image.width), pixel(1 - uv.y(), image.height));
+    ++count;
+  };
+  for (const Index f : faces) {
+    const auto rows = topology.face_uvs(f);
+    if (rows.empty() || std::ranges::find(rows, kNoIndex) != rows.end()) continue;
+    Eigen::RowVector2d middle(0, 0);
+    for (const std::uint32_t row : rows) middle += uvs.row(row);
+    middle /= static_cast<double>(rows.size());
+    sample(middle);
+    for (const std::uint32_t row : rows) sample(middle + kMiddle * (uvs.row(row) - middle));
+  }
+  return count == 0 ? 1 : sum / static_cast<double>(count);
+}
+
+/// Whether a material lets one see through these faces, as shells over eyes and cards of lashes do.
+bool is_see_through(const SurfaceMaterial& material, const FaceSet& faces,
+                    const std::vector<Index>& of_material) {
+  constexpr double kSolid = 0.9;
+  if (material.opacity < kSolid) return true;
+  const std::filesystem::path& file =
+      material.opacity_map.empty() ? material.colour_map : material.opacity_map;
+  if (file.empty()) return false;
+  try {
+    const Image image = read_image(file, {.jpeg = true});
+    const bool is_alpha = image.alpha_channel >= 0;
+    if (!is_alpha && material.opacity_map.empty()) return false;
+    const int channel = is_alpha ? image.alpha_channel : 0;
+    return covered(image, faces.topology, faces.uvs, of_material,
+                   [&](const Image& of, int x, int y) {
+                     return static_cast<double>(of.at(x, y, channel));
+                   }) < kSolid;
+  } catch (const RecoverableError&) {
+    return false;  // whoever reads textures tells
+  }
+}
+
+/// Of materials that no part of the skin has: which let one see through.
+std::vector<bool> see_through_materials(const Inputs& inputs) {
+  const Topology& topology = inputs.faces.topology;
+  std::vector<std::vector<Index>> faces(inputs.materials.names.size());
+  std::vector<bool> is_skin(faces.size(), false), see_through(faces.size(), false);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const std::uint32_t material = inputs.materials.of_face[static_cast<std::size_t>(f)];
+    faces[material].push_back(f);
+    const std::uint32_t component = inputs.components.of_vertex[topology.face(f)[0]];
+    if (component == inputs.components.largest()) is_skin[material] = true;
+  }
+  if (std::ranges::find(is_skin, false) == is_skin.end()) return see_through;
+  const ObjFile& first = inputs.files.front();
+  const std::vector<SurfaceMaterial> materials = surface_materials_of(
+      inputs.materials.names, find_material_files(first.path, first.material_libraries));
+  for (std::size_t m = 0; m < faces.size(); ++m) {
+    see_through[m] = !is_skin[m] && is_see_through(materials[m], inputs.faces, faces[m]);
+  }
+  return see_through;
+}
+
+}  // namespace
 
 Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
   const std::vector<std::uint32_t>& of_face = inputs.materials.of_face;
@@ -12,11 +91,13 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
   std::vector<SurfaceKind> kinds(count);
   std::vector<std::optional<Eigen::Array3f>> paints(count);
   std::vector<bool> chosen(count);
+  const std::vector<bool> see_through = see_through_materials(inputs);
   for (std::size_t m = 0; m < count; ++m) {
     const std::string& material = inputs.materials.names[m];
     const auto choice = config.output.surfaces.find(material);
     chosen[m] = choice != config.output.surfaces.end();
     kinds[m] = chosen[m] ? choice->second.kind : surface_kind_of_material(material);
+    if (!chosen[m] && see_through[m]) kinds[m] = SurfaceKind::kHidden;
     if (!chosen[m] || !choice->second.colour) continue;
     const auto& rgb = *choice->second.colour;
     paints[m] = Eigen::Array3f(rgb[0], rgb[1], rgb[2]) / 255.0F;

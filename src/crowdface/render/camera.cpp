@@ -2,9 +2,11 @@
 #include "crowdface/render/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -87,41 +89,55 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
   return heights;
 }
 
-/// Extent of some vertices along the sides and to the front.
-struct Slab {
-  double left = std::numeric_limits<double>::infinity(), right = -left, front = -left, back = left;
-  void add(double side, double ahead) {
-    left = std::min(left, side);
-    right = std::max(right, side);
-    front = std::max(front, ahead);
-    back = std::min(back, ahead);
-  }
-};
-
-/// Whether a face ends in what a cut would take away, as masks and heads without a neck do: it reaches as far to the
-/// front as what is above, and is no pair of shoulders.
-bool cuts_a_chin(std::span<const Positions* const> heads, const HeadFrame& frame,
-                 const Heights& heights, double cut_below) {
-  constexpr double kFaceEnds = 0.4, kBehind = 0.1, kShoulders = 0.75;
+/// The height of the throat: the highest place below the tip of the nose where the surface lies behind the tip by a
+/// quarter of the head's width or more, which no chin does. A mask has no throat, nor has a head that ends at its chin.
+/// \return nothing if the head has no throat.
+std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
+  constexpr std::size_t kSlices = 32, kLowestNose = 9;
+  constexpr double kBehind = 0.25;
   const Eigen::Vector3d up = unit_vector(frame.up), front = unit_vector(frame.front);
   const Eigen::Vector3d side = up.cross(front);
-  const double cut = heights.at(cut_below), face = heights.at(kFaceEnds);
-  Slab all, below, above;
-  for (const Positions* head : heads) {
-    for (Index i = 0; i < head->rows(); ++i) {
-      const Eigen::Vector3d point = head->row(i);
-      const double height = point.dot(up), at = point.dot(side), ahead = point.dot(front);
-      all.add(at, ahead);
-      if (height < cut) {
-        below.add(at, ahead);
-      } else if (height < face) {
-        above.add(at, ahead);
-      }
+  const Positions* const one[] = {&head};
+  const Heights heights = heights_of(one, up);
+  if (!(heights.high > heights.low)) return std::nullopt;
+  const double scale = kSlices / (heights.high - heights.low);
+  const auto slice_of = [&](double height) {
+    return std::min(kSlices - 1, static_cast<std::size_t>((height - heights.low) * scale));
+  };
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::array<double, kSlices> ahead;
+  ahead.fill(kNone);
+  for (Index i = 0; i < head.rows(); ++i) {
+    double& slice = ahead[slice_of(head.row(i).dot(up))];
+    slice = std::max(slice, head.row(i).dot(front));
+  }
+  const auto nose = static_cast<std::size_t>(
+      std::max_element(ahead.begin() + kLowestNose, ahead.end()) - ahead.begin());
+  double left = -kNone, right = kNone;
+  for (Index i = 0; i < head.rows(); ++i) {
+    if (slice_of(head.row(i).dot(up)) < nose) continue;
+    left = std::min(left, head.row(i).dot(side));
+    right = std::max(right, head.row(i).dot(side));
+  }
+  for (std::size_t s = nose; s-- > 0;) {
+    // With its neighbours: a slice of a coarse mesh may hold no vertex of the midline.
+    const double nearest = std::max({ahead[s], ahead[s + 1], s > 0 ? ahead[s - 1] : kNone});
+    if (nearest != kNone && nearest < ahead[nose] - kBehind * (right - left)) {
+      return heights.low + static_cast<double>(s) / scale;
     }
   }
-  if (above.front < above.back) return false;
-  return below.right - below.left < kShoulders * (all.right - all.left) &&
-         below.front > above.front - kBehind * (all.front - all.back);
+  return std::nullopt;
+}
+
+/// The height from which on heads are shown: necks and shoulders may leave the picture, chins may not.
+double lowest_shown(std::span<const Positions* const> heads, const HeadFrame& frame,
+                    const Heights& heights, double cut_below) {
+  double lowest = heights.at(cut_below);
+  if (cut_below == 0) return lowest;
+  for (const Positions* head : heads) {
+    lowest = std::min(lowest, throat_of(*head, frame).value_or(heights.low));
+  }
+  return lowest;
 }
 
 }  // namespace
@@ -132,9 +148,8 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
   const double slope = camera.half_tangent * (1 - 2 * options.margin);
   Wedge across{slope}, along{slope}, head_across{slope};
   const Heights heights = heights_of(heads, camera.up);
-  const bool whole =
-      options.cut_below == 0 || cuts_a_chin(heads, frame, heights, options.cut_below);
-  const double lowest = heights.at(whole ? 0 : options.cut_below), neck = heights.at(kNeck);
+  const double lowest = lowest_shown(heads, frame, heights, options.cut_below);
+  const double neck = heights.at(kNeck);
   double nearest = -std::numeric_limits<double>::infinity();
   double furthest = std::numeric_limits<double>::infinity();
   for (const Positions* head : heads) {

@@ -53,26 +53,6 @@ void to_camera(const Positions& positions, const Camera& camera, std::vector<flo
   });
 }
 
-float winding(const Topology& topology, const Positions& positions) {
-  const Positions areas = face_area_vectors(topology, positions);
-  const Eigen::RowVector3d middle = positions.colwise().mean();
-  const auto sum = [&](auto&& term) {
-    return parallel_sum(topology.face_count(), kVertexBlock, [&](Index begin, Index end) {
-      double total = 0;
-      for (Index f = begin; f < end; ++f) {
-        if (topology.face(f).size() < 3) continue;
-        const Eigen::RowVector3d reach = positions.row(topology.face(f)[0]) - middle;
-        total += term(areas.row(f), reach);
-      }
-      return total;
-    });
-  };
-  const double outward = sum([](const auto& area, auto& reach) { return area.dot(reach); });
-  const double total =
-      sum([](const auto& area, auto& reach) { return area.norm() * reach.norm(); });
-  return outward < -0.05 * total ? -1.0F : 1.0F;
-}
-
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign) {
   CameraNormals result;

@@ -24,10 +24,6 @@ void to_camera(const Positions& positions, const Camera& camera, std::vector<flo
 /// An axis of the file as a unit vector.
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 
-/// +1, or −1 if the surface as a whole is wound inside out, as a mirrored one is: its faces look
-/// towards its middle.
-float winding(const Topology& topology, const Positions& positions);
-
 /// #V unit normals times `sign`, in single precision: for looking at.
 /// \param fans    of the topology's vertices.
 /// \param points  as to_camera gives them.

@@ -14,6 +14,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/winding.h"
 #include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"

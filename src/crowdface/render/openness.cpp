@@ -9,6 +9,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/winding.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/perpendicular.h"
 #include "crowdface/render/ray_scene.h"

@@ -84,7 +84,7 @@ std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
 Scan without_small_pieces(const Scan& scan, double least_share) {
   const std::vector<double> areas = areas_of_pieces(scan);
   const double least = least_share * largest(areas);
-  Scan kept{scan.positions, {}};
+  Scan kept{scan.positions, {}, scan.notes};
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (!degenerate(scan.triangles[i]) && areas[i] >= least) {
       kept.triangles.push_back(scan.triangles[i]);
@@ -99,7 +99,7 @@ Scan without_shells(const Scan& scan) {
   const Components components = find_components(adjacency);
   const PartList parts = find_parts(topology, adjacency, components, scan.positions);
   if (std::ranges::none_of(parts.parts, [](const Part& part) { return part.eyeball; })) return scan;
-  Scan kept{scan.positions, {}};
+  Scan kept{scan.positions, {}, scan.notes};
   std::ranges::copy_if(scan.triangles, std::back_inserter(kept.triangles), [&](const Triangle& t) {
     return parts.classes[components.of_vertex[t[0]]] != PartClass::kBound;
   });

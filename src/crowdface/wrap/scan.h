@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "crowdface/mesh/triangles.h"
@@ -9,8 +10,9 @@ namespace crowdface {
 
 /// A surface as a scanner or another program left it: any unit, any pose, any triangles.
 struct Scan {
-  Positions positions;              ///< #V by 3
-  std::vector<Triangle> triangles;  ///< wound so that they look outwards
+  Positions positions;                  ///< #V by 3
+  std::vector<Triangle> triangles;      ///< wound so that they look outwards
+  std::vector<std::string> notes = {};  ///< what was mended or left out, a sentence each
 };
 
 /// #V: whether a triangle has the vertex.

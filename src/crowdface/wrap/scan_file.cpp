@@ -2,12 +2,14 @@
 #include "crowdface/wrap/scan_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/read_mesh.h"
+#include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -24,7 +26,7 @@ bool has_area(const Scan& scan) {
 
 /// Coordinates of a map in single precision are steps and no surface.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
-  constexpr double kMostOfSize = 1e-3, kStep = 0x1p-23;
+  constexpr double kMostOfSize = 1e-3;
   const std::vector<bool> used = used_vertices(scan);
   Eigen::AlignedBox3d box;
   double farthest = 0;
@@ -36,10 +38,11 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
     farthest = std::max(farthest, place.cwiseAbs().maxCoeff());
   }
   const double size = box.diagonal().norm();
-  if (!(farthest * kStep > kMostOfSize * size)) return;
+  const double step = std::ldexp(1.0, std::ilogb(farthest) - 23);
+  if (!(farthest > 0 && step > kMostOfSize * size)) return;
   refuse_file(
       path, concat("numbers of ", format_fixed(farthest, 0), " in single precision go in steps of ",
-                   format_fixed(farthest * kStep, 3), ", of a scan that is ", format_fixed(size, 1),
+                   format_fixed(step, 3), ", of a scan that is ", format_fixed(size, 1),
                    " large: move the scan near the origin before exporting it, or export doubles "
                    "(PLY, OBJ)"));
 }
@@ -76,7 +79,8 @@ void leave_out_unplaced(Scan& scan) {
 
 Scan read_scan(const std::filesystem::path& path) {
   FileMesh mesh = read_mesh(path);
-  Scan scan{std::move(mesh.positions), triangles_of(mesh.topology)};
+  turn_right_side_out(mesh);
+  Scan scan{std::move(mesh.positions), triangles_of(mesh.topology), std::move(mesh.notes)};
   leave_out_unplaced(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),

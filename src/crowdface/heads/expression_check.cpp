@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/expression_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/paint/face_marks.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kFewestHeads = 4, kFewestVertices = 50;
+constexpr double kLeastMm = 2, kMostOfOthers = 3.2;
+constexpr double kShare = 0.9;  ///< of the vertices are less far off than what is compared
+
+/// A box of the face, in lengths from mouth to eyes.
+struct Box {
+  const char* name;
+  double height;      ///< of its middle, from the mouth
+  double up, across;  ///< half its height and width
+};
+constexpr Box kBoxes[] = {{"mouth", 0, 0.4, 0.5}, {"eyes", 1, 0.25, 0.75}};
+constexpr double kDepth = 0.6;  ///< behind the foremost point of a box
+
+std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const HeadShape& head,
+                               const HeadAxes& axes) {
+  const double face = marks.face();
+  std::vector<Index> inside;
+  double foremost = -std::numeric_limits<double>::max();
+  for (Index v = 0; v < head.positions.rows(); ++v) {
+    if (!head.skin[static_cast<std::size_t>(v)]) continue;
+    const Eigen::Vector3d place = row3(head.positions, v);
+    const double above = dot3(place, axes.up) - marks.mouth - box.height * face;
+    const double aside = dot3(place, axes.side()) - marks.middle;
+    if (std::abs(above) > box.up * face || std::abs(aside) > box.across * face) continue;
+    inside.push_back(v);
+    foremost = std::max(foremost, dot3(place, axes.front));
+  }
+  std::erase_if(inside, [&](Index v) {
+    return dot3(row3(head.positions, v), axes.front) < foremost - kDepth * face;
+  });
+  return inside;
+}
+
+double median(std::vector<double> values) {
+  const std::size_t rank = values.size() / 2;
+  return value_of_rank(std::move(values), rank);
+}
+
+/// Vertex by vertex the median of all heads: one head that is odd does not move it.
+Positions middle_head(const FaceSet& faces) {
+  Positions middle(faces.heads[0].positions.rows(), 3);
+  parallel_for_each(static_cast<std::size_t>(middle.rows()), [&](std::size_t v) {
+    for (Index c = 0; c < 3; ++c) {
+      std::vector<double> values;
+      for (const Head& head : faces.heads) {
+        values.push_back(head.positions(static_cast<Index>(v), c));
+      }
+      middle(static_cast<Index>(v), c) = median(std::move(values));
+    }
+  });
+  return middle;
+}
+
+}  // namespace
+
+std::vector<std::string> odd_expressions(const FaceSet& faces, const std::vector<bool>& skin,
+                                         const HeadAxes& axes, double mm) {
+  if (faces.heads.size() < kFewestHeads) return {};
+  const HeadShape head{middle_head(faces), skin, {}};
+  const auto marks = find_face_marks(faces.topology, head, axes);
+  if (!marks) return {};
+  std::vector<std::string> warnings;
+  for (const Box& box : kBoxes) {
+    const std::vector<Index> vertices = vertices_in(box, *marks, head, axes);
+    if (vertices.size() < kFewestVertices) continue;
+    const Positions middle = head.positions(vertices, Eigen::all);
+    std::vector<double> off(faces.heads.size());
+    parallel_for_each(off.size(), [&](std::size_t h) {
+      const Positions own = faces.heads[h].positions(vertices, Eigen::all);
+      const Positions moved = fit_similarity(own, middle, ScaleFit::kUniform).apply(own);
+      std::vector<double> apart;
+      for (Index i = 0; i < middle.rows(); ++i)
+        apart.push_back((moved.row(i) - middle.row(i)).norm());
+      const auto rank = static_cast<std::size_t>(kShare * static_cast<double>(apart.size()));
+      off[h] = mm * value_of_rank(std::move(apart), rank);
+    });
+    const double usual = median(off);
+    for (std::size_t h = 0; h < off.size(); ++h) {
+      if (off[h] < kLeastMm || off[h] < kMostOfOthers * usual) continue;
+      warnings.push_back(concat(
+          faces.heads[h].name, ": the form of its ", box.name, " is ", format_fixed(off[h], 1),
+          " mm from the middle of all heads, where the others are ", format_fixed(usual, 1),
+          " mm: does it grimace? Heads are to be neutral; an expression goes into all faces that "
+          "are "
+          "made of it"));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace crowdface

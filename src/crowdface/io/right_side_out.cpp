@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/right_side_out.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/winding.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::string_view kTurned = "its faces looked inward (inside out) and are turned round";
+
+/// An OBJ text with the corners of each face in reverse order, but for the first.
+std::string with_turned_faces(std::string_view text) {
+  std::string turned;
+  turned.reserve(text.size());
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    const bool is_last = end == text.size();
+    begin = end + 1;
+    const std::string_view ending =
+        line.ends_with('\r') ? (is_last ? "\r" : "\r\n") : (is_last ? "" : "\n");
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    std::vector<std::string> words;
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != line.npos && line[first] == 'f') words = words_of(line);
+    if (words.size() > 2 && words[0] == "f") {
+      std::reverse(words.begin() + 2, words.end());
+      turned += words[0];
+      for (std::size_t w = 1; w < words.size(); ++w) turned += concat(' ', words[w]);
+    } else {
+      turned += line;
+    }
+    turned += ending;
+  }
+  return turned;
+}
+
+}  // namespace
+
+void turn_right_side_out(FileMesh& mesh) {
+  if (mesh.topology.face_count() == 0 || winding(mesh.topology, mesh.positions) > 0) return;
+  turn_faces(mesh.topology);
+  mesh.notes.emplace_back(kTurned);
+}
+
+ObjFile right_side_out(ObjFile file) {
+  if (winding(file.topology, file.positions) > 0) return file;
+  MappedFile text = MappedFile::of_text(with_turned_faces(file.file.bytes()));
+  const ObjOutline outline = outline_obj(text.bytes());
+  ObjFile turned = read_obj(file.path, std::move(text), outline);
+  turned.notes = std::move(file.notes);
+  turned.notes.emplace_back(kTurned);
+  turned.is_mended = true;
+  return turned;
+}
+
+}  // namespace crowdface
