@@ -13,6 +13,7 @@
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/npy.h"
+#include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/io/ply_template.h"
 #include "crowdface/io/usda_template.h"
@@ -39,6 +40,7 @@ GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
         concat("--units: expected mm, cm, m, in, or a length, found ", quoted(options.units)));
   }
   written.unit = *unit;
+  written.colours = mesh.colours.rows() > 0;
   if (mesh.materials.empty()) return written;
   FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());
   for (std::string& name : materials.names) written.materials.push_back({std::move(name)});
@@ -50,21 +52,26 @@ void write_mesh(const FileMesh& mesh, MeshFormat format, const fs::path& out,
                 const ConvertOptions& options) {
   const std::string name = out.stem().string();
   const auto normals = [&] { return vertex_normals(mesh.topology, mesh.positions); };
+  const ColourRows colours = byte_colours(mesh.colours);
   switch (format) {
     case MeshFormat::kObj:
+      if (colours.rows() > 0) {
+        return EncodedFile(with_colours(encode_obj(mesh, {}, mesh.materials).text(), colours))
+            .write(out);
+      }
       return encode_obj(mesh, {}, mesh.materials).write(out);
     case MeshFormat::kPly: {
       const PlyTemplate form(mesh.topology);
-      return form.encode(mesh.positions, {}, name).write(out);
+      return form.encode(mesh.positions, {}, name, colours).write(out);
     }
     case MeshFormat::kGlb: {
       const GlbTemplate form(mesh.topology, mesh.uvs, materials_of(mesh, options));
-      return form.encode(mesh.positions, normals(), name).write(out);
+      return form.encode(mesh.positions, normals(), name, {}, {}, {}, {}, {}, colours).write(out);
     }
     case MeshFormat::kUsd: {
       const UsdaTemplate form(mesh.topology, mesh.uvs, materials_of(mesh, options),
                               Subdivision::kNone);
-      return form.encode(mesh.positions, normals(), name).write(out);
+      return form.encode(mesh.positions, normals(), name, {}, {}, {}, {}, colours).write(out);
     }
     case MeshFormat::kPoints:
       encode_npy(mesh.positions, name).write(out);
@@ -108,7 +115,7 @@ void convert(const ConvertOptions& options) {
   if (mesh.has_textures) {
     log_warning(concat(options.in, ": its textures are not carried along"));
   }
-  if (mesh.colours.rows() > 0) {
+  if (mesh.colours.rows() > 0 && *format == MeshFormat::kPoints) {
     log_warning(concat(options.in, ": its colours at vertices are not carried along"));
   }
   write_mesh(mesh, *format, out, options);

@@ -6,6 +6,8 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/io/obj_colours.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/generate.h"
 
@@ -103,6 +105,37 @@ TEST(MeshFormats, HoldTheSameFace) {
       }
     }
   }
+}
+
+TEST(MeshFormats, HaveTheFacesColoursAtVertices) {
+  SmallCrowd crowd;
+  crowd.count = 2;
+  crowd.contact_sheet = "{cell: 32}";
+  const SmallCrowdFolder folder(crowd);
+  const int tones[] = {204, 204, 51, 51};
+  for (std::size_t h = 0; h < folder.names().size(); ++h) {
+    const fs::path head = folder.head(folder.names()[h]);
+    const std::string text = testing::read_text(head);
+    const ColourRows colours = ColourRows::Constant(read_obj(head).positions.rows(), 3,
+                                                    static_cast<std::uint8_t>(tones[h]));
+    folder.folder().write("heads/" + head.filename().string(), with_colours(text, colours));
+  }
+  run(folder, {kAll});
+  const fs::path stem = folder.out() / "meshes" / "mob_0001";
+  const std::string obj = testing::read_text(stem.string() + ".obj");
+  const Index vertices = read_obj(stem.string() + ".obj").positions.rows();
+  const ColourRows written = obj_colours(obj, vertices);
+  ASSERT_EQ(written.rows(), vertices);
+  EXPECT_GE(written.minCoeff(), 51);
+  EXPECT_LE(written.maxCoeff(), 204);
+  for (const char* ending : {".ply", ".glb"}) {
+    FileMesh mesh = read_mesh(stem.string() + ending);
+    join_split_vertices(mesh);
+    ASSERT_EQ(mesh.colours.rows(), vertices) << ending;
+    EXPECT_LT((mesh.colours - colour_shares(written)).cwiseAbs().maxCoeff(), 0.002) << ending;
+  }
+  EXPECT_NE(testing::read_text(stem.string() + ".usda").find("primvars:displayColor = [("),
+            std::string::npos);
 }
 
 TEST(MeshFormats, GlbCornersHaveTheTextureCoordinatesOfTheObj) {

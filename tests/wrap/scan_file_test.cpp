@@ -131,7 +131,7 @@ TEST(ReadScan, TurnsAScanThatIsInsideOut) {
         << name;
     double volume = 0;
     for (const Triangle& t : scan.triangles) {
-      volume += dot3(row3(scan.positions, t[0]), area_vector(scan.positions, t));
+      volume += row3(scan.positions, t[0]).dot(area_vector(scan.positions, t));
     }
     EXPECT_GT(volume, 0) << name;
   }

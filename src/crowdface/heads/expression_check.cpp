@@ -37,14 +37,14 @@ std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const Hea
   for (Index v = 0; v < head.positions.rows(); ++v) {
     if (!head.skin[static_cast<std::size_t>(v)]) continue;
     const Eigen::Vector3d place = row3(head.positions, v);
-    const double above = dot3(place, axes.up) - marks.mouth - box.height * face;
-    const double aside = dot3(place, axes.side()) - marks.middle;
+    const double above = place.dot(axes.up) - marks.mouth - box.height * face;
+    const double aside = place.dot(axes.side()) - marks.middle;
     if (std::abs(above) > box.up * face || std::abs(aside) > box.across * face) continue;
     inside.push_back(v);
-    foremost = std::max(foremost, dot3(place, axes.front));
+    foremost = std::max(foremost, place.dot(axes.front));
   }
   std::erase_if(inside, [&](Index v) {
-    return dot3(row3(head.positions, v), axes.front) < foremost - kDepth * face;
+    return row3(head.positions, v).dot(axes.front) < foremost - kDepth * face;
   });
   return inside;
 }

@@ -10,6 +10,7 @@
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/level_size.h"
 #include "crowdface/smooth/smoothing_operator.h"
+#include "crowdface/texture/vertex_colours_blend.h"
 
 namespace crowdface {
 namespace {
@@ -30,8 +31,9 @@ std::vector<PictureName> own_pictures(const Inputs& inputs) {
   return pictures;
 }
 
-FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
-  if (!has_own_textures(inputs)) return;
+FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
+    : inputs_(inputs), are_blended_(config.textures.blend == TextureBlend::kAuto) {
+  if (!has_own_textures(inputs) && inputs.colours.empty()) return;
   const Topology& topology = inputs.faces.topology;
   TextureBlending options;
   const auto iterations = [&](double size_mm) {
@@ -45,6 +47,11 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.of_target[vertex] = true;
   }
+  if (!inputs.colours.empty()) {
+    region_shares_ = region_shares(inputs.regions, options.areas);
+    of_target_ = options.of_target;
+  }
+  if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
       inputs.faces.heads.front().positions);
@@ -70,6 +77,13 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs) {
 
 BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) const {
   return pictures_[picture].blender->blend(recipe, pictures_[picture].number);
+}
+
+ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
+  if (inputs_.colours.empty()) return ColourRows(0, 3);
+  FaceColourWeights weights = face_colour_weights(recipe, inputs_.colours.size(), region_shares_);
+  if (!are_blended_) weights.whole = weights.of_target;
+  return blend_vertex_colours(inputs_.colours, weights, of_target_);
 }
 
 std::uint64_t FaceTextures::memory_bytes() const {

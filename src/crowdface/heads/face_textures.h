@@ -26,6 +26,9 @@ class FaceTextures {
   /// \param picture  as own_pictures has them: no more than one need be in memory. Any thread may ask.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
+  /// A face's colours at vertices; no rows where the heads have none. Any thread may ask.
+  ColourRows vertex_colours(const Recipe& recipe) const;
+
   /// What this object itself takes, and what the blending of the largest picture takes.
   std::uint64_t memory_bytes() const;
   std::uint64_t blend_bytes() const;
@@ -37,6 +40,10 @@ class FaceTextures {
     std::size_t number;  ///< of the blender's
   };
   std::vector<Picture> pictures_;
+  const Inputs& inputs_;
+  bool are_blended_;                   ///< or the target's own
+  std::vector<double> region_shares_;  ///< of the face
+  std::vector<bool> of_target_;        ///< #V, see blend_vertex_colours
 };
 
 /// What the heads' maps take that lie in memory.

@@ -15,6 +15,7 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/lod/detail_level.h"
 #include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/mirror_map.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
@@ -68,7 +69,10 @@ struct Inputs {
   Positions mean;              ///< the mean head
   std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
   std::vector<Digest> texts;   ///< #heads, of the files' bytes
-  FaceMaterials materials;     ///< of the first head's faces
+  /// #heads colours of vertices, none of heads that have none; empty if no head has any.
+  std::vector<ColourRows> colours;
+  Digest colours_digest;
+  FaceMaterials materials;  ///< of the first head's faces
   Adjacency adjacency;
   Components components;
   PartList parts;   ///< `parts: none`: empty

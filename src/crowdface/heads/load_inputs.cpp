@@ -23,6 +23,7 @@
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
 #include "crowdface/heads/shared_by_heads.h"
+#include "crowdface/io/obj_colours.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/paint/face_marks.h"
 #include "crowdface/region/vertex_weights.h"
@@ -119,6 +120,29 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
     problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
                                             heads[0].file.path.string(), ": ", difference));
   }
+}
+
+/// Colours at the heads' vertices, if any head has them.
+void take_colours(Inputs& inputs) {
+  const std::size_t count = inputs.files.size();
+  std::vector<ColourRows> colours(count);
+  parallel_for_each(count, [&](std::size_t h) {
+    colours[h] = obj_colours(inputs.files[h].file.bytes(), inputs.faces.heads[h].positions.rows());
+  });
+  const auto has_none = [](const ColourRows& rows) { return rows.rows() == 0; };
+  if (std::ranges::all_of(colours, has_none)) return;
+  std::vector<std::string> without;
+  Hasher hasher;
+  for (std::size_t h = 0; h < count; ++h) {
+    hasher.add_array(numbers_of(colours[h]));
+    if (has_none(colours[h])) without.push_back(inputs.faces.heads[h].name);
+  }
+  inputs.colours_digest = hasher.digest();
+  inputs.colours = std::move(colours);
+  if (without.empty()) return;
+  inputs.warn(concat(join(without),
+                     ": no colours at vertices, which other heads have; faces have "
+                     "those of their other heads"));
 }
 
 /// Moves what was read into the inputs; the topology is kept once.
@@ -485,6 +509,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   keep_heads(heads, cache);
   Inputs inputs;
   take_heads(config, std::move(heads), inputs);
+  take_colours(inputs);
   inputs.materials = face_materials(inputs.files[0].materials, inputs.faces.topology.face_count());
   inputs.cache = folder_for(cache, inputs.faces.topology);
   inputs.topology_digest = digest_of_topology(inputs.faces.topology);

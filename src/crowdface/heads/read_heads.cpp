@@ -20,6 +20,7 @@
 #include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/seen_files.h"
 #include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/obj_colours.h"
 #include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/same_graph.h"
 
@@ -169,6 +170,11 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   const SeenFile seen(cache, path);
   head.file.file = MappedFile(path);
   head.text = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
+  if (is_obj(path)) {
+    if (auto text = polypaint_at_vertices(head.file.file.bytes())) {
+      head.file.file = MappedFile::of_text(std::move(*text));
+    }
+  }
   head.is_kept =
       !cache.path.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
   if (head.is_kept) {
@@ -197,12 +203,14 @@ void end_reading(HeadReading& reading, MeshShelf& shelf) {
 }
 
 /// The mesh of another head for one that has its vertices in the same order.
-void give_mesh(HeadFile& head, const HeadFile& other) {
+/// \param colours  of the vertices
+void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours = {}) {
   FileMesh mesh;
   mesh.topology = other.mesh->topology;
   mesh.uvs = other.mesh->uvs;
   mesh.materials = other.file.materials;
   mesh.positions = head.file.positions;
+  mesh.colours = colour_shares(colours);
   ObjFile file = as_obj(std::move(mesh), head.file.path);
   file.positions = std::move(head.file.positions);
   file.material_libraries = std::move(head.file.material_libraries);
@@ -337,13 +345,16 @@ void put_in_order(std::vector<HeadFile>& heads) {
     if (head.mesh == first.mesh) return;
     const auto vertices = vertices_in_order(first, head);
     if (!vertices) return;
+    const ColourRows found = obj_colours(head.file.file.bytes(), head.file.positions.rows());
+    ColourRows colours = found;
     Positions positions(head.file.positions.rows(), 3);
     for (std::size_t v = 0; v < vertices->size(); ++v) {
       positions.row(static_cast<Index>(v)) = head.file.positions.row((*vertices)[v]);
+      if (found.rows() > 0) colours.row(static_cast<Index>(v)) = found.row((*vertices)[v]);
       moved[h] += (*vertices)[v] != v ? 1U : 0U;
     }
     head.file.positions = std::move(positions);
-    give_mesh(head, first);
+    give_mesh(head, first, colours);
   });
   for (std::size_t h = 0; h < heads.size(); ++h) {
     if (moved[h] == 0) continue;

@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// A mesh as a file of any format has it: vertices and polygons in the file's order, in its unit and axes.
 struct FileMesh : Mesh {
-  Positions colours;                     ///< #V by 3, from 0 to 1; or no rows
+  Positions colours;                     ///< #V by 3, sRGB from 0 to 1; or no rows
   std::vector<MaterialRange> materials;  ///< of the faces, ascending; may be empty
   /// #V, of formats that split vertices at seams: which mesh of the file each is of. Empty: none is split.
   std::vector<std::uint32_t> pieces;

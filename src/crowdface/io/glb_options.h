@@ -43,6 +43,7 @@ struct GlbOptions {
   Axis up = {1, 1};                      ///< of the positions; the node turns them to +Y …
   Axis front = {2, 1};                   ///< … and +Z, which is glTF's front
   std::vector<GlbMaterial> materials;
+  bool colours = false;                       ///< each file has colours of its own at vertices
   std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
   std::vector<GlbTarget> targets;
   std::vector<std::string> points;        ///< nodes below the face's, at places of its own

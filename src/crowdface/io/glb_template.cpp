@@ -20,6 +20,7 @@
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/io/split_vertices.h"
+#include "crowdface/io/srgb.h"
 
 namespace crowdface {
 namespace {
@@ -59,13 +60,17 @@ std::string places_on_overlay(const SplitVertices& split, const GlbOverlay& over
   return bytes;
 }
 
-Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_uvs,
+Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, bool has_uvs,
                      const std::vector<GlbSkinAttribute>& skin) {
   Json attributes = Json::object();
   buffer.add_view(vertices * kVectorSize, kArrayBuffer);
   attributes["POSITION"] = buffer.add_accessor(kFloat, "VEC3", vertices);
   buffer.add_view(vertices * kVectorSize, kArrayBuffer);
   attributes["NORMAL"] = buffer.add_accessor(kFloat, "VEC3", vertices);
+  if (has_colours) {
+    buffer.add_view(vertices * kVectorSize, kArrayBuffer);
+    attributes["COLOR_0"] = buffer.add_accessor(kFloat, "VEC3", vertices);
+  }
   if (has_uvs) {
     buffer.add_view(vertices * 2 * sizeof(float), kArrayBuffer);
     attributes["TEXCOORD_0"] = buffer.add_accessor(kFloat, "VEC2", vertices);
@@ -149,6 +154,7 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
                          const GlbOptions& options)
     : vertices_(topology.vertex_count),
+      colours_(options.colours),
       images_(options.image_types.size()),
       points_(static_cast<Index>(options.points.size())) {
   constexpr Index kMostVertices = 1 << 24;
@@ -176,7 +182,8 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   if (!options.skin.joints.empty()) {
     skin = skin_attributes(options.skin.influences, split.vertices);
   }
-  const Json attributes = attributes_json(buffer, split.vertices.size(), !split.uvs.empty(), skin);
+  const Json attributes =
+      attributes_json(buffer, split.vertices.size(), options.colours, !split.uvs.empty(), skin);
   std::optional<std::size_t> places, picture;
   if (options.overlay) {
     require(options.overlay->places.size() == static_cast<std::size_t>(vertices_),
@@ -243,12 +250,13 @@ std::size_t GlbTemplate::memory_bytes() const {
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
                                 const std::string& name, std::span<const Displacements> moves,
                                 std::span<const std::string_view> images, const Positions& points,
-                                std::span<const PlacedGlbPart> parts,
-                                const Positions& joints) const {
+                                std::span<const PlacedGlbPart> parts, const Positions& joints,
+                                const ColourRows& colours) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
   require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);
   require_finite(positions, vertices_, name);
   require_finite(normals, vertices_, name);
+  require(!colours_ || colours.rows() == vertices_, "GlbTemplate: a colour of each vertex");
   Json scene = Json::parse(json_);
   scene["accessors"][0]["min"] = vector_json(positions.colwise().minCoeff());
   scene["accessors"][0]["max"] = vector_json(positions.colwise().maxCoeff());
@@ -300,9 +308,10 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   char* vectors = file.reserve(encode_bytes());
   put_vectors(vectors, positions, split_);
   put_vectors(vectors + vector_bytes(), normals, split_);
-  file.refer_to({vectors, 2 * vector_bytes()});
+  char* const values = vectors + (colours_ ? 3 : 2) * vector_bytes();
+  if (colours_) put_vectors(vectors + 2 * vector_bytes(), linear_light(colours), split_);
+  file.refer_to({vectors, static_cast<std::size_t>(values - vectors)});
   file.refer_to(shared_);
-  char* const values = vectors + 2 * vector_bytes();
   char* at = values;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);

@@ -11,6 +11,7 @@
 #include "crowdface/io/glb_options.h"
 #include "crowdface/io/glb_part.h"
 #include "crowdface/io/glb_scene.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
@@ -34,24 +35,27 @@ class GlbTemplate {
   /// \param images   files, as many as the options say; must outlive the result.
   /// \param parts    what stands beside the face; must outlive the result.
   /// \param joints   #joints by 3, as points.
+  /// \param colours  #V, if the options say that files have some; written as linear light.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   /// \param moves    #targets: of their vertices, from `positions`.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
                      std::span<const std::string_view> images = {}, const Positions& points = {},
-                     std::span<const PlacedGlbPart> parts = {}, const Positions& joints = {}) const;
+                     std::span<const PlacedGlbPart> parts = {}, const Positions& joints = {},
+                     const ColourRows& colours = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
   /// What one encode takes.
   std::size_t encode_bytes() const {
-    return 2 * vector_bytes() + target_bytes_ + skin_.matrix_bytes();
+    return (colours_ ? 3 : 2) * vector_bytes() + target_bytes_ + skin_.matrix_bytes();
   }
 
  private:
   std::size_t vector_bytes() const;
 
   Index vertices_;
+  bool colours_;
   std::size_t images_;
   Index points_;
   std::vector<std::uint32_t> split_;    ///< original vertices of the split ones from #V on

@@ -11,6 +11,7 @@
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/gltf_compression.h"
 #include "crowdface/io/gltf_file.h"
+#include "crowdface/io/srgb.h"
 
 namespace crowdface {
 namespace {
@@ -217,8 +218,8 @@ class GltfMeshReader {
         uvs_.push_back(1 - (-sin * u + cos * v + uv.y));  // v upwards, as in OBJ
       }
       for (std::size_t c = 0; c < 3; ++c) {
-        colours_.push_back(
-            has_colours ? std::clamp(part.colours[part.colour_width * i + c], 0.0, 1.0) : 1);
+        colours_.push_back(has_colours ? srgb_of_linear(part.colours[part.colour_width * i + c])
+                                       : 1);
       }
     }
     any_colours_ = any_colours_ || has_colours;

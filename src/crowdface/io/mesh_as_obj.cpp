@@ -6,6 +6,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/io/read_mesh.h"
 #include "crowdface/io/right_side_out.h"
@@ -37,7 +38,11 @@ ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path) {
         '_');
     if (material.name.empty()) material.name = "material";
   }
-  MappedFile text = MappedFile::of_text(encode_obj(mesh, {}, mesh.materials).text());
+  std::string encoded = encode_obj(mesh, {}, mesh.materials).text();
+  if (mesh.colours.rows() > 0) {
+    encoded = with_colours(encoded, byte_colours(mesh.colours));
+  }
+  MappedFile text = MappedFile::of_text(std::move(encoded));
   const ObjOutline outline = outline_obj(text.bytes());
   ObjFile file = read_obj(path, std::move(text), outline);
   file.notes = std::move(mesh.notes);

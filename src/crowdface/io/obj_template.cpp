@@ -2,10 +2,12 @@
 #include "crowdface/io/obj_template.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/single_precision.h"
 
@@ -19,14 +21,32 @@ char* copy(std::string_view text, char* out) {
   return out + text.size();
 }
 
+/// Three coordinates, and red, green and blue behind them.
+char* write_coloured(char* out, const Positions& rows, const ColourRows& colours, Index i) {
+  constexpr double kMostByte = 255, kSteps = 1e4;
+  for (Index c = 0; c < 3; ++c) {
+    if (c > 0) *out++ = ' ';
+    out = write_single(out, rows(i, c));
+  }
+  for (Index c = 0; c < 3; ++c) {
+    *out++ = ' ';
+    out = write_single(out, std::round(kSteps * colours(i, c) / kMostByte) / kSteps);
+  }
+  return out;
+}
+
 /// The x y z of a `v` or `vn` line.
 struct Coordinates {
   std::string_view text;  ///< empty if the line is another
   bool is_normal = false;
 };
 
-Coordinates coordinates_of(std::string_view line) {
+/// \param whole  with all that stands behind the coordinates of a `v` line
+Coordinates coordinates_of(std::string_view line, bool whole) {
   if (line.ends_with('\r')) line.remove_suffix(1);
+  if (whole) {
+    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+  }
   std::size_t at = 0;
   const auto skip = [&](bool blanks) {
     while (at < line.size() && is_blank(line[at]) == blanks) ++at;
@@ -43,6 +63,7 @@ Coordinates coordinates_of(std::string_view line) {
     skip(true);
     skip(false);
   }
+  if (whole && !is_normal) at = line.size();
   return {line.substr(begin, at - begin), is_normal};
 }
 
@@ -76,8 +97,11 @@ bool is_zero(const Positions& rows, Index i) {
 
 }  // namespace
 
-ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
-    : text_(target.file.bytes()), topology_(topology), vertices_(topology.vertex_count) {
+ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool colours)
+    : text_(target.file.bytes()),
+      topology_(topology),
+      vertices_(topology.vertex_count),
+      colours_(colours) {
   // Normals that no face uses are text like any other.
   const bool has_normals = !target.corner_normals.empty();
   std::uint32_t vertices = 0, normals = 0;
@@ -86,7 +110,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology)
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     const std::string_view line = text_.substr(begin, end - begin);
     begin = end + 1;
-    const auto [numbers, is_normal] = coordinates_of(line);
+    const auto [numbers, is_normal] = coordinates_of(line, colours);
     if (numbers.empty() || (is_normal && !has_normals)) continue;
     const bool ends_run = !places.empty() && places.back().is_normal != is_normal &&
                           places.size() > kPlacesPerBlock / 2;
@@ -116,7 +140,8 @@ void ObjTemplate::add_block(const std::vector<Place>& places) {
     old_text -= static_cast<std::size_t>(std::ranges::count_if(
         text_.substr(place.begin, place.length), [](char c) { return !is_blank(c); }));
   }
-  buffer_size_ += 3 * kLongestSingle * places.size() + old_text + kLongestSingle;
+  const std::size_t colours = colours_ ? (3 * kLongestSingle + 5) * places.size() : 0;
+  buffer_size_ += 3 * kLongestSingle * places.size() + colours + old_text + kLongestSingle;
   block.places = places;
   blocks_.push_back(std::move(block));
 }
@@ -132,11 +157,13 @@ std::size_t ObjTemplate::encode_bytes() const {
   return buffer_size_ + rows * 3 * sizeof(double);
 }
 
-EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& what) const {
+EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& what,
+                                const ColourRows& colours) const {
   require_finite(positions, vertices_, what);
+  require(!colours_ || colours.rows() == vertices_, "ObjTemplate: a colour of each vertex");
   Positions normals;
   if (fans_) normals = fans_->normals(topology_, positions, {0, 0, 0});
-  const Rows rows{positions, normals};
+  const Rows rows{positions, normals, colours};
   EncodedFile file;
   char* buffer = file.reserve(buffer_size_);
   std::vector<std::string_view> pieces(blocks_.size());
@@ -162,6 +189,9 @@ char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out)
 
 char* ObjTemplate::encode_place(const Place& place, const Rows& rows, char* out) const {
   const std::string_view old = text_.substr(place.begin, place.length);
+  if (!place.is_normal && colours_) {
+    return write_coloured(out, rows.positions, rows.colours, place.row);
+  }
   if (!place.is_normal) return write_like(old, out, rows.positions, place.row);
   if (is_zero(rows.normals, place.row)) return copy(old, out);
   return write_like(old, out, rows.normals, place.row);

@@ -9,6 +9,7 @@
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/obj_file.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
 
@@ -22,7 +23,8 @@ class ObjTemplate {
   /// \param target    its mapped text is referred to and must outlive this object and the files it
   ///                  encodes; all else of it may go.
   /// \param topology  the faces, which all heads share; must outlive this object.
-  ObjTemplate(const ObjFile& target, const Topology& topology);
+  /// \param colours   whether each file has colours of its own behind the coordinates of its `v` lines
+  ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false);
 
   /// The file with these positions. Numbers are the shortest that read back as the same
   /// single-precision value. A normal is recomputed from the faces whose corners use it; one that
@@ -30,7 +32,9 @@ class ObjTemplate {
   /// \param positions  #V by 3, in the file's unit.
   /// \param what       names the mesh in messages.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
-  EncodedFile encode(const Positions& positions, const std::string& what) const;
+  /// \param colours  #V if files have them: red, green and blue from 0 to 1 with four digits.
+  EncodedFile encode(const Positions& positions, const std::string& what,
+                     const ColourRows& colours = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const;
@@ -56,6 +60,7 @@ class ObjTemplate {
   struct Rows {
     const Positions& positions;
     const Positions& normals;
+    const ColourRows& colours;
   };
 
   void add_block(const std::vector<Place>& places);
@@ -65,6 +70,7 @@ class ObjTemplate {
   std::string_view text_;
   const Topology& topology_;
   Index vertices_ = 0;
+  bool colours_;
   std::vector<Block> blocks_;
   std::optional<NormalFans> fans_;  ///< of the `vn`, if faces use any
   std::size_t buffer_size_ = 0;

@@ -6,6 +6,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/little_endian.h"
 #include "crowdface/io/single_precision.h"
@@ -13,17 +14,19 @@
 namespace crowdface {
 namespace {
 
-std::string ply_header(Index vertices, Index faces, bool with_normals) {
-  return concat("ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
-                "\nproperty float x\nproperty float y\nproperty float z\n",
-                with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-                "element face ", faces,
-                // "int" and not "uint": what readers have always met
-                "\nproperty list uchar int vertex_indices\nend_header\n");
+std::string ply_header(Index vertices, Index faces, bool with_normals, bool with_colours) {
+  return concat(
+      "ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
+      "\nproperty float x\nproperty float y\nproperty float z\n",
+      with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+      with_colours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
+      "element face ", faces,
+      // "int" and not "uint": what readers have always met
+      "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
-std::size_t vertex_size(bool with_normals) {
-  return (with_normals ? 6 : 3) * sizeof(float);
+std::size_t vertex_size(bool with_normals, bool with_colours) {
+  return (with_normals ? 6 : 3) * sizeof(float) + (with_colours ? 3 : 0);
 }
 
 }  // namespace
@@ -45,23 +48,26 @@ PlyTemplate::PlyTemplate(const Topology& topology)
 }
 
 std::size_t PlyTemplate::encode_bytes() const {
-  return static_cast<std::size_t>(vertices_) * vertex_size(true);
+  return static_cast<std::size_t>(vertices_) * vertex_size(true, true);
 }
 
 EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& normals,
-                                const std::string& what) const {
+                                const std::string& what, const ColourRows& colours) const {
   require_finite(positions, vertices_, what);
   const bool with_normals = normals.rows() > 0;
   if (with_normals) require_finite(normals, vertices_, what);
-  const std::size_t size = vertex_size(with_normals);
+  const bool with_colours = colours.rows() > 0;
+  require(!with_colours || colours.rows() == vertices_, "PlyTemplate: a colour of each vertex");
+  const std::size_t size = vertex_size(with_normals, with_colours);
   EncodedFile file;
-  file.add(ply_header(vertices_, face_count_, with_normals));
+  file.add(ply_header(vertices_, face_count_, with_normals, with_colours));
   char* vertices = file.reserve(static_cast<std::size_t>(vertices_) * size);
   parallel_blocks(vertices_, kRowsPerBlock, [&](Index begin, Index end) {
     char* out = vertices + static_cast<std::size_t>(begin) * size;
     for (Index i = begin; i < end; ++i) {
       out = put_row(out, positions, i);
       if (with_normals) out = put_row(out, normals, i);
+      for (Index c = 0; with_colours && c < 3; ++c) out = put_number(out, colours(i, c));
     }
   });
   file.refer_to({vertices, static_cast<std::size_t>(vertices_) * size});
@@ -79,10 +85,11 @@ Positions read_ply_positions(const std::filesystem::path& path) {
   };
   const std::string_view head = bytes.substr(0, 1024);
   const bool with_normals = head.find("property float nx") != head.npos;
+  const bool with_colours = head.find("property uchar red") != head.npos;
   const auto vertices = static_cast<Index>(count_after("element vertex "));
-  const std::string header =
-      ply_header(vertices, static_cast<Index>(count_after("element face ")), with_normals);
-  const std::size_t size = vertex_size(with_normals);
+  const std::string header = ply_header(vertices, static_cast<Index>(count_after("element face ")),
+                                        with_normals, with_colours);
+  const std::size_t size = vertex_size(with_normals, with_colours);
   if (!bytes.starts_with(header) ||
       static_cast<std::size_t>(vertices) > (bytes.size() - header.size()) / size) {
     refuse_file(path, "expected a PLY file as crowdface writes it, found another");

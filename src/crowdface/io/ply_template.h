@@ -5,6 +5,7 @@
 #include <string>
 
 #include "crowdface/io/encoded_file.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -20,14 +21,15 @@ class PlyTemplate {
 
   /// The file with these positions; refers to this object.
   /// \param normals  #V by 3, or no rows: the file has none.
+  /// \param colours  #V, or no rows, likewise: red, green and blue as bytes.
   /// \param what     names the mesh in messages.
   /// \throws InvalidInput if positions are not finite.
-  EncodedFile encode(const Positions& positions, const Positions& normals,
-                     const std::string& what) const;
+  EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& what,
+                     const ColourRows& colours = {}) const;
 
   /// What this object itself takes.
   std::size_t memory_bytes() const { return faces_.size(); }
-  /// What one encode takes, with normals.
+  /// What one encode takes, with normals and colours.
   std::size_t encode_bytes() const;
 
  private:

@@ -9,6 +9,7 @@
 #include "crowdface/io/foreign_file.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/npy_array.h"
+#include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_file.h"
 
 namespace crowdface {
@@ -18,6 +19,9 @@ namespace fs = std::filesystem;
 
 FileMesh mesh_of_obj(ObjFile file) {
   FileMesh mesh;
+  const auto painted = polypaint_at_vertices(file.file.bytes());
+  mesh.colours =
+      colour_shares(obj_colours(painted ? *painted : file.file.bytes(), file.positions.rows()));
   mesh.topology = std::move(file.topology);
   mesh.positions = std::move(file.positions);
   mesh.uvs = std::move(file.uvs);

@@ -6,6 +6,7 @@
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/single_precision.h"
+#include "crowdface/io/srgb.h"
 
 namespace crowdface {
 namespace {
@@ -70,7 +71,7 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
 
 void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& positions,
                    const Positions& normals, std::span<const Displacements> moves,
-                   const std::string& what) const {
+                   const std::string& what, const ColourRows& colours) const {
   require(moves.size() == shapes_.size(), "UsdaMesh: displacements of each target");
   require_finite(positions, vertices_, what);
   Positions extent(2, 3);
@@ -86,6 +87,11 @@ void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& posit
     require_finite(normals, vertices_, what);
     file.add("            normal3f[] normals = [");
     file.add(usda_rows(normals));
+    file.add("] (\n                interpolation = \"vertex\"\n            )\n");
+  }
+  if (colours.rows() > 0) {
+    file.add("            color3f[] primvars:displayColor = [");
+    file.add(usda_rows(linear_light(colours)));
     file.add("] (\n                interpolation = \"vertex\"\n            )\n");
   }
   file.refer_to(faces_);
@@ -151,7 +157,7 @@ std::size_t UsdaMesh::memory_bytes() const {
 
 std::size_t UsdaMesh::encode_bytes() const {
   // The text of each array, and its copy in the file.
-  return 2 * kLongestUsdaRow * (2 * static_cast<std::size_t>(vertices_) + target_rows_);
+  return 2 * kLongestUsdaRow * (3 * static_cast<std::size_t>(vertices_) + target_rows_);
 }
 
 }  // namespace crowdface

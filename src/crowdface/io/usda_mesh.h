@@ -10,6 +10,7 @@
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_options.h"
 #include "crowdface/io/usda_text.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
 
@@ -43,10 +44,11 @@ class UsdaMesh {
   /// Adds the prim; the file refers to this object.
   /// \param normals  #V by 3, unit; not written for meshes that are subdivided.
   /// \param moves    #targets. \param what  for messages.
+  /// \param colours  #V, as the primvar displayColor, in linear light; or no rows.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   void add(EncodedFile& file, const Place& place, const Positions& positions,
-           const Positions& normals, std::span<const Displacements> moves,
-           const std::string& what) const;
+           const Positions& normals, std::span<const Displacements> moves, const std::string& what,
+           const ColourRows& colours = {}) const;
 
   /// Prims' names of the materials; of those of no face: empty.
   const std::vector<std::string>& materials() const { return materials_; }

@@ -121,7 +121,8 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
 EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& normals,
                                  const std::string& name, std::span<const Displacements> moves,
                                  std::span<const std::string> images, const Positions& points,
-                                 std::span<const PlacedUsdaPart> parts) const {
+                                 std::span<const PlacedUsdaPart> parts,
+                                 const ColourRows& colours) const {
   const std::string prim = usda_name(name), root = "/" + prim, face = root + "/face";
   const bool acts = !mesh_.tokens().empty();
   EncodedFile file;
@@ -129,7 +130,7 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
                   "\n    }\n    defaultPrim = \"", prim, "\"\n", frame_, ")\n\ndef Xform \"", prim,
                   "\" (\n    kind = \"component\"\n)\n{\n    def ", acts ? "SkelRoot" : "Xform",
                   " \"face\"\n    {\n", turn_));
-  mesh_.add(file, {face, "mesh", root + "/materials"}, positions, normals, moves, name);
+  mesh_.add(file, {face, "mesh", root + "/materials"}, positions, normals, moves, name, colours);
   for (const PlacedUsdaPart& part : parts) {
     part.part->add_mesh(file, root, *part.positions, part.moves, name);
   }

@@ -33,11 +33,13 @@ class UsdaTemplate {
   /// \param points   #points by 3, in the positions' unit: prims below the face's.
   /// \param images   the options' images, relative to the layer.
   /// \param parts    further meshes, with the same targets.
+  /// \param colours  #V, or no rows: see UsdaMesh.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
                      std::span<const std::string> images = {}, const Positions& points = {},
-                     std::span<const PlacedUsdaPart> parts = {}) const;
+                     std::span<const PlacedUsdaPart> parts = {},
+                     const ColourRows& colours = {}) const;
 
   /// What this object itself takes, and what one encode takes.
   std::size_t memory_bytes() const { return mesh_.memory_bytes(); }

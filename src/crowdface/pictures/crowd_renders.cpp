@@ -61,6 +61,13 @@ Positions lowest_in_shapes(const ShapeSet& set, const Eigen::Vector3d& up) {
   return lowest;
 }
 
+/// Colours at vertices as a render takes them; nothing if there are none, or textures lie over them.
+std::optional<VertexColours> shown_colours(const ColourRows& colours, const TextureCoat* coat) {
+  constexpr float kMostByte = 255;
+  if (colours.rows() == 0 || coat != nullptr) return std::nullopt;
+  return VertexColours(colours.cast<float>() / kMostByte);
+}
+
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
                                  const Inputs& inputs) {
   std::vector<const Positions*> heads;
@@ -90,11 +97,14 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
 
 FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
                                 std::span<const Displacements> moves, const OwnCoat* own,
-                                const std::vector<WornAttachment>& worn) const {
+                                const std::vector<WornAttachment>& worn,
+                                const ColourRows& colours) const {
   std::optional<TextureCoat> of_target;
   if (own == nullptr) of_target = coat_of(target);
   const TextureCoat* painted = own != nullptr ? &own->coat() : of_target ? &*of_target : nullptr;
-  FacePictures pictures{render_png(positions, nullptr, painted, worn), std::nullopt};
+  const std::optional<VertexColours> shown = shown_colours(colours, painted);
+  FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, worn),
+                        std::nullopt};
   if (gallery_ != nullptr) {
     pictures.preview = gallery_->face_script(id, positions, moves, painted, worn);
   }
@@ -146,12 +156,17 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
   const std::optional<OwnCoat> own = own_coat(textures, recipe);
-  return own ? render_png(positions, nullptr, &own->coat()) : render_png(positions, recipe.target);
+  if (own) return render_png(positions, nullptr, &own->coat());
+  const auto colours = shown_colours(textures.vertex_colours(recipe), nullptr);
+  return colours ? render_png(positions, &*colours) : render_png(positions, recipe.target);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
   const std::optional<TextureCoat> coat = coat_of(head);
-  return render_png(positions, nullptr, coat ? &*coat : nullptr);
+  const auto colours = shown_colours(
+      inputs_.colours.empty() ? ColourRows(0, 3) : inputs_.colours[static_cast<std::size_t>(head)],
+      coat ? &*coat : nullptr);
+  return render_png(positions, colours ? &*colours : nullptr, coat ? &*coat : nullptr);
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {

@@ -57,9 +57,11 @@ class CrowdRenders {
   /// \param moves     its displacements in each shape, if they are shown.
   /// \param own       of own_coat, or null: it bears its target's textures, if there are any.
   /// \param worn      its attachments.
+  /// \param colours   at its vertices, shown if it bears no textures; or no rows.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
                     std::span<const Displacements> moves, const OwnCoat* own,
-                    const std::vector<WornAttachment>& worn = {}) const;
+                    const std::vector<WornAttachment>& worn = {},
+                    const ColourRows& colours = {}) const;
 
   /// What a head wears in pictures; nothing if it has no texture, or none is shown.
   std::optional<TextureCoat> coat_of(Index head) const;

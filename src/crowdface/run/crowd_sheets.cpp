@@ -57,6 +57,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
+  if (!job.inputs.colours.empty()) hasher.add(job.inputs.colours_digest);
   for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // With each face's notes and what it looks like: reviews and the distance mask alter these alone.

@@ -118,6 +118,7 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
                 .normals = &face.normals,
                 .moves = face.moves,
                 .worn = face.worn,
+                .colours = &face.colours,
                 .joints = &face.joints,
                 .images = face.images,
                 .image_names = face.image_names};
@@ -132,10 +133,12 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
   if (face.normals.rows() > 0) reduced.normals = detail.of(face.normals);
   for (const Displacements& shape : face.moves) reduced.moves.push_back(detail.of(shape));
   reduced.worn = levels_[level].of(face.worn);
+  if (face.colours.rows() > 0) reduced.colours = face.colours(detail.vertices, Eigen::all);
   mesh.positions = &reduced.positions;
   mesh.normals = &reduced.normals;
   mesh.moves = reduced.moves;
   mesh.worn = reduced.worn;
+  mesh.colours = &reduced.colours;
   return mesh;
 }
 

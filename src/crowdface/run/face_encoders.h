@@ -39,6 +39,7 @@ struct FinishedFace {
   std::vector<Displacements> moves;  ///< in each shape; none where nothing shows shapes
   std::vector<Index> crossing;       ///< see FaceShapes::of_face
   std::vector<WornAttachment> worn;
+  ColourRows colours;  ///< #V; no rows: it has none at vertices
   /// Its own pictures in their files' bytes; none if no file has them.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
   std::optional<FacePictures> pictures;  ///< none: it is not shown
@@ -50,6 +51,7 @@ struct FinishedFace {
   std::vector<std::string> image_names;
   struct Reduced {
     Positions positions, normals;
+    ColourRows colours;
     std::vector<Displacements> moves;
     std::vector<WornAttachment> worn;
   };

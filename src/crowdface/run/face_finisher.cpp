@@ -35,6 +35,7 @@ std::optional<OwnCoat> FaceFinisher::paint(const Recipe& recipe, OwnTextures::En
 void FaceFinisher::finish(FinishedFace& face, StageBusy& busy) const {
   const Recipe& recipe = face.face.recipe;
   const std::optional<OwnCoat> coat = paint(recipe, *face.textures, busy);
+  face.colours = textures.vertex_colours(recipe);
   const bool with_shapes = (encoders != nullptr && encoders->holds_shapes()) ||
                            (renders != nullptr && renders->show_shapes());
   // As meshes hold them: so `sheet` finds the same shapes, attachments and pictures.
@@ -53,7 +54,7 @@ void FaceFinisher::finish(FinishedFace& face, StageBusy& busy) const {
   if (renders != nullptr) {
     const Busy timer(busy.render);
     face.pictures = renders->draw(face.face.id, recipe.target, single, face.moves,
-                                  coat ? &*coat : nullptr, face.worn);
+                                  coat ? &*coat : nullptr, face.worn, face.colours);
   }
   if (encoders != nullptr) {
     const Busy timer(busy.encode);

@@ -34,6 +34,7 @@ Digest digest_of_common(const Job& job) {
   if (!inputs.levels.empty()) hasher.add(kLevelsVersion);
   if (has_own_textures(inputs)) hasher.add(kTextureVersion);
   hasher.add(inputs.textures.digest);
+  if (!inputs.colours.empty()) hasher.add(inputs.colours_digest);
   for (const HeadTextures& maps : inputs.maps) {
     hasher.add(static_cast<int>(maps.names.front().kind)).add(maps.digest);
   }

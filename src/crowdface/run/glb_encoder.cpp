@@ -170,7 +170,7 @@ MeshEncoders glb_encoders(const MeshSource& source) {
         [](const Form& form, const FaceMesh& face) {
           return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves, face.images,
                                   *face.points, form.parts.placed<PlacedGlbPart>(face.worn),
-                                  *face.joints);
+                                  *face.joints, *face.colours);
         }));
   }
   return encoders;

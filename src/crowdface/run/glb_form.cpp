@@ -115,7 +115,7 @@ void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
     const auto paint = surfaces.paints.empty() ? std::nullopt : surfaces.paints[f];
     GlbMaterial made = glb_material(inputs.materials.names[material], kind, paint);
     made.overlay = options.overlay && kind == SurfaceKind::kEye && !paint && picture == kNoIndex;
-    if (picture != kNoIndex) made.colour = {1, 1, 1, made.colour[3]};
+    if (picture != kNoIndex || options.colours) made.colour = {1, 1, 1, made.colour[3]};
     made.image = image(picture);
     made.normal_image = image(at(normals, f));
     made.roughness_image = image(at(roughness, f));
@@ -147,7 +147,8 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
                                                                             : "image/png");
   }
   const Surfaces surfaces = surfaces_of(config, inputs);
-  options.overlay = painted_eyes(config, inputs, surfaces);
+  options.colours = !inputs.colours.empty();
+  if (!options.colours) options.overlay = painted_eyes(config, inputs, surfaces);
   add_materials(inputs, held, surfaces, options);
   return options;
 }

@@ -101,12 +101,13 @@ std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
 MeshEncoders ply_encoders(const MeshSource& source) {
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
-    encoders.push_back(encoder_by(
-        std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
-        [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
-          const bool with_normals = has_normals(inputs, face.target);
-          return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows, face.what);
-        }));
+    encoders.push_back(
+        encoder_by(std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
+                   [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
+                     const bool with_normals = has_normals(inputs, face.target);
+                     return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows,
+                                       face.what, *face.colours);
+                   }));
   }
   return encoders;
 }

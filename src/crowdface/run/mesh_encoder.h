@@ -23,6 +23,7 @@
 namespace crowdface {
 
 inline const Positions kNoRows;
+inline const ColourRows kNoColours;
 
 /// A face, at rest or in a shape, whole or on a level of detail, with all that a file may have of the face.
 struct FaceMesh {
@@ -33,6 +34,7 @@ struct FaceMesh {
   const Positions* normals = &kNoRows;        ///< #V by 3; none where no encoder needs them
   std::span<const Displacements> moves = {};  ///< #shapes, or none
   std::span<const WornAttachment> worn = {};  ///< what the face wears
+  const ColourRows* colours = &kNoColours;    ///< #V; no rows: it has none at vertices
   const Positions* points = &kNoRows;         ///< that follow the face; none on levels of detail
   const Positions* joints = &kNoRows;         ///< of the rig
   std::span<const std::string_view> images = {};  ///< files of the face's own pictures, or none …

@@ -74,14 +74,14 @@ MeshEncoder whole_encoder(const MeshSource& source) {
   std::vector<std::optional<ObjTemplate>> made(targets.size());
   parallel_for_each(targets.size(), [&](std::size_t t) {
     made[t].emplace(source.inputs.files[static_cast<std::size_t>(targets[t])],
-                    source.inputs.faces.topology);
+                    source.inputs.faces.topology, !source.inputs.colours.empty());
   });
   const auto forms = std::make_shared<std::map<Index, ObjTemplate>>();
   for (std::size_t t = 0; t < targets.size(); ++t) forms->emplace(targets[t], std::move(*made[t]));
   const auto [memory, encode] = sizes_of(
       *forms, [](const auto& each) -> auto& { return each.second; });
   return {[forms](const FaceMesh& face) {
-            return forms->at(face.target).encode(*face.positions, face.what);
+            return forms->at(face.target).encode(*face.positions, face.what, *face.colours);
           },
           memory, encode};
 }

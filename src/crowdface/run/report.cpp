@@ -232,11 +232,9 @@ Json read_report_summary(const std::filesystem::path& file) {
 
 std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
   std::vector<std::pair<std::string, Digest>> digests = {
-      {"textures", inputs.textures.digest},
-      {"shapes", inputs.shapes_digest},
-      {"points", inputs.points_digest},
-      {"rig", inputs.rig.digest},
-      {"attachments", inputs.attachments.digest}};
+      {"textures", inputs.textures.digest}, {"colours at vertices", inputs.colours_digest},
+      {"shapes", inputs.shapes_digest},     {"points", inputs.points_digest},
+      {"rig", inputs.rig.digest},           {"attachments", inputs.attachments.digest}};
   for (const HeadTextures& maps : inputs.maps) {
     const TextureKind kind = maps.names.front().kind;
     digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);

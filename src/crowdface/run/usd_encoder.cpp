@@ -106,7 +106,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
         [](const Form& form, const FaceMesh& face) {
           return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves,
                                   face.image_names, *face.points,
-                                  form.parts.placed<PlacedUsdaPart>(face.worn));
+                                  form.parts.placed<PlacedUsdaPart>(face.worn), *face.colours);
         }));
   }
   return encoders;

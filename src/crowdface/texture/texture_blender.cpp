@@ -36,6 +36,16 @@ HeadWeights mean_of(const HeadWeights& a, const HeadWeights& b) {
   return mean;
 }
 
+/// W: half the target's, half the mean of the regions'.
+HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWeights>& regions,
+                             const std::vector<double>& region_shares) {
+  HeadWeights mean(target.size(), 0.0);
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    for (std::size_t h = 0; h < mean.size(); ++h) mean[h] += region_shares[k] * regions[k][h];
+  }
+  return mean_of(target, mean);
+}
+
 /// Gives the weight of heads that have no map here to those that have one: of the first of these weights
 /// that leaves any, in proportion; else all of them have the same.
 HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
@@ -66,11 +76,7 @@ FaceWeights face_weights(const Recipe& recipe,
                          const std::vector<double>& region_shares) {
   const HeadWeights target = shares_by_head(recipe, maps.size());
   const std::vector<HeadWeights> regions = colour_weights(recipe, maps.size());
-  HeadWeights mean(maps.size(), 0.0);
-  for (std::size_t k = 0; k < regions.size(); ++k) {
-    for (std::size_t h = 0; h < mean.size(); ++h) mean[h] += region_shares[k] * regions[k][h];
-  }
-  const HeadWeights face = mean_of(target, mean);
+  const HeadWeights face = weights_of_whole(target, regions, region_shares);
   FaceWeights weights{among_painted({&target, &face}, maps), among_painted({&face}, maps), {}};
   for (const HeadWeights& region : regions) {
     const HeadWeights mixed = mean_of(face, region);
@@ -143,6 +149,26 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   return weights;
 }
 
+std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas) {
+  std::vector<double> shares(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
+  double total = 0;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    total += areas[v];
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      shares[k] += areas[v] * regions.alpha(static_cast<Index>(v), static_cast<Index>(k));
+    }
+  }
+  require(total > 0, "a face of no area");
+  for (double& share : shares) share /= total;
+  return shares;
+}
+
+FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
+                                      const std::vector<double>& region_shares) {
+  const HeadWeights target = shares_by_head(recipe, heads);
+  return {weights_of_whole(target, colour_weights(recipe, heads), region_shares), target};
+}
+
 TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
                                const ChebyshevFilter& filter, const RegionWeights& regions,
                                const CrowdTextures& textures, TextureBlending options,
@@ -164,17 +190,7 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
   statistics_ =
       find([&] { return surface_statistics(filter, texels_, textures.maps, options_.scale); });
 
-  region_shares_.assign(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
-  double total = 0;
-  for (std::size_t v = 0; v < vertices; ++v) {
-    total += options_.areas[v];
-    for (std::size_t k = 0; k < region_shares_.size(); ++k) {
-      region_shares_[k] +=
-          options_.areas[v] * regions.alpha(static_cast<Index>(v), static_cast<Index>(k));
-    }
-  }
-  require(total > 0, "a face of no area");
-  for (double& share : region_shares_) share /= total;
+  region_shares_ = region_shares(regions, options_.areas);
 }
 
 PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) const {

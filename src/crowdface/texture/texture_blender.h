@@ -61,6 +61,16 @@ class TextureBlender {
   std::vector<double> region_shares_;  ///< #regions, how much of the face each covers
 };
 
+/// How much of the face each region covers. \param areas  #V, of the face
+std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas);
+
+/// What each head lends of its colours to a face as a whole (W above), and to eyes and teeth.
+struct FaceColourWeights {
+  std::vector<double> whole, of_target;  ///< #heads, each summing to one
+};
+FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
+                                      const std::vector<double>& region_shares);
+
 /// What each head lends of its colours in each region, as the recipe's weights are: those of its sources,
 /// and where these do not sum to one (Normalization::kPrinted) the target has the rest; or in each the recipe's colours,
 /// if it has some of its own.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/obj_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::string_view kPolypaint = "#MRGB";
+constexpr double kMostByte = 255;
+
+bool is_vertex(std::string_view line) {
+  const std::size_t at = line.find_first_not_of(" \t");
+  return at != line.npos && line[at] == 'v' && at + 1 < line.size() && is_blank(line[at + 1]);
+}
+
+}  // namespace
+
+ColourRows byte_colours(const Positions& shares) {
+  return (kMostByte * shares.array()).round().matrix().cast<std::uint8_t>();
+}
+
+Positions colour_shares(const ColourRows& colours) {
+  return colours.cast<double>() / kMostByte;
+}
+
+ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
+  constexpr std::size_t kFirst = 4, kFewestWords = 7;  // "v", x y z, r g b
+  std::vector<std::array<double, 3>> found;
+  double most = 1;
+  for (const std::string_view line : split_lines(text)) {
+    if (!is_vertex(line)) continue;
+    const std::vector<std::string> words = words_of(line);
+    if (words.size() < kFewestWords) return ColourRows(0, 3);
+    if (found.empty()) found.reserve(static_cast<std::size_t>(vertices));
+    std::array<double, 3>& colour = found.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto number = parse_double(words[kFirst + c]);
+      if (!number || !std::isfinite(*number)) return ColourRows(0, 3);
+      colour[c] = *number;
+      most = std::max(most, *number);
+    }
+  }
+  if (static_cast<Eigen::Index>(found.size()) != vertices) return ColourRows(0, 3);
+  ColourRows colours(vertices, 3);
+  const double scale = most > 1 ? 1 : kMostByte;
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const double value = scale * found[static_cast<std::size_t>(v)][static_cast<std::size_t>(c)];
+      colours(v, c) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, kMostByte)));
+    }
+  }
+  return colours;
+}
+
+std::string with_colours(std::string_view text, const ColourRows& colours) {
+  constexpr std::size_t kPlaces = 4;
+  constexpr int kDigits = 4;
+  std::string out;
+  out.reserve(text.size() + 24 * static_cast<std::size_t>(colours.rows()));
+  Eigen::Index vertex = 0;
+  for (const std::string_view line : split_lines(text)) {
+    if (line.starts_with(kPolypaint)) continue;
+    if (!is_vertex(line) || vertex >= colours.rows()) {
+      out += concat(line, '\n');
+      continue;
+    }
+    const std::vector<std::string> words = words_of(line);
+    for (std::size_t w = 0; w < std::min(kPlaces, words.size()); ++w) {
+      out += concat(w == 0 ? "" : " ", words[w]);
+    }
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      out += concat(' ', format_fixed(colours(vertex, c) / kMostByte, kDigits));
+    }
+    out += '\n';
+    ++vertex;
+  }
+  return out;
+}
+
+std::optional<std::string> polypaint_at_vertices(std::string_view text) {
+  constexpr std::size_t kDigitsEach = 8;  // MMRRGGBB: a mask, then the colour
+  if (text.find(kPolypaint) == text.npos) return std::nullopt;
+  std::vector<std::uint8_t> bytes;
+  std::size_t vertices = 0;
+  for (const std::string_view line : split_lines(text)) {
+    vertices += is_vertex(line) ? 1U : 0U;
+    if (!line.starts_with(kPolypaint)) continue;
+    const std::vector<std::string> words = words_of(line.substr(kPolypaint.size()));
+    for (const std::string& word : words) {
+      for (std::size_t at = 0; at + kDigitsEach <= word.size(); at += kDigitsEach) {
+        std::uint32_t number = 0;
+        const char* const begin = word.data() + at;
+        const auto [end, error] = std::from_chars(begin, begin + kDigitsEach, number, 16);
+        if (error != std::errc() || end != begin + kDigitsEach) return std::nullopt;
+        for (const int shift : {16, 8, 0})
+          bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+      }
+    }
+  }
+  if (vertices == 0 || bytes.size() != 3 * vertices) return std::nullopt;
+  return with_colours(
+      text, Eigen::Map<const ColourRows>(bytes.data(), static_cast<Eigen::Index>(vertices), 3));
+}
+
+}  // namespace crowdface

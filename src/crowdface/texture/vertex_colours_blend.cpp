@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/texture/vertex_colours_blend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/texture/optical_density.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kColouredPerBlock = 4096;
+
+/// The weights of the heads that have colours, summing to one; if none has any weight, all have the same.
+std::vector<double> among_coloured(std::vector<double> weights,
+                                   const std::vector<ColourRows>& heads) {
+  double sum = 0, count = 0;
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    if (heads[h].rows() == 0) weights[h] = 0;
+    sum += weights[h];
+    count += heads[h].rows() > 0 ? 1 : 0;
+  }
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    if (heads[h].rows() > 0) weights[h] = sum > 0 ? weights[h] / sum : 1 / count;
+  }
+  return weights;
+}
+
+}  // namespace
+
+ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
+                                const FaceColourWeights& weights,
+                                const std::vector<bool>& of_target) {
+  const std::vector<double> whole = among_coloured(weights.whole, heads),
+                            target = among_coloured(weights.of_target, heads);
+  const auto first = std::ranges::find_if(heads, [](const auto& rows) { return rows.rows() > 0; });
+  ColourRows blended(first->rows(), 3);
+  const std::vector<Density>& densities = densities_of_srgb8();
+  const std::vector<std::uint8_t>& bytes = srgb8_of_densities();
+  parallel_blocks(blended.rows(), kColouredPerBlock, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      const bool is_part = !of_target.empty() && of_target[static_cast<std::size_t>(v)];
+      const std::vector<double>& lent = is_part ? target : whole;
+      for (Index c = 0; c < 3; ++c) {
+        double density = 0;
+        for (std::size_t h = 0; h < heads.size(); ++h) {
+          if (lent[h] > 0) density += lent[h] * densities[heads[h](v, c)];
+        }
+        const long nearest = std::lround(density);
+        blended(v, c) =
+            bytes[static_cast<std::size_t>(std::min(nearest, static_cast<long>(bytes.size()) - 1))];
+      }
+    }
+  });
+  return blended;
+}
+
+}  // namespace crowdface
