@@ -9,7 +9,7 @@ namespace crowdface {
 inline constexpr int kBlendVersion =
     7;  ///< positions of a face's skin; in `settings` of every recipe
 inline constexpr int kPartsVersion =
-    4;  ///< where parts come to lie; in `settings` of heads with parts
+    5;  ///< where parts come to lie; in `settings` of heads with parts
 inline constexpr int kMirrorVersion =
     1;  ///< the other side of each vertex; in `settings` where faces may be mirrored
 /// Entries of the cache, and so the faces made of them.

@@ -118,16 +118,26 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
 
 RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
                            const Positions& after) const {
+  return steps(target, motion, motion, Size::kFree, after);
+}
+
+RigidMotion EyeSocket::fit_of_size(std::size_t target, const RigidMotion& motion,
+                                   const RigidMotion& fitted, const Positions& after) const {
+  return steps(target, motion, fitted, Size::kKept, after);
+}
+
+RigidMotion EyeSocket::steps(std::size_t target, const RigidMotion& motion, RigidMotion fitted,
+                             Size size, const Positions& after) const {
   constexpr int kSteps = 4;
-  if (lids_.rim.empty()) return motion;
+  if (lids_.rim.empty()) return fitted;
   std::vector<Lid> lids;
   lids.reserve(lids_.vertices.size());
   for (std::uint32_t i = 0; i < lids_.vertices.size(); ++i) {
     lids.push_back({after.row(lids_.vertices[i]).transpose(), i});
   }
-  RigidMotion fitted = motion;
   for (int k = 0; k < kSteps; ++k) {
-    const RigidMotion next = step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, lids);
+    const RigidMotion next =
+        step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, size, lids);
     const double change = (next.to - fitted.to).norm();
     fitted = next;
     if (change < kDoneShift * maps_[target].radius()) break;
@@ -136,7 +146,7 @@ RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
 }
 
 RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                            double far, std::vector<Lid>& lids) const {
+                            double far, Size size, std::vector<Lid>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
   // A gap is measured along the surface's normal: it is a little less than the distance beyond.
@@ -163,7 +173,9 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
     // A shift by x changes the gap by −x · normal.
     SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
-    a[kBallSize] = -normal.dot(lid.point - gap.gap * normal - centre) / radius;
+    if (size == Size::kFree) {
+      a[kBallSize] = -normal.dot(lid.point - gap.gap * normal - centre) / radius;
+    }
     if (r != kNoIndex) {
       const double missing = gaps_[target][r] - gap.gap;
       program.want(a, missing, 1 / rim);
@@ -193,13 +205,16 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   for (std::size_t i = 0; i < 3; ++i) {
     program.want(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
-  program.want(kBallSize, -grown, kHoldBallSize);
-  program.demand_between(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
+  program.want(kBallSize, size == Size::kFree ? -grown : 0, kHoldBallSize);
+  if (size == Size::kFree) {
+    program.demand_between(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
+  }
   program.add_slack(kMeanGapSlack, kMeanGapPrice * radius);
   program.add_slack(kNewLidSlack, kNewLidPrice * radius);
   program.add_slack(kDeepLidSlack, kDeepLidPrice * radius);
   const SmallProgram::Vector x = program.solve(1e-5 * radius);
-  return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0}, x[kBallSize] / radius);
+  return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0},
+                size == Size::kFree ? x[kBallSize] / radius : 0);
 }
 
 }  // namespace crowdface

@@ -43,15 +43,22 @@ class EyeSocket {
   /// enters it in none.
   /// \param motion  of the skin around the eye
   RigidMotion fit(std::size_t target, const RigidMotion& motion, const Positions& after) const;
+  /// The same by a shift alone. \param fitted  as `fit` gives it, of the size that the eyeball is to have
+  RigidMotion fit_of_size(std::size_t target, const RigidMotion& motion, const RigidMotion& fitted,
+                          const Positions& after) const;
+  Eigen::Vector3d centre(std::size_t target) const { return maps_[target].centre(); }
 
  private:
+  enum class Size { kFree, kKept };
   struct Lid {
     Eigen::Vector3d point;
     std::uint32_t number;
   };
   /// \param far  lids farther off than this share of the radius are taken out
   RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                   double far, std::vector<Lid>& lids) const;
+                   double far, Size size, std::vector<Lid>& lids) const;
+  RigidMotion steps(std::size_t target, const RigidMotion& start, RigidMotion fitted, Size size,
+                    const Positions& after) const;
 
   Lids lids_;
   std::vector<BallMap> maps_;              ///< #heads

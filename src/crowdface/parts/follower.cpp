@@ -122,8 +122,16 @@ struct PartFollower::State {
   std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads, of the bound vertices
   Ties ties;                                         ///< of bound vertices to teeth
 
-  /// \return how the part moved
-  RigidMotion follow_rigid(const RigidPart& part, std::size_t target, Positions& result) const;
+  /// How the skin around a part moved, and how the part goes along.
+  struct Found {
+    bool still = true;  ///< no skin around the part moved
+    RigidMotion skin, part;
+  };
+  Found find_motion(const RigidPart& part, std::size_t target, const Positions& result) const;
+  /// Gives all eyeballs of the head the same change of size.
+  void even_sizes(std::size_t target, const Positions& result, std::vector<Found>& found) const;
+  void place(const RigidPart& part, std::size_t target, const Found& found,
+             Positions& result) const;
 };
 
 PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
@@ -173,45 +181,74 @@ PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const He
 
 PartFollower::~PartFollower() = default;
 
-RigidMotion PartFollower::State::follow_rigid(const RigidPart& part, std::size_t target,
-                                              Positions& result) const {
+PartFollower::State::Found PartFollower::State::find_motion(const RigidPart& part,
+                                                            std::size_t target,
+                                                            const Positions& result) const {
   const Positions& before = faces.heads[target].positions;
-  const bool still = unmoved(before, result, part.socket.vertices) &&
-                     unmoved(before, result, part.eye.lids().vertices);
-  if (still && shape == PartShape::kTarget) {
-    for (const std::uint32_t v : part.vertices) result.row(v) = before.row(v);
-    return {};
+  Found found;
+  found.still = unmoved(before, result, part.socket.vertices) &&
+                unmoved(before, result, part.eye.lids().vertices);
+  if (found.still || part.socket.vertices.size() < 3) return found;
+  found.skin = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
+  found.part = part.eyeball
+                   ? part.eye.fit(target, found.skin, result)
+                   : part.contact.clear(before, found.skin, result, kContactMargin * extent);
+  return found;
+}
+
+void PartFollower::State::even_sizes(std::size_t target, const Positions& result,
+                                     std::vector<Found>& found) const {
+  double sum = 0, count = 0;
+  for (std::size_t p = 0; p < rigid.size(); ++p) {
+    if (!rigid[p].eyeball) continue;
+    if (found[p].still) return;  // it keeps its bits
+    sum += found[p].part.scale;
+    count += 1;
   }
-  RigidMotion motion;
-  if (!still && part.socket.vertices.size() >= 3) {
-    motion = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
-    motion = part.eyeball ? part.eye.fit(target, motion, result)
-                          : part.contact.clear(before, motion, result, kContactMargin * extent);
-  }
+  if (count < 2) return;
+  parallel_for_each(rigid.size(), [&](std::size_t p) {
+    if (!rigid[p].eyeball) return;
+    const Eigen::Vector3d centre = found[p].part.apply(rigid[p].eye.centre(target));
+    const double growth = sum / count / found[p].part.scale - 1;
+    found[p].part = rigid[p].eye.fit_of_size(
+        target, found[p].skin, nudged(found[p].part, centre, {0, 0, 0}, {0, 0, 0}, growth), result);
+  });
+}
+
+void PartFollower::State::place(const RigidPart& part, std::size_t target, const Found& found,
+                                Positions& result) const {
+  const Positions& before = faces.heads[target].positions;
   if (shape == PartShape::kTarget) {
     for (const std::uint32_t v : part.vertices) {
-      result.row(v) = motion.apply(before.row(v).transpose()).transpose();
+      if (found.still) {
+        result.row(v) = before.row(v);
+      } else {
+        result.row(v) = found.part.apply(before.row(v).transpose()).transpose();
+      }
     }
-    return motion;
+    return;
   }
   // The blended shape, brought to where the target's is.
   const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.ones);
   for (const std::uint32_t v : part.vertices) {
-    result.row(v) = motion.apply(home.apply(result.row(v).transpose())).transpose();
+    result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();
   }
-  return motion;
 }
 
 void PartFollower::follow(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
   const Positions& before = state_->faces.heads[t].positions;
   // Each looks at skin alone, and moves vertices of its own.
-  std::vector<RigidMotion> of_rigid(state_->rigid.size()), motions;
-  parallel_for_each(of_rigid.size(), [&](std::size_t p) {
-    of_rigid[p] = state_->follow_rigid(state_->rigid[p], t, result);
+  std::vector<State::Found> found(state_->rigid.size());
+  std::vector<RigidMotion> motions;
+  parallel_for_each(found.size(), [&](std::size_t p) {
+    found[p] = state_->find_motion(state_->rigid[p], t, result);
   });
-  for (std::size_t p = 0; p < of_rigid.size(); ++p) {
-    if (!state_->rigid[p].eyeball) motions.push_back(of_rigid[p]);
+  state_->even_sizes(t, result, found);
+  parallel_for_each(found.size(),
+                    [&](std::size_t p) { state_->place(state_->rigid[p], t, found[p], result); });
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    if (!state_->rigid[p].eyeball) motions.push_back(found[p].part);
   }
   state_->anchors.put(before, state_->places[t], result);
   state_->ties.pull(before, motions, result);
