@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever a change of the code gives other heads: finished ones are then made anew.
-constexpr int kWrapVersion = 5;
+constexpr int kWrapVersion = 6;
 
 Axis axis_of(const std::string& option, const std::string& text) {
   const auto axis = parse_axis(text);

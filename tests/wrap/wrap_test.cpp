@@ -95,6 +95,23 @@ TEST(Wrap, ATemplateThatIsTheScanStaysWhereItIs) {
   EXPECT_LT(moved.maxCoeff(), 0.5);
 }
 
+// Moved by a tenth of a micrometre a scan gave another head, by millimetres where it shows nothing.
+TEST(Wrap, DoesNotHangOnWhereTheScanStands) {
+  const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
+  const TruthScan truth =
+      make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 20000, .seed = 3});
+  const WrapResult there = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+  for (const double by : {1e-4, 5000.0}) {
+    Scan scan = truth.scan;
+    scan.positions.col(0).array() += by;
+    std::vector<WrapLandmark> landmarks = truth.landmarks;
+    for (WrapLandmark& landmark : landmarks) landmark.place.x() += by;
+    const WrapResult moved = wrap(shape, nullptr, scan, landmarks, std::nullopt);
+    EXPECT_LT((moved.positions - there.positions).rowwise().norm().maxCoeff(), 0.05) << by;
+    EXPECT_NEAR(moved.pose.translation.x() - there.pose.translation.x(), by, 1e-4);
+  }
+}
+
 TEST(Wrap, AModelFindsAHeadBetterThanItsMean) {
   const SyntheticHeads heads(5000, SyntheticHeads::Parts::kEyesAndTeeth);
   std::vector<Positions> others;

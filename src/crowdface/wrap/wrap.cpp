@@ -13,6 +13,7 @@
 #include "crowdface/parts/find_mirror.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/wrap/bend_skin.h"
+#include "crowdface/wrap/centred_scan.h"
 #include "crowdface/wrap/detail.h"
 #include "crowdface/wrap/mirrored_landmarks.h"
 #include "crowdface/wrap/shape_regression.h"
@@ -146,9 +147,9 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
   return of_skin;
 }
 
-WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
-                const std::vector<WrapLandmark>& all_landmarks,
-                const std::optional<PoseHint>& hint) {
+static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
+                               const std::vector<WrapLandmark>& all_landmarks,
+                               const std::optional<PoseHint>& hint) {
   const SkinMesh& skin = shape.skin;
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
   std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
@@ -208,6 +209,14 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   }
   const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
   PartFollower(faces, shape.parts, shape.axes).follow(0, result.positions);
+  return result;
+}
+
+WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
+                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
+  const CentredScan moved = centred(scan, landmarks);
+  WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, hint);
+  result.pose.translation += moved.middle;
   return result;
 }
 
