@@ -47,6 +47,28 @@ TEST(PartFollower, CarriesPartsWithTheWholeHead) {
   }
 }
 
+// Each eyeball took the size that fitted its own lids, and a face squinted with eyes of two sizes.
+TEST(PartFollower, ChangesTheSizeOfBothEyeballsAlike) {
+  const TwoHeads scene;
+  const Positions& head = scene.faces.heads[0].positions;
+  Positions result = head;
+  for (Index v = 0; v < result.rows(); ++v) result.row(v) *= head(v, 0) > 0 ? 1.06 : 1.01;
+  scene.follower().follow(0, result);
+  std::vector<double> growth;
+  for (const Part& part : scene.parts.parts) {
+    if (!part.eyeball) continue;
+    const auto extent = [&](const Positions& positions) {
+      const Positions rows = positions(part.vertices, Eigen::all);
+      return (rows.rowwise() - rows.colwise().mean()).norm();
+    };
+    growth.push_back(extent(result) / extent(head));
+  }
+  ASSERT_EQ(growth.size(), 2U);
+  EXPECT_NEAR(growth[0], growth[1], 1e-9);
+  EXPECT_GT(growth[0], 1.005);
+  EXPECT_LT(growth[0], 1.055);
+}
+
 TEST(PartFollower, KeepsTheTargetsPartsToTheBitWhereNothingMoved) {
   const TwoHeads scene;
   const Positions& head = scene.faces.heads[1].positions;

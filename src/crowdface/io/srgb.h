@@ -12,6 +12,7 @@ namespace crowdface {
 /// Between light and what files of 8 bits hold of it (IEC 61966-2-1), both from 0 to 1.
 inline double srgb_of_linear(double light) {
   light = std::clamp(light, 0.0, 1.0);
+  if (light == 1) return 1;  // not the last digit less
   return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 inline double linear_of_srgb(double value) {
