@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "crowdface/wrap/scan.h"
-#include "crowdface/wrap/wrap.h"
+#include "crowdface/wrap/shape_fit.h"
 
 namespace crowdface {
 
