@@ -48,14 +48,14 @@ std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const Fa
   return reach;
 }
 
-/// The template with each vertex where it is lowest of all shapes: open jaws reach beyond a mask.
-Positions lowest_in_shapes(const ShapeSet& set, const Eigen::Vector3d& up) {
-  Positions lowest = set.neutral;
+/// How far each vertex is moved where it is lowest of all shapes: open jaws reach beyond a mask.
+Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
+  Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {
-    Positions moved = set.neutral;
-    shape.moves.add_to(moved);
-    for (Index v = 0; v < moved.rows(); ++v) {
-      if (moved.row(v).dot(up) < lowest.row(v).dot(up)) lowest.row(v) = moved.row(v);
+    Positions moves = Positions::Zero(set.neutral.rows(), 3);
+    shape.moves.add_to(moves);
+    for (Index v = 0; v < moves.rows(); ++v) {
+      if (moves.row(v).dot(up) < lowest.row(v).dot(up)) lowest.row(v) = moves.row(v);
     }
   }
   return lowest;
@@ -72,11 +72,12 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
                                  const Inputs& inputs) {
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
-  Positions reach;
-  if (sheet.shapes > 0) {
-    reach = lowest_in_shapes(inputs.shapes, unit_vector(config.faces.up));
-    if (reach.rows() > 0) heads.push_back(&reach);
+  std::vector<Positions> acting;
+  if (sheet.shapes > 0 && !inputs.shapes.shapes.empty()) {
+    const Positions moves = lowest_moves(inputs.shapes, unit_vector(config.faces.up));
+    for (const Head& head : inputs.faces.heads) acting.emplace_back(head.positions + moves);
   }
+  for (const Positions& head : acting) heads.push_back(&head);
   return fit_cameras(
       heads, {config.faces.up, config.faces.front}, sheet.views,
       {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
