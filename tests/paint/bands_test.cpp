@@ -32,7 +32,7 @@ TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
   const HeadShape head = shape_of_mean(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
-  const auto alpha = propose_bands(faces.topology, head, {}, *marks, kThree);
+  const auto alpha = propose_bands(faces.topology, head, *marks, kThree);
   Image image{512, 512, 3, -1, synthetic_region_mask(512)};
   const auto theirs =
       region_weights(faces.topology, faces.uvs, {MaskSource("mask", image)}, 3).alpha;
@@ -44,7 +44,7 @@ TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
   const HeadShape head = shape_of_mean(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
-  const auto alpha = propose_bands(faces.topology, head, {}, *marks, kFive);
+  const auto alpha = propose_bands(faces.topology, head, *marks, kFive);
   EXPECT_LT((alpha.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
   EXPECT_GE(alpha.minCoeff(), 0);
   for (Index v = 0; v < alpha.rows(); ++v) {
@@ -79,7 +79,7 @@ TEST(Bands, AHeadWithoutEarsOrNeckHasNoSuchBands) {
   for (const auto& [band, phrase] : {std::pair{Band::kEars, "ears"}, {Band::kNeck, "neck"}}) {
     const std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth, band};
     expect_error(ExitCode::kBadData, {phrase},
-                 [&] { propose_bands(faces.topology, head, {}, *marks, bands); });
+                 [&] { propose_bands(faces.topology, head, *marks, bands); });
   }
 }
 

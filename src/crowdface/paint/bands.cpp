@@ -38,7 +38,8 @@ struct EarBox {
 /// What stands out at the sides of the skin between mouth and brows.
 /// \return nothing if nothing does.
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
-                                const HeadAxes& axes, const FaceMarks& marks) {
+                                const FaceMarks& marks) {
+  const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
   const std::vector<bool>& skin = head.skin;
   const double face = marks.face(), low = marks.mouth - kBelow * face;
@@ -140,8 +141,8 @@ RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, do
 }
 
 RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& head,
-                                   const HeadAxes& axes, const FaceMarks& marks,
-                                   const std::vector<Band>& bands) {
+                                   const FaceMarks& marks, const std::vector<Band>& bands) {
+  const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
   const auto column = [&](Band band) {
     return static_cast<Index>(std::ranges::find(bands, band) - bands.begin());
@@ -149,7 +150,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   const auto count = static_cast<Index>(bands.size());
   const Index ear = column(Band::kEars), neck = column(Band::kNeck);
   const bool with_ears = ear < count || neck < count;
-  const auto found = with_ears ? find_ears(topology, head, axes, marks) : std::nullopt;
+  const auto found = with_ears ? find_ears(topology, head, marks) : std::nullopt;
   if (ear < count && !found) throw InvalidInput("no ears stand out at the sides of the head");
   const EarBox ears = found.value_or(EarBox());
   const Eigen::Vector3d side = axes.side();

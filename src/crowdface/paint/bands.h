@@ -35,13 +35,12 @@ inline constexpr std::array<std::pair<std::string_view, Band>, 5> kBandNames = {
 RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
 
 /// Soft bands of a head, from its own shape.
-/// \param marks  found in that head, with these axes.
+/// \param marks  found in that head
 /// \param bands  kBrow, kNose and kMouth, and which others.
 /// \return #V by #bands, not negative; rows sum to one.
 /// \throws InvalidInput if ears are asked for and nothing stands out at the sides of the head, or a
 ///         neck and nothing lies below the chin.
 RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& head,
-                                   const HeadAxes& axes, const FaceMarks& marks,
-                                   const std::vector<Band>& bands);
+                                   const FaceMarks& marks, const std::vector<Band>& bands);
 
 }  // namespace crowdface

@@ -10,6 +10,7 @@
 
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/paint/face_relief.h"
 #include "crowdface/parts/part_list.h"
 
 namespace crowdface {
@@ -142,68 +143,53 @@ class Outline {
   std::vector<double> front_;
 };
 
-// Of the diagonal of the head's box, some 380 mm.
-constexpr double kNoseWay = 0.055, kSlit = 0.03, kLeastNose = 0.01, kMostNose = 0.06,
-                 kThroat = 0.25, kLeastThroat = 0.02, kInFront = 0.3, kLevel = 0.01;
-// Where a nose may be, of the skin's height: a head without neck, and one with shoulders.
-constexpr double kLowestNose = 0.28, kHighestNose = 0.85;
+// Lengths in millimetres of a face of mean size.
+constexpr double kSlitMm = 11;  ///< an open mouth is hollow over less
+constexpr double kBridgeBelowMm = 8,
+                 kBridgeAboveMm = 20;                  ///< where the bridge may be, about the eyes
+constexpr double kTipNearMm = 16, kTipFarMm = 50;      ///< below the eyes
+constexpr double kMouthNearMm = 54, kMouthFarMm = 86;  ///< below the eyes
+constexpr double kBridgeWayMm = 15, kSameMiddleMm = 4, kEyesNearMm = 20;
 // Of people, as parts of the way from a nose's bridge to its tip, some 40 mm.
 constexpr double kLeastMouth = 0.55, kMostMouth = 1.3, kLipWay = 0.12;
 // Of the way from eyes to mouth, some 65 mm.
 constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
 /// Eyes lie below the bridge by this part of the way from there to the mouth.
 constexpr double kEyesBelowBridge = 0.05;
-/// Halves of heads differ by less than 0.07 of the breadth, front and back by more than 0.09.
-constexpr double kMostUneven = 0.09;
 
-double diagonal_of(const Positions& positions, const std::vector<bool>& skin) {
-  Eigen::AlignedBox3d box;
-  for (Index v = 0; v < positions.rows(); ++v) {
-    if (skin[static_cast<std::size_t>(v)]) box.extend(row3(positions, v));
-  }
-  return box.isEmpty() ? 0 : box.sizes().norm();
-}
+constexpr Index kSamples = 150'000;
 
-/// How far a head is from being its own mirror image across `side`: mean difference of the outlines
-/// of its halves, as a part of its breadth.
-double asymmetry(const Positions& positions, const std::vector<bool>& skin, const HeadAxes& axes) {
-  constexpr int kCells = 24;
-  const Eigen::Vector3d side = axes.side();
-  const auto in_frame = [&](Index v) {
-    const Eigen::Vector3d p = row3(positions, v);
-    return Eigen::Vector3d(p.dot(side), p.dot(axes.up), p.dot(axes.front));
-  };
-  Eigen::AlignedBox3d box;
-  for (Index v = 0; v < positions.rows(); ++v) {
-    if (skin[static_cast<std::size_t>(v)]) box.extend(in_frame(v));
+/// The marks of a face where its relief was found.
+FaceMarks marks_of(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
+  FaceMarks marks;
+  marks.axes = match.axes;
+  marks.agreement = match.agreement;
+  const double mm = match.scale, eyes = match.between.dot(match.axes.up);
+  // The middle of the skin is more exact, but hair or a cap may move it.
+  marks.middle = middle_of(topology, head, marks.axes);
+  const double of_relief = match.between.dot(match.axes.side());
+  if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
+  const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle);
+  const Outline closed = outline.without_slits(kSlitMm * mm);
+  marks.bridge = outline.best(eyes - kBridgeBelowMm * mm, eyes + kBridgeAboveMm * mm,
+                              [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
+  marks.tip = closed.best(eyes - kTipFarMm * mm, eyes - kTipNearMm * mm,
+                          [&](double h) { return closed.at(h); });
+  const double nose = marks.bridge - marks.tip;
+  marks.mouth = outline.best(std::max(marks.tip - kMostMouth * nose, eyes - kMouthFarMm * mm),
+                             std::min(marks.tip - kLeastMouth * nose, eyes - kMouthNearMm * mm),
+                             [&](double h) { return outline.hollow(h, kLipWay * nose); });
+  marks.eyes = marks.bridge - kEyesBelowBridge * (marks.bridge - marks.mouth);
+  double of_balls = 0;
+  for (const Eigen::Vector3d& eye : head.eyeballs) {
+    of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
   }
-  struct Reach {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-  };
-  std::vector<Reach> reach(static_cast<std::size_t>(kCells) * kCells);
-  const auto cell = [&](double x, int axis) {
-    const double t = (x - box.min()[axis]) / std::max(box.sizes()[axis], 1e-300);
-    return static_cast<std::size_t>(std::clamp(static_cast<int>(kCells * t), 0, kCells - 1));
-  };
-  for (Index v = 0; v < positions.rows(); ++v) {
-    if (!skin[static_cast<std::size_t>(v)]) continue;
-    const Eigen::Vector3d p = in_frame(v);
-    Reach& at = reach[kCells * cell(p.y(), 1) + cell(p.z(), 2)];
-    at.least = std::min(at.least, p.x());
-    at.most = std::max(at.most, p.x());
-  }
-  // The mirror plane that fits the outlines best goes through the middle of the middles.
-  std::vector<double> middles;
-  for (const Reach& at : reach) {
-    if (at.most >= at.least) middles.push_back((at.least + at.most) / 2);
-  }
-  if (middles.empty()) return 0;
-  const auto half = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
-  std::nth_element(middles.begin(), half, middles.end());
-  const double middle = *half;
-  double sum = 0;
-  for (const double m : middles) sum += std::abs(m - middle);
-  return 2 * sum / (static_cast<double>(middles.size()) * std::max(box.sizes().x(), 1e-300));
+  if (!head.eyeballs.empty() && std::abs(of_balls - eyes) < kEyesNearMm * mm) marks.eyes = of_balls;
+  const double face = marks.face();
+  marks.chin = outline.best(marks.mouth - kMostChin * face, marks.mouth - kLeastChin * face,
+                            [&](double h) { return -outline.hollow(h, kChinWay * face); });
+  marks.chin_front = outline.at(marks.chin);
+  return marks;
 }
 
 }  // namespace
@@ -240,56 +226,10 @@ double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes
 
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes) {
-  const Positions& positions = head.positions;
-  const std::vector<bool>& skin = head.skin;
-  if (asymmetry(positions, skin, axes) > kMostUneven) return std::nullopt;
-  FaceMarks marks;
-  marks.middle = middle_of(topology, head, axes);
-  const Outline outline(topology, positions, skin, axes, marks.middle);
-  if (outline.empty()) return std::nullopt;
-  const double size = diagonal_of(positions, skin), way = kNoseWay * size;
-  const Outline closed = outline.without_slits(kSlit * size);
-  // A nose stands out against what is above and what is below; a chin or a forehead does not.
-  const auto stands_out = [&](double height) {
-    const double front = closed.at(height);
-    const double drop = front - std::max(closed.at(height + way), closed.at(height - way));
-    const bool top = front >= std::max(closed.at(height + way / 2), closed.at(height - way / 2));
-    return top ? drop : 0;
-  };
-  const double tall = closed.high() - closed.low();
-  const double low = closed.low() + kLowestNose * tall, high = closed.low() + kHighestNose * tall;
-  const double near = closed.best(low, high, stands_out);
-  marks.stands_out = stands_out(near) / size;
-  if (marks.stands_out < kLeastNose || marks.stands_out > kMostNose) return std::nullopt;
-  const auto front_at = [&](double height) { return closed.at(height); };
-  marks.tip = closed.best(near - way, near + way, front_at);
-  const double around = kInFront * size;
-  const double foremost = closed.best(marks.tip - around, marks.tip + around, front_at);
-  if (closed.at(foremost) > closed.at(marks.tip) + kLevel * size)
-    return std::nullopt;  // a neck seen from below
-  // The throat lies farther behind the nose than the forehead does.
-  const double far = kThroat * size;
-  if (closed.at(marks.tip + far) - closed.at(marks.tip - far) < kLeastThroat * size) {
-    return std::nullopt;
-  }
-  marks.bridge = outline.best(marks.tip + 0.06 * size, marks.tip + 0.2 * size,
-                              [&](double h) { return outline.hollow(h, 0.04 * size); });
-  const double nose = marks.bridge - marks.tip;
-  marks.mouth = outline.best(marks.tip - kMostMouth * nose, marks.tip - kLeastMouth * nose,
-                             [&](double h) { return outline.hollow(h, kLipWay * nose); });
-  marks.eyes = marks.bridge - kEyesBelowBridge * (marks.bridge - marks.mouth);
-  if (!head.eyeballs.empty()) {
-    marks.eyes = 0;
-    for (const Eigen::Vector3d& eye : head.eyeballs) {
-      marks.eyes += eye.dot(axes.up) / static_cast<double>(head.eyeballs.size());
-    }
-  }
-  const double face = marks.face();
-  if (!(face > 0)) return std::nullopt;
-  marks.chin = outline.best(marks.mouth - kMostChin * face, marks.mouth - kLeastChin * face,
-                            [&](double h) { return -outline.hollow(h, kChinWay * face); });
-  marks.chin_front = outline.at(marks.chin);
-  return marks;
+  const Positions samples = sample_skin(topology, head.positions, head.skin, kSamples);
+  const auto match = match_relief(samples, {axes}, head.eyeballs);
+  if (!match || match->agreement < kLeastAgreement) return std::nullopt;
+  return marks_of(topology, head, *match);
 }
 
 HeadAxes axes_of(const Bearing& bearing) {
@@ -297,26 +237,28 @@ HeadAxes axes_of(const Bearing& bearing) {
 }
 
 std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& head) {
-  std::array<double, 3> uneven{};  // with each axis to the side
-  for (int axis = 0; axis < 3; ++axis) {
-    const Bearing bearing{{(axis + 1) % 3, 1}, {(axis + 2) % 3, 1}};
-    uneven[static_cast<std::size_t>(axis)] = asymmetry(head.positions, head.skin, axes_of(bearing));
-  }
-  const auto side = static_cast<int>(std::ranges::min_element(uneven) - uneven.begin());
-  std::optional<Bearing> best;
-  double most = 0;
-  for (const int up : {(side + 1) % 3, (side + 2) % 3}) {
-    for (const int up_sign : {1, -1}) {
-      for (const int front_sign : {1, -1}) {
-        const Bearing bearing{{up, up_sign}, {3 - side - up, front_sign}};
-        const auto marks = find_face_marks(topology, head, axes_of(bearing));
-        if (!marks || marks->stands_out <= most) continue;
-        most = marks->stands_out;
-        best = bearing;
+  std::vector<Bearing> bearings;
+  std::vector<HeadAxes> axes;
+  for (int up = 0; up < 3; ++up) {
+    for (int front = 0; front < 3; ++front) {
+      for (int signs = 0; signs < 4; ++signs) {
+        if (up == front) continue;
+        bearings.push_back({{up, signs % 2 == 0 ? 1 : -1}, {front, signs / 2 == 0 ? 1 : -1}});
+        axes.push_back(axes_of(bearings.back()));
       }
     }
   }
-  return best;
+  const Positions samples = sample_skin(topology, head.positions, head.skin, kSamples);
+  const auto match = match_relief(samples, axes, head.eyeballs);
+  if (!match || match->agreement < kLeastAgreement) return std::nullopt;
+  return bearings[static_cast<std::size_t>(std::ranges::find_if(axes,
+                                                                [&](const HeadAxes& one) {
+                                                                  return one.up ==
+                                                                             match->asked.up &&
+                                                                         one.front ==
+                                                                             match->asked.front;
+                                                                }) -
+                                           axes.begin())];
 }
 
 }  // namespace crowdface

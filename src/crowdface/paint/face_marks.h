@@ -10,16 +10,17 @@
 
 namespace crowdface {
 
-/// Where the features of a face lie: heights along HeadAxes::up, in the unit of the positions.
+/// Where the features of a face lie: heights along axes.up, in the unit of the positions.
 struct FaceMarks {
-  double middle = 0;      ///< between the head's halves, along HeadAxes::side()
+  HeadAxes axes;  ///< how the face stands: the axes it was searched along, or turned if the face is
+  double middle = 0;      ///< between the halves of the face, along axes.side()
   double bridge = 0;      ///< of the nose, where it is deepest, between the eyes
   double tip = 0;         ///< of the nose
   double eyes = 0;        ///< their middles
   double mouth = 0;       ///< between the lips
   double chin = 0;        ///< its lowest point
-  double stands_out = 0;  ///< how far the nose does, as a part of the head's size
-  double chin_front = 0;  ///< how far in front that is, along HeadAxes::front
+  double agreement = 0;   ///< of the face's relief with a mean face, see ReliefMatch
+  double chin_front = 0;  ///< how far in front the chin is, along axes.front
   /// From mouth to eyes, some 65 mm: what other lengths are measured by.
   double face() const { return eyes - mouth; }
 };
@@ -35,9 +36,10 @@ HeadShape shape_of_mean(const FaceSet& faces);
 /// Where the head's halves meet along HeadAxes::side(): the middle of its skin.
 double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
-/// Looks for nose, mouth and chin in the outline that the head's middle plane cuts from its skin, for
-/// any topology.
-/// \return nothing if nothing there stands out as a nose does, over a throat that lies back.
+/// Finds the face by its relief (see match_relief), then nose, mouth and chin in the outline that the face's middle
+/// plane cuts from the skin. Neither depends on how the mesh is cut.
+/// \param axes  how the head stands, within some 35°
+/// \return nothing if no part of the skin has the relief of a face
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes);
 
@@ -48,7 +50,7 @@ struct Bearing {
 };
 HeadAxes axes_of(const Bearing& bearing);
 
-/// Tries all 24 ways a head may stand: halves that mirror each other to the sides, a nose in front.
+/// Tries all 24 ways a head may stand along the axes; the relief of a face agrees best along the right one.
 /// \return nothing if none is a head's.
 std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& head);
 

@@ -56,12 +56,12 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
     const auto other = find_bearing(topology, mean);
     throw InvalidInput(concat("no face is found that looks along ", name_of(bearing.front),
                               " with ", name_of(bearing.up), " up: ",
-                              other
-                                  ? concat("the heads look along ", name_of(other->front), " with ",
-                                           name_of(other->up), " up")
-                                  : "no nose stands out of the mean head; paint the mask by hand"));
+                              other ? concat("the heads look along ", name_of(other->front),
+                                             " with ", name_of(other->up), " up")
+                                    : "no part of the mean head has the relief of a face (nose, "
+                                      "eye sockets, mouth and chin); paint the mask by hand"));
   }
-  return propose_bands(topology, mean, axes_of(bearing), *marks, bands);
+  return propose_bands(topology, mean, *marks, bands);
 }
 
 PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,

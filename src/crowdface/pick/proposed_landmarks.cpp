@@ -167,7 +167,7 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
   Proposals proposals;
   const auto marks = find_face_marks(shape.topology, head_of(shape, mesh.positions()), shape.axes);
   if (!marks) return proposals;
-  const FrontView view(mesh, shape.axes);
+  const FrontView view(mesh, marks->axes);
   propose_middle(view, *marks, proposals);
   for (const Part& part : shape.parts.parts) {
     if (!part.eyeball) continue;
@@ -197,12 +197,12 @@ SkinRegions face_regions(const WrapTemplate& shape) {
   for (const Band more : {Band::kEars, Band::kNeck}) {
     bands.push_back(more);
     try {
-      propose_bands(shape.topology, head, shape.axes, *marks, bands);
+      propose_bands(shape.topology, head, *marks, bands);
     } catch (const InvalidInput&) {
       bands.pop_back();
     }
   }
-  const auto alpha = propose_bands(shape.topology, head, shape.axes, *marks, bands);
+  const auto alpha = propose_bands(shape.topology, head, *marks, bands);
   SkinRegions regions;
   for (const Band band : bands) {
     for (const auto& [name, known] : kBandNames) {
