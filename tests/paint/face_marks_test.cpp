@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/paint/face_marks.h"
 
+#include <array>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/triangles.h"
 
 #include "paint/synth_heads.h"
 #include "support/meshes.h"
@@ -48,6 +57,139 @@ TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {
         EXPECT_FALSE(find_face_marks(faces.topology, head, wrong));
       }
     }
+  }
+}
+
+/// A head whose face is looked for, and what was done to it.
+struct Changed {
+  std::string what;
+  Topology topology;
+  HeadShape head;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+};
+
+/// Vertices of each cell of a grid become one: a fine face, a coarse skull and neck, as in trackers' meshes.
+Changed thinned(const Topology& topology, const HeadShape& head) {
+  std::map<std::array<int, 3>, std::uint32_t> cells;
+  std::vector<std::uint32_t> place;
+  std::vector<Eigen::RowVector3d> sums;
+  std::vector<double> counts;
+  Changed result{"thinned unevenly", {}, {}};
+  for (Index v = 0; v < head.positions.rows(); ++v) {
+    const Eigen::RowVector3d p = head.positions.row(v);
+    const double cell = p.z() > 3 && p.y() > -9 && p.y() < 6 ? 0.5 : 2.0;
+    const std::array<int, 3> key = {static_cast<int>(std::floor(p.x() / cell)) +
+                                        (head.skin[static_cast<std::size_t>(v)] ? 0 : 1000),
+                                    static_cast<int>(std::floor(p.y() / cell)),
+                                    static_cast<int>(std::floor(p.z() / cell))};
+    const auto at = cells.try_emplace(key, static_cast<std::uint32_t>(cells.size())).first->second;
+    place.push_back(at);
+    if (at == sums.size()) {
+      sums.emplace_back(0, 0, 0);
+      counts.push_back(0);
+      result.head.skin.push_back(head.skin[static_cast<std::size_t>(v)]);
+    }
+    sums[at] += p;
+    ++counts[at];
+  }
+  result.head.positions.resize(static_cast<Index>(sums.size()), 3);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    result.head.positions.row(static_cast<Index>(i)) = sums[i] / counts[i];
+  }
+  std::vector<Triangle> triangles;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    for (std::size_t c = 2; c < face.size(); ++c) {
+      const Triangle t = {place[face[0]], place[face[c - 1]], place[face[c]]};
+      if (t[0] != t[1] && t[1] != t[2] && t[0] != t[2]) triangles.push_back(t);
+    }
+  }
+  result.topology = topology_of(triangles, result.head.positions.rows());
+  return result;
+}
+
+/// The faces of a head that `keep` wants, by their middle.
+template <class Keep>
+Changed cut(const char* what, const Topology& topology, const HeadShape& head, const Keep& keep) {
+  std::vector<Triangle> triangles;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto face = topology.face(f);
+    for (std::size_t c = 2; c < face.size(); ++c) {
+      const Triangle t = {face[0], face[c - 1], face[c]};
+      const Eigen::Vector3d middle =
+          (head.positions.row(t[0]) + head.positions.row(t[1]) + head.positions.row(t[2]))
+              .transpose() /
+          3;
+      if (keep(middle)) triangles.push_back(t);
+    }
+  }
+  return {what, topology_of(triangles, head.positions.rows()), head};
+}
+
+std::vector<Changed> changes_of(const FaceSet& faces, const HeadShape& head) {
+  const Topology& topology = faces.topology;
+  std::vector<Changed> all;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double degrees : {-30.0, -15.0, -2.0, 2.0, 15.0, 30.0}) {
+      Changed turned{concat("turned by ", degrees, "° about axis ", axis), topology, head};
+      turned.turn = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d::Unit(axis))
+                        .toRotationMatrix();
+      turned.head.positions = head.positions * turned.turn.transpose();
+      all.push_back(std::move(turned));
+    }
+  }
+  all.push_back(thinned(topology, head));
+  Changed noisy{"with noise", topology, head};
+  std::mt19937 random(1);
+  std::normal_distribution<double> mm(0, 0.05);
+  for (double& x : noisy.head.positions.reshaped()) x += mm(random);
+  all.push_back(std::move(noisy));
+  all.push_back(cut("with holes", topology, head, [](const Eigen::Vector3d& p) {
+    return std::cos(1.9 * p.x()) * std::cos(1.9 * p.y()) < 0.9;
+  }));
+  all.push_back(cut("without skull", topology, head,
+                    [](const Eigen::Vector3d& p) { return p.z() > 2 && p.y() < 7; }));
+  for (Changed& one : all) one.head.eyeballs.clear();
+  return all;
+}
+
+/// Whoever cuts the mesh otherwise, or turns it, finds the same face within 3 mm.
+void expect_marks_of(const FaceSet& faces, const HeadShape& head) {
+  const auto before = find_face_marks(faces.topology, {head.positions, head.skin, {}}, {});
+  ASSERT_TRUE(before);
+  for (const Changed& one : changes_of(faces, head)) {
+    SCOPED_TRACE(one.what);
+    const auto marks = find_face_marks(one.topology, one.head, {});
+    EXPECT_TRUE(marks);
+    if (!marks) continue;
+    // Heights along the axes that were found, of the places that were found before.
+    const auto expect_near = [&](const char* name, double height, double expected) {
+      const auto front = [&](double at) {
+        double most = -1e9;
+        for (Index v = 0; v < head.positions.rows(); ++v) {
+          const Eigen::RowVector3d p = head.positions.row(v);
+          if (head.skin[static_cast<std::size_t>(v)] && std::abs(p.x()) < 0.6 &&
+              std::abs(p.y() - at) < 0.3)
+            most = std::max(most, p.z());
+        }
+        return most;
+      };
+      const Eigen::Vector3d place = one.turn * Eigen::Vector3d(0, expected, front(expected));
+      EXPECT_NEAR(height, place.dot(marks->axes.up), 0.3) << name;
+    };
+    expect_near("tip", marks->tip, before->tip);
+    expect_near("eyes", marks->eyes, before->eyes);
+    expect_near("mouth", marks->mouth, before->mouth);
+  }
+}
+
+TEST(FaceMarks, AreTheSameHoweverTheMeshIsCutOrTurned) {
+  const FaceSet faces = synth_heads(20000);
+  for (const Head& person : faces.heads) {
+    SCOPED_TRACE(person.name);
+    HeadShape head = shape_of_mean(faces);
+    head.positions = person.positions;
+    expect_marks_of(faces, head);
   }
 }
 

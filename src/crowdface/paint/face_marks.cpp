@@ -18,12 +18,12 @@ namespace {
 
 constexpr Index kHeights = 720;
 
-/// How far in front the skin reaches in a plane, at each of kHeights heights.
+/// How far in front the skin reaches about the middle, at each of kHeights heights.
 class Outline {
  public:
+  /// \param mm  the unit of the positions per millimetre of a face of mean size
   Outline(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
-          const HeadAxes& axes, double middle)
-      : front_(kHeights, kNothing) {
+          const HeadAxes& axes, double middle, double mm) {
     low_ = std::numeric_limits<double>::infinity();
     double high = -low_;
     for (Index v = 0; v < positions.rows(); ++v) {
@@ -33,29 +33,26 @@ class Outline {
       high = std::max(high, height);
     }
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
+    front_.assign(kHeights, kNothing);
     if (!(step_ > 0)) return;
-    const Eigen::Vector3d side = axes.side();
-    for (Index f = 0; f < topology.face_count(); ++f) {
-      const auto face = topology.face(f);
-      if (!skin[face[0]]) continue;
-      std::vector<Eigen::Vector2d> cut;  // height and front of the places where edges cross
-      for (std::size_t c = 0; c < face.size(); ++c) {
-        const Eigen::Vector3d a = row3(positions, face[c]);
-        const Eigen::Vector3d b = row3(positions, face[(c + 1) % face.size()]);
-        const double da = a.dot(side) - middle, db = b.dot(side) - middle;
-        if ((da < 0) == (db < 0)) continue;
-        const Eigen::Vector3d at = a + da / (da - db) * (b - a);
-        cut.emplace_back(at.dot(axes.up), at.dot(axes.front));
-      }
-      for (std::size_t i = 1; i < cut.size(); ++i) add(cut[i - 1], cut[i]);
+    // The median of several planes: small holes and noise do not count.
+    constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
+    std::array<std::vector<double>, kBesideMm.size()> fronts;
+    for (std::size_t i = 0; i < fronts.size(); ++i) {
+      front_.assign(kHeights, kNothing);
+      cut(topology, positions, skin, axes, middle + kBesideMm[i] * mm);
+      fill_gaps();
+      fronts[i] = front_;
     }
-    fill_gaps();
-    soften();
+    for (std::size_t h = 0; h < front_.size(); ++h) {
+      std::array<double, kBesideMm.size()> at;
+      for (std::size_t i = 0; i < fronts.size(); ++i) at[i] = fronts[i][h];
+      std::ranges::nth_element(at, at.begin() + at.size() / 2);
+      front_[h] = at[at.size() / 2];
+    }
+    soften(kSoftMm * mm);
   }
 
-  bool empty() const { return front_.empty() || front_[0] == kNothing; }
-  double low() const { return low_; }
-  double high() const { return height(kHeights - 1); }
   double height(Index bin) const { return low_ + static_cast<double>(bin) * step_; }
   double at(double height) const {
     const double x = std::clamp((height - low_) / step_, 0.0, static_cast<double>(kHeights - 1));
@@ -102,7 +99,27 @@ class Outline {
 
  private:
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  static constexpr double kSoftMm = 1.5;
 
+  /// Adds what a plane cuts from the skin.
+  void cut(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
+           const HeadAxes& axes, double middle) {
+    const Eigen::Vector3d side = axes.side();
+    for (Index f = 0; f < topology.face_count(); ++f) {
+      const auto face = topology.face(f);
+      if (!skin[face[0]]) continue;
+      std::vector<Eigen::Vector2d> cut;  // height and front of the places where edges cross
+      for (std::size_t c = 0; c < face.size(); ++c) {
+        const Eigen::Vector3d a = row3(positions, face[c]);
+        const Eigen::Vector3d b = row3(positions, face[(c + 1) % face.size()]);
+        const double da = a.dot(side) - middle, db = b.dot(side) - middle;
+        if ((da < 0) == (db < 0)) continue;
+        const Eigen::Vector3d at = a + da / (da - db) * (b - a);
+        cut.emplace_back(at.dot(axes.up), at.dot(axes.front));
+      }
+      for (std::size_t i = 1; i < cut.size(); ++i) add(cut[i - 1], cut[i]);
+    }
+  }
   void add(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     const Eigen::Vector2d &lower = a.x() < b.x() ? a : b, &upper = a.x() < b.x() ? b : a;
     const auto first = static_cast<Index>(std::ceil((lower.x() - low_) / step_));
@@ -130,8 +147,10 @@ class Outline {
       }
     }
   }
-  void soften() {
-    for (int round = 0; round < 4; ++round) {
+  /// Binomial smoothing; \param width  standard deviation
+  void soften(double width) {
+    const auto rounds = static_cast<int>(std::ceil(2 * (width / step_) * (width / step_)));
+    for (int round = 0; round < rounds; ++round) {
       const std::vector<double> before = front_;
       for (std::size_t i = 1; i + 1 < front_.size(); ++i) {
         front_[i] = (before[i - 1] + 2 * before[i] + before[i + 1]) / 4;
@@ -143,21 +162,17 @@ class Outline {
   std::vector<double> front_;
 };
 
-// Lengths in millimetres of a face of mean size.
+// Lengths in millimetres of a face of mean size; heights are those of the mean relief, above its eyes.
 constexpr double kSlitMm = 11;  ///< an open mouth is hollow over less
-constexpr double kBridgeBelowMm = 8,
-                 kBridgeAboveMm = 20;                  ///< where the bridge may be, about the eyes
-constexpr double kTipNearMm = 16, kTipFarMm = 50;      ///< below the eyes
-constexpr double kMouthNearMm = 54, kMouthFarMm = 86;  ///< below the eyes
-constexpr double kBridgeWayMm = 15, kSameMiddleMm = 4, kEyesNearMm = 20;
-// Of people, as parts of the way from a nose's bridge to its tip, some 40 mm.
-constexpr double kLeastMouth = 0.55, kMostMouth = 1.3, kLipWay = 0.12;
+constexpr double kBridgeMm = 5, kTipMm = -34, kMouthMm = -74;
+constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
+constexpr double kBridgeWayMm = 15, kLipWayMm = 5;  ///< over which bridge and mouth are hollow
+constexpr double kPriorMm = 3;  ///< what a place at the end of its reach is worse by
+constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 // Of the way from eyes to mouth, some 65 mm.
 constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
-/// Eyes lie below the bridge by this part of the way from there to the mouth.
-constexpr double kEyesBelowBridge = 0.05;
 
-constexpr Index kSamples = 150'000;
+constexpr double kMostDegreesOff = 45;
 
 /// The marks of a face where its relief was found.
 FaceMarks marks_of(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
@@ -169,17 +184,22 @@ FaceMarks marks_of(const Topology& topology, const HeadShape& head, const Relief
   marks.middle = middle_of(topology, head, marks.axes);
   const double of_relief = match.between.dot(match.axes.side());
   if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
-  const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle);
+  const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle, mm);
   const Outline closed = outline.without_slits(kSlitMm * mm);
-  marks.bridge = outline.best(eyes - kBridgeBelowMm * mm, eyes + kBridgeAboveMm * mm,
-                              [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
-  marks.tip = closed.best(eyes - kTipFarMm * mm, eyes - kTipNearMm * mm,
-                          [&](double h) { return closed.at(h); });
-  const double nose = marks.bridge - marks.tip;
-  marks.mouth = outline.best(std::max(marks.tip - kMostMouth * nose, eyes - kMouthFarMm * mm),
-                             std::min(marks.tip - kLeastMouth * nose, eyes - kMouthNearMm * mm),
-                             [&](double h) { return outline.hollow(h, kLipWay * nose); });
-  marks.eyes = marks.bridge - kEyesBelowBridge * (marks.bridge - marks.mouth);
+  // Within reach of where the mean relief has it, and the less likely the farther from there: shallow hollows are noise.
+  const auto best_near = [&](double expected, double reach, const auto& measure) {
+    const double middle = eyes + expected * match.stretch * mm;
+    return outline.best(middle - reach * mm, middle + reach * mm, [&](double h) {
+      const double off = (h - middle) / (reach * mm);
+      return measure(h) - kPriorMm * mm * off * off;
+    });
+  };
+  marks.bridge = best_near(kBridgeMm, kBridgeReachMm,
+                           [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
+  marks.tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h); });
+  marks.mouth = best_near(kMouthMm, kMouthReachMm,
+                          [&](double h) { return outline.hollow(h, kLipWayMm * mm); });
+  marks.eyes = eyes;
   double of_balls = 0;
   for (const Eigen::Vector3d& eye : head.eyeballs) {
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
@@ -226,9 +246,11 @@ double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes
 
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes) {
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kSamples);
+  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (!match || match->agreement < kLeastAgreement) return std::nullopt;
+  if (!match || match->votes < kLeastVotes || match->degrees_off > kMostDegreesOff) {
+    return std::nullopt;
+  }
   return marks_of(topology, head, *match);
 }
 
@@ -236,29 +258,27 @@ HeadAxes axes_of(const Bearing& bearing) {
   return {unit_vector(bearing.front), unit_vector(bearing.up)};
 }
 
-std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& head) {
+std::vector<Bearing> all_bearings() {
   std::vector<Bearing> bearings;
-  std::vector<HeadAxes> axes;
   for (int up = 0; up < 3; ++up) {
     for (int front = 0; front < 3; ++front) {
       for (int signs = 0; signs < 4; ++signs) {
         if (up == front) continue;
         bearings.push_back({{up, signs % 2 == 0 ? 1 : -1}, {front, signs / 2 == 0 ? 1 : -1}});
-        axes.push_back(axes_of(bearings.back()));
       }
     }
   }
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kSamples);
+  return bearings;
+}
+
+std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& head) {
+  const std::vector<Bearing> bearings = all_bearings();
+  std::vector<HeadAxes> axes;
+  for (const Bearing& bearing : bearings) axes.push_back(axes_of(bearing));
+  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, axes, head.eyeballs);
-  if (!match || match->agreement < kLeastAgreement) return std::nullopt;
-  return bearings[static_cast<std::size_t>(std::ranges::find_if(axes,
-                                                                [&](const HeadAxes& one) {
-                                                                  return one.up ==
-                                                                             match->asked.up &&
-                                                                         one.front ==
-                                                                             match->asked.front;
-                                                                }) -
-                                           axes.begin())];
+  if (!match || match->votes < kLeastVotes) return std::nullopt;
+  return bearings[match->view];
 }
 
 }  // namespace crowdface

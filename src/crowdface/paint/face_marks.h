@@ -49,6 +49,7 @@ struct Bearing {
   bool operator==(const Bearing&) const = default;
 };
 HeadAxes axes_of(const Bearing& bearing);
+std::vector<Bearing> all_bearings();  ///< the 24 ways a head may stand along the axes
 
 /// Tries all 24 ways a head may stand along the axes; the relief of a face agrees best along the right one.
 /// \return nothing if none is a head's.

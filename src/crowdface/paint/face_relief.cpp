@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -65,6 +67,8 @@ struct ReliefFit {
   double offset = 0;     ///< depth between the eyes less the relief's
   double slope_up = 0;   ///< of the depths beneath the relief
 };
+
+constexpr int kBetweenEyes = 4 * kColumns + kHalfColumns - 1;  ///< a cell
 
 constexpr int kTerms = 6;  ///< of a fit: 1, x, y, x², y², relief
 using Coefficients = Eigen::Matrix<double, kTerms, 1>;
@@ -161,20 +165,56 @@ class DepthMap {
     }
   }
 
+  /// Means over three by three squares, of those that show the surface: noise counts less.
+  void soften() {
+    const std::vector<double> before = depths_;
+    for (Index row = 1; row + 1 < rows_; ++row) {
+      for (Index column = 1; column + 1 < columns_; ++column) {
+        double sum = 0;
+        int count = 0;
+        for (const Index beside : {-columns_ - 1, -columns_, -columns_ + 1, Index{-1}, Index{0},
+                                   Index{1}, columns_ - 1, columns_, columns_ + 1}) {
+          const double depth = before[static_cast<std::size_t>(row * columns_ + column + beside)];
+          if (depth == -kInfinity) continue;
+          sum += depth;
+          ++count;
+        }
+        if (count > 0) depths_[static_cast<std::size_t>(row * columns_ + column)] = sum / count;
+      }
+    }
+  }
+
   const Eigen::AlignedBox2d& box() const { return box_; }
 
   /// \param across, height  between the eyes
-  ReliefFit fit(double across, double height, double scale) const {
+  ReliefFit fit(double across, double height, double scale, double stretch = 1) const {
     Cells depths;
     for (int c = 0; c < kCells; ++c) {
-      const double x = across + scale * across_mm(c), y = height + scale * height_mm(c);
+      const double x = across + scale * across_mm(c), y = height + stretch * scale * height_mm(c);
       const bool is_inside = box_.contains(Eigen::Vector2d(x, y));
-      depths[static_cast<std::size_t>(c)] = is_inside ? depths_[index(x, y)] / scale : -kInfinity;
+      depths[static_cast<std::size_t>(c)] = is_inside ? at(x, y) / scale : -kInfinity;
     }
     return fit_relief(depths);
   }
 
  private:
+  /// Linear between the middles of four squares if all of them show the surface.
+  double at(double x, double y) const {
+    const double column = (x - box_.min().x()) / square_ - 0.5;
+    const double row = (y - box_.min().y()) / square_ - 0.5;
+    const double left = std::floor(column), low = std::floor(row);
+    if (left < 0 || low < 0 || left + 1 >= static_cast<double>(columns_) ||
+        low + 1 >= static_cast<double>(rows_)) {
+      return depths_[index(x, y)];
+    }
+    const double s = column - left, t = row - low;
+    const double* corner = &depths_[static_cast<std::size_t>(static_cast<Index>(low) * columns_ +
+                                                             static_cast<Index>(left))];
+    const double depth = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
+                         t * ((1 - s) * corner[columns_] + s * corner[columns_ + 1]);
+    return std::isfinite(depth) ? depth : depths_[index(x, y)];
+  }
+
   std::size_t index(double x, double y) const {
     const auto column = std::min(static_cast<Index>((x - box_.min().x()) / square_), columns_ - 1);
     const auto row = std::min(static_cast<Index>((y - box_.min().y()) / square_), rows_ - 1);
@@ -190,9 +230,9 @@ class DepthMap {
 
 /// A place for the relief, and how well it agrees there.
 struct Candidate {
-  double across = 0, height = 0, scale = 1;
+  double across = 0, height = 0, scale = 1, stretch = 1;
   ReliefFit fit;
-  double vote = -1;  ///< agreement, more where eyeballs are
+  double votes = -1;
 };
 
 double diagonal_of(const Positions& samples) {
@@ -210,27 +250,25 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) / kRadians;
 }
 
-/// Votes: the relief, and the eyeballs if there are any.
-class Votes {
- public:
-  explicit Votes(const std::vector<Eigen::Vector3d>& eyes) : has_eyes_(!eyes.empty()) {
-    middle_.setZero();
-    for (const Eigen::Vector3d& eye : eyes) middle_ += eye / static_cast<double>(eyes.size());
-  }
-  double of(const ReliefFit& fit, const HeadAxes& axes, double height, double scale) const {
-    constexpr double kLeastAmplitude = 0.45, kMostAmplitude = 2, kForEyes = 0.15, kNearMm = 20;
-    if (!(fit.amplitude >= kLeastAmplitude && fit.amplitude <= kMostAmplitude)) return -1;
-    const bool by_eyes = has_eyes_ && std::abs(middle_.dot(axes.up) - height) < kNearMm * scale;
-    return fit.agreement + (by_eyes ? kForEyes : 0);
-  }
+constexpr double kVoteOfEyes = 0.15;
 
- private:
-  bool has_eyes_;
-  Eigen::Vector3d middle_;
-};
+/// What eyeballs say about a place for the eyes: 1, or -1 against it; 0 if there are none.
+int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
+                 double height, double scale) {
+  constexpr double kNearMm = 20;
+  if (eyes.empty()) return 0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& eye : eyes) middle += eye / static_cast<double>(eyes.size());
+  return std::hypot(middle.dot(axes.side()) - across, middle.dot(axes.up) - height) <
+                 kNearMm * scale
+             ? 1
+             : -1;
+}
 
 /// The best place for the relief in one view, over all sizes.
-Candidate search_view(const Positions& samples, const HeadAxes& axes, const Votes& votes) {
+Candidate search_view(const Positions& samples, const HeadAxes& axes,
+                      const std::vector<Eigen::Vector3d>& eyes) {
+  constexpr double kLeastAmplitude = 0.45, kMostAmplitude = 2;
   constexpr double kSquares = 150;  // along the diagonal
   constexpr double kLeastShare = 0.15,
                    kMostShare = 0.85;  // of the breadth that the relief may have
@@ -248,8 +286,10 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes, const Vote
       for (int i = -aside; i <= aside; ++i) {
         const double across = box.center().x() + i * kAsideMm * scale;
         const ReliefFit fit = map.fit(across, height, scale);
-        const double vote = votes.of(fit, axes, height, scale);
-        if (vote > best.vote) best = {across, height, scale, fit, vote};
+        if (!(fit.amplitude >= kLeastAmplitude && fit.amplitude <= kMostAmplitude)) continue;
+        const double votes =
+            fit.agreement + kVoteOfEyes * vote_of_eyes(eyes, axes, across, height, scale);
+        if (votes > best.votes) best = {across, height, scale, 1, fit, votes};
       }
     }
   }
@@ -257,11 +297,16 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes, const Vote
 }
 
 ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
-  return {candidate.fit.agreement, axes,
+  const double depth = candidate.fit.offset + candidate.fit.amplitude * relief_mm(kBetweenEyes);
+  return {candidate.fit.agreement,
+          candidate.votes,
+          0,
+          0,
+          axes,
           candidate.across * axes.side() + candidate.height * axes.up +
-              (candidate.fit.offset + candidate.fit.amplitude * relief_mm(4 * kColumns + 5)) *
-                  candidate.scale * axes.front,
-          candidate.scale};
+              depth * candidate.scale * axes.front,
+          candidate.scale,
+          candidate.stretch};
 }
 
 /// Pattern search (Hooke & Jeeves 1961) for turn, place and size from a first match.
@@ -293,14 +338,15 @@ class Refinement {
   }
 
  private:
-  static constexpr double kSquareMm = 2.5, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
-  static constexpr double kLeastPitch = 10;  // degrees
+  static constexpr double kSquareMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
+  static constexpr double kMostStretch = 0.25;  // of the logarithm
+  static constexpr double kLeastPitch = 10;     // degrees
 
   void search() {
-    for (double step = 1; step >= 1.0 / 8;) {
+    for (double step = 1; step >= 1.0 / 16;) {
       const double before = best_.agreement;
       step_all(step);
-      if (!(best_.agreement > before + 1e-4)) step /= 2;
+      if (!(best_.agreement > before + 2e-5)) step /= 2;
     }
   }
 
@@ -325,17 +371,26 @@ class Refinement {
       next = best_;
       next.scale *= 1 + sign * step * kGrow;
       try_match(next);
+      next = best_;
+      next.stretch *= 1 + sign * step * kGrow;
+      try_match(next);
     }
   }
 
   void try_match(const ReliefMatch& match) {
-    const DepthMap map(near_, match.axes, square_);
-    Candidate candidate{
-        match.between.dot(match.axes.side()), match.between.dot(match.axes.up), match.scale, {}, 0};
-    candidate.fit = map.fit(candidate.across, candidate.height, candidate.scale);
-    if (candidate.fit.agreement > best_.agreement) {
+    DepthMap map(near_, match.axes, square_);
+    map.soften();
+    Candidate candidate{match.between.dot(match.axes.side()),
+                        match.between.dot(match.axes.up),
+                        match.scale,
+                        match.stretch,
+                        {},
+                        0};
+    candidate.fit = map.fit(candidate.across, candidate.height, candidate.scale, candidate.stretch);
+    const bool is_likely = std::abs(std::log(match.stretch)) < kMostStretch;
+    if (is_likely && candidate.fit.agreement > best_.agreement) {
       best_ = match_of(candidate, match.axes);
-      slope_up_ = candidate.fit.slope_up;
+      slope_up_ = candidate.fit.slope_up / match.stretch;
     }
   }
 
@@ -385,42 +440,53 @@ Positions sample_skin(const Topology& topology, const Positions& positions,
 std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
+  constexpr std::size_t kRefined = 6;
   constexpr double kTurn = 25;     // degrees, of the turned views
   constexpr double kStraight = 5;  // degrees within which a face is taken to stand along the axes
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
-  const Votes votes(eyes);
-  struct View {
-    HeadAxes asked, axes;
-  };
-  const auto search = [&](const std::vector<View>& views) {
+  const auto search = [&](const std::vector<HeadAxes>& views) {
     std::vector<Candidate> found(views.size());
-    parallel_for_each(views.size(), [&](std::size_t i) {
-      found[i] = search_view(samples, views[i].axes, votes);
+    parallel_for_each(views.size(),
+                      [&](std::size_t i) { found[i] = search_view(samples, views[i], eyes); });
+    // The best views are compared after refinement: a view that is turned the wrong way ends at a lower agreement.
+    std::vector<std::size_t> order(views.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return found[i].votes; });
+    order.resize(std::min(order.size(), kRefined));
+    std::vector<ReliefMatch> refined(order.size());
+    parallel_for_each(order.size(), [&](std::size_t i) {
+      const Candidate& one = found[order[i]];
+      if (one.votes <= -1) return;
+      ReliefMatch& match = refined[i];
+      match = Refinement(samples, match_of(one, views[order[i]])).find();
+      match.votes =
+          match.agreement +
+          kVoteOfEyes * vote_of_eyes(eyes, match.axes, match.between.dot(match.axes.side()),
+                                     match.between.dot(match.axes.up), match.scale);
     });
-    const auto best = static_cast<std::size_t>(
-        std::ranges::max_element(found, {}, &Candidate::vote) - found.begin());
-    ReliefMatch match;
-    if (found[best].vote <= -1) return match;
-    match = Refinement(samples, match_of(found[best], views[best].axes)).find();
-    const HeadAxes& asked = views[best].asked;
-    match.asked = asked;
-    if (angle_between(match.axes, asked) < kStraight) match.axes = asked;
+    ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::votes);
+    if (match.votes <= -1) return match;
+    match.view = static_cast<std::size_t>(
+        std::ranges::min_element(
+            all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
+        all_axes.begin());
+    match.degrees_off = angle_between(match.axes, all_axes[match.view]);
+    if (match.degrees_off < kStraight) match.axes = all_axes[match.view];
     return match;
   };
-  std::vector<View> straight, others;
+  std::vector<HeadAxes> others;
   for (const HeadAxes& axes : all_axes) {
-    straight.push_back({axes, axes});
     for (const double yaw : {0.0, kTurn, -kTurn}) {
       for (const double roll : {0.0, kTurn, -kTurn}) {
         if (yaw == 0 && roll == 0) continue;
-        others.push_back({axes, turned(turned(axes, axes.front, roll), axes.up, yaw)});
+        others.push_back(turned(turned(axes, axes.front, roll), axes.up, yaw));
       }
     }
   }
-  ReliefMatch match = search(straight);
-  if (match.agreement < kLeastAgreement) {
+  ReliefMatch match = search(all_axes);
+  if (match.votes < kLeastVotes || match.degrees_off > kTurn) {
     const ReliefMatch other = search(others);
-    if (other.agreement > match.agreement) match = other;
+    if (other.votes > match.votes) match = other;
   }
   return match;
 }

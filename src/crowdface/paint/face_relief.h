@@ -9,6 +9,8 @@
 
 namespace crowdface {
 
+inline constexpr Index kSkinSamples = 150'000;  ///< enough for a face on a bust
+
 /// Points spread evenly over the skin by area, so that what is measured on them does not depend on how the mesh is cut.
 /// \param skin  #V: which vertices are skin; a face of the mesh counts if its first corner is skin
 /// \return #S by 3, at most `count`; empty if the skin has no area
@@ -18,22 +20,27 @@ Positions sample_skin(const Topology& topology, const Positions& positions,
 /// Where the relief of a face is found on a surface.
 struct ReliefMatch {
   /// Partial correlation between the depths of the surface and those of a mean face, after an offset, slopes and
-  /// curvatures are removed from both: 1 for the mean face itself, about 0.7 to 0.95 for faces, below 0.6 elsewhere.
+  /// curvatures are removed from both: 1 for the mean face itself, 0.75 to 0.97 for faces, seldom above 0.6 elsewhere.
   double agreement = -1;
-  HeadAxes axes;            ///< how the face stands: found
+  /// The agreement, and 0.15 more or less if eyeballs are known and lie where this face has its eyes, or do not.
+  double votes = -1;
+  std::size_t view = 0;    ///< which of the axes asked for the face stands along most nearly
+  double degrees_off = 0;  ///< by which the face is turned from them
+  HeadAxes axes;  ///< how the face stands: these, or turned from them by more than some degrees
   Eigen::Vector3d between;  ///< the point of the surface between the eyes
-  double scale = 1;         ///< units of the positions per millimetre of the mean face
+  double scale = 1;         ///< units of the positions per millimetre of the mean face, across
+  double stretch = 1;       ///< up, as a multiple of scale
 };
 
-/// Agreement that a face has at least.
-inline constexpr double kLeastAgreement = 0.6;
+/// Votes that a face has at least.
+inline constexpr double kLeastVotes = 0.65;
 
 /// Searches the surface for the relief of a face (nose, eye sockets, mouth and chin; normalised cross-correlation with
 /// the depths of a mean face): of any size, and turned by up to some 35° from one of `axes` in any direction. Turned faces
 /// are searched only if no face stands straight.
 /// \param samples  see sample_skin
-/// \param eyes     centres of the eyeballs if known: a place for the eyes near to them is preferred
-/// \return the best match, whatever its agreement is; nothing if there are no samples
+/// \param eyes     centres of the eyeballs if known: they vote for a face or against it
+/// \return the match with the most votes, however few; nothing if there are no samples
 std::optional<ReliefMatch> match_relief(const Positions& samples, const std::vector<HeadAxes>& axes,
                                         const std::vector<Eigen::Vector3d>& eyes);
 
