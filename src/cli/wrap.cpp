@@ -14,9 +14,11 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/paint/face_marks.h"
 #include "crowdface/pick/found_landmarks.h"
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/wrap/report.h"
+#include "crowdface/wrap/scan_face.h"
 #include "crowdface/wrap/scan_file.h"
 
 #include "cli/commands.h"
@@ -97,8 +99,9 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 }
 
 /// Those of the files, or where they are too few, and it is known how the scan stands, those that shapes tell as well.
-std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task,
-                                       const Scan& scan) {
+/// \param hint  set if nobody said how the scan stands, and its relief shows a face
+std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
+                                       std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
   std::vector<WrapLandmark> landmarks = match_landmarks(file, shared.file.positions, scan);
   if (landmarks.empty() && !file.of_scan.empty()) {
@@ -107,9 +110,17 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
                        ", …) has a place on the template under the same name: ",
                        "name it with --template-landmarks, or under template in the YAML file"));
   }
-  if (landmarks.size() >= kFewestLandmarks || !shared.hint) return landmarks;
+  if (landmarks.size() >= kFewestLandmarks) return landmarks;
+  if (!hint) {
+    const auto face = find_scan_face(scan, std::nullopt);
+    if (!face) return landmarks;
+    hint = PoseHint{face->axes.up, face->axes.front};
+    const Bearing bearing = all_bearings()[face->view];
+    log_info(concat(task.scan.string(), ": its relief shows a face that looks along ",
+                    name_of(bearing.front), " with ", name_of(bearing.up), " up"));
+  }
   std::vector<std::string> found;
-  for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *shared.hint)) {
+  for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *hint)) {
     if (std::ranges::any_of(landmarks, [&](const auto& l) { return l.name == landmark.name; })) {
       continue;
     }
@@ -157,26 +168,26 @@ std::string other_bearing(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
   if (!shared.hint || picked >= static_cast<std::ptrdiff_t>(kFewestLandmarks)) return {};
-  const WrapTemplate& shape = shared.shape;
-  const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
-  Positions rest = shape.skin.of(shape.positions);
-  if (shape.reduced) rest = bent.of(rest);
-  const auto found = better_bearing(bent, rest, shape.axes, ScanSurface(scan), *shared.hint);
-  if (!found) return {};
-  return concat("; the scan seems to look along ", name_of(found->front), " with ",
-                name_of(found->up), " up: --scan-up ", name_of(found->up), " --scan-front ",
-                name_of(found->front));
+  const auto face = find_scan_face(scan, std::nullopt);
+  if (!face) return {};
+  const Bearing found = all_bearings()[face->view];
+  if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
+    return {};
+  return concat("; the scan seems to look along ", name_of(found.front), " with ",
+                name_of(found.up), " up: --scan-up ", name_of(found.up), " --scan-front ",
+                name_of(found.front));
 }
 
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
               const Digest& inputs) {
   const Scan scan = read_scan(task.scan);
   for (const std::string& note : scan.notes) log_warning(concat(task.scan.string(), ": ", note));
-  const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan);
+  std::optional<PoseHint> hint = shared.hint;
+  const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan, hint);
   const WrapResult result = [&] {
     try {
       WrapResult wrapped =
-          wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, shared.hint);
+          wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
       refuse_bad_wrap(shared.shape, wrapped, shared.regions);
       return wrapped;
     } catch (const InvalidInput& error) {
@@ -197,7 +208,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
                   scale,         left_out(shared, landmarks)};
   if (options.estimate) {
     facts.unseen_mm = unseen_landmarks(shared.shape, shared.model ? &*shared.model : nullptr, scan,
-                                       landmarks, shared.hint);
+                                       landmarks, hint);
   }
   write_file(task.report,
              format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
@@ -212,7 +223,8 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
 
 void check_one(const WrapInputs& shared, const Task& task) {
   const Scan scan = read_scan(task.scan);
-  const auto landmarks = landmarks_on(shared, task, scan);
+  std::optional<PoseHint> hint = shared.hint;
+  const auto landmarks = landmarks_on(shared, task, scan, hint);
   log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ", landmarks.size(),
                   " landmarks; would become ", task.head.string()));
 }

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/wrap/report.h"
+#include "crowdface/wrap/scan_face.h"
 #include "crowdface/wrap/unfold.h"
 #include "head_models/synth/synthetic_head.h"
 
@@ -81,6 +84,40 @@ TEST_P(WrapAtTwoSizes, FindsAHeadItHasNeverSeen) {
   EXPECT_NO_THROW(refuse_bad_wrap(shape, result, {}));
 }
 INSTANTIATE_TEST_SUITE_P(Vertices, WrapAtTwoSizes, ::testing::Values(5000, 16000));
+
+/// A head as a scan in centimetres that stands in no particular way, with a crown four times as high.
+TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
+  constexpr double kCrownMm = 60, kTimes = 4, kCm = 0.1;
+  const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
+  Positions crowned = head.positions;
+  for (double& height : crowned.col(1)) {
+    if (height > kCrownMm) height = kCrownMm + kTimes * (height - kCrownMm);
+  }
+  for (const double degrees : {0.0, 100.0, 230.0}) {
+    SCOPED_TRACE(degrees);
+    Similarity turn;
+    turn.rotation =
+        Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d(1, 2, 3).normalized())
+            .toRotationMatrix();
+    turn.scale = kCm;
+    const Scan scan{turn.apply(head.skin.of(crowned)), head.skin.triangles};
+    const auto face = find_scan_face(scan, std::nullopt);
+    ASSERT_TRUE(face);
+    WrapResult result = wrap(shape, nullptr, scan, {}, PoseHint{face->axes.up, face->axes.front});
+    const Positions found = inverse(turn).apply(result.pose.apply(result.positions));
+    std::vector<double> errors;
+    for (const std::uint32_t v : head.skin.vertices) {
+      const Eigen::Vector3d place = row3(head.positions, v);
+      const bool is_face = place.z() > 50 && std::abs(place.y() + 40) < 70;
+      if (is_face) errors.push_back((row3(found, v) - place).norm());
+    }
+    EXPECT_LT(percentile(errors, 0.5), 4) << "where each place of the face ends";
+    ASSERT_TRUE(result.face_off_mm);
+    EXPECT_LT(*result.face_off_mm, 10);
+    result.face_off_mm = 150;
+    expect_error(ExitCode::kBadData, {""}, [&] { refuse_bad_wrap(shape, result, {}); });
+  }
+}
 
 TEST(Wrap, ATemplateThatIsTheScanStaysWhereItIs) {
   const WrapTemplate shape = synthetic(5000, 1);

@@ -172,8 +172,6 @@ constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 // Of the way from eyes to mouth, some 65 mm.
 constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
 
-constexpr double kMostDegreesOff = 45;
-
 /// The marks of a face where its relief was found.
 FaceMarks marks_of(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
   FaceMarks marks;

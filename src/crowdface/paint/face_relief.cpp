@@ -266,25 +266,27 @@ int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes,
 }
 
 /// The best place for the relief in one view, over all sizes.
+/// \param coarseness  steps as multiples of the finest
 Candidate search_view(const Positions& samples, const HeadAxes& axes,
-                      const std::vector<Eigen::Vector3d>& eyes) {
+                      const std::vector<Eigen::Vector3d>& eyes, double coarseness) {
   constexpr double kLeastAmplitude = 0.45, kMostAmplitude = 2;
   constexpr double kSquares = 150;  // along the diagonal
   constexpr double kLeastShare = 0.15,
                    kMostShare = 0.85;  // of the breadth that the relief may have
   constexpr double kReliefMm = kSpacingMm * (kColumns - 1);
-  constexpr double kGrow = 1.15, kUpMm = 6, kAsideMm = 10;
+  const double grow = std::pow(1.15, coarseness), up_mm = 6 * coarseness,
+               aside_mm = 10 * coarseness;
   const DepthMap map(samples, axes, diagonal_of(samples) / kSquares);
   const Eigen::AlignedBox2d& box = map.box();
   const double breadth = box.sizes().x();
   Candidate best;
   for (double scale = kLeastShare * breadth / kReliefMm; scale < kMostShare * breadth / kReliefMm;
-       scale *= kGrow) {
+       scale *= grow) {
     const double top = box.max().y() - 0.5 * kTopMm * scale, low = box.min().y() + kTopMm * scale;
-    const int aside = static_cast<int>(std::floor(0.25 * breadth / (kAsideMm * scale)));
-    for (double height = low; height < top; height += kUpMm * scale) {
+    const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
+    for (double height = low; height < top; height += up_mm * scale) {
       for (int i = -aside; i <= aside; ++i) {
-        const double across = box.center().x() + i * kAsideMm * scale;
+        const double across = box.center().x() + i * aside_mm * scale;
         const ReliefFit fit = map.fit(across, height, scale);
         if (!(fit.amplitude >= kLeastAmplitude && fit.amplitude <= kMostAmplitude)) continue;
         const double votes =
@@ -441,13 +443,15 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  constexpr double kTurn = 25;     // degrees, of the turned views
-  constexpr double kStraight = 5;  // degrees within which a face is taken to stand along the axes
+  constexpr double kCoarser = 1.5;  // in the turned views, which are many
+  constexpr double kTurn = 25;      // degrees, of the turned views
+  constexpr double kStraight = 5;   // degrees within which a face is taken to stand along the axes
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
-  const auto search = [&](const std::vector<HeadAxes>& views) {
+  const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
     std::vector<Candidate> found(views.size());
-    parallel_for_each(views.size(),
-                      [&](std::size_t i) { found[i] = search_view(samples, views[i], eyes); });
+    parallel_for_each(views.size(), [&](std::size_t i) {
+      found[i] = search_view(samples, views[i], eyes, coarseness);
+    });
     // The best views are compared after refinement: a view that is turned the wrong way ends at a lower agreement.
     std::vector<std::size_t> order(views.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -483,9 +487,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  ReliefMatch match = search(all_axes);
+  ReliefMatch match = search(all_axes, 1);
   if (match.votes < kLeastVotes || match.degrees_off > kTurn) {
-    const ReliefMatch other = search(others);
+    const ReliefMatch other = search(others, kCoarser);
     if (other.votes > match.votes) match = other;
   }
   return match;

@@ -34,6 +34,8 @@ struct ReliefMatch {
 
 /// Votes that a face has at least.
 inline constexpr double kLeastVotes = 0.65;
+/// How far a face may be turned from the axes along which it is looked for, degrees.
+inline constexpr double kMostDegreesOff = 45;
 
 /// Searches the surface for the relief of a face (nose, eye sockets, mouth and chin; normalised cross-correlation with
 /// the depths of a mean face): of any size, and turned by up to some 35° from one of `axes` in any direction. Turned faces

@@ -9,6 +9,7 @@
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/pick/pickable_mesh.h"
 #include "crowdface/pick/proposed_landmarks.h"
+#include "crowdface/wrap/scan_face.h"
 
 namespace crowdface {
 namespace {
@@ -50,7 +51,8 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
   Positions rest = shape.skin.of(shape.positions);
   if (shape.reduced) rest = bent.of(rest);
-  const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint);
+  const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face,
+                                     find_scan_face(scan, hint));
   const Positions placed = inverse(pose).apply(scan.positions);
   // Scans that differ much from the template are turned a little too far by the fit, others stand a little slanted.
   const std::array ways = {

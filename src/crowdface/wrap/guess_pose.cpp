@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/guess_pose.h"
 
-#include <initializer_list>
+#include <array>
 
 #include <Eigen/Geometry>
 
@@ -30,22 +30,21 @@ Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool
   return extent;
 }
 
-/// \param lowers  shares of the head's height by which the tops may differ
 ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
-                  const ScanSurface& scan, const PoseHint& hint,
-                  std::initializer_list<double> lowers) {
+                  const ScanSurface& scan, const PoseHint& hint) {
+  constexpr std::array kLower = {0.0, 0.12, -0.12};  // shares of the head's height
   const Eigen::Matrix3d from = frame_of(axes.up, axes.front), to = frame_of(hint.up, hint.front);
   const Eigen::AlignedBox3d head =
       extent_of(rest, std::vector<bool>(static_cast<std::size_t>(rest.rows()), true), from);
   const Eigen::AlignedBox3d found =
       extent_of(scan.scan().positions, used_vertices(scan.scan()), to);
-  ShapeFitOptions options{.reach_mm = {40, 30, 20, 12}, .steps = 4};
+  const ShapeFitOptions options{.reach_mm = {40, 30, 20, 12}, .steps = 4};
   ShapeFit best;
   best.residual = 1e300;
   // Width is what scans agree in; of height they show more or less. The top of the head, and where the
   // face is farthest in front, are put on each other.
   for (const double wider : {1.0, 0.85, 1.15}) {
-    for (const double lower : lowers) {
+    for (const double lower : kLower) {
       Similarity pose;
       pose.rotation = to * from.transpose();
       pose.scale = wider * found.sizes().x() / head.sizes().x();
@@ -65,30 +64,23 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
 }  // namespace
 
 Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
-                      const ScanSurface& scan, const PoseHint& hint) {
-  return best_fit(skin, rest, axes, scan, hint, {0.0, 0.12, -0.12}).pose;
+                      const ScanSurface& scan, const PoseHint& hint,
+                      const std::optional<ReliefMatch>& face,
+                      const std::optional<ReliefMatch>& scanned) {
+  if (!face || !scanned) return best_fit(skin, rest, axes, scan, hint).pose;
+  ShapeFit start;
+  start.pose = pose_of_faces(*face, *scanned);
+  return fit_shape(skin, {rest, {}}, scan, {}, start, {.reach_mm = {25, 20, 16, 12}, .steps = 4})
+      .pose;
 }
 
-std::optional<ScanBearing> better_bearing(const SkinMesh& skin, const Positions& rest,
-                                          const HeadAxes& axes, const ScanSurface& scan,
-                                          const PoseHint& said) {
-  constexpr double kClearly = 0.7;
-  double least = kClearly * best_fit(skin, rest, axes, scan, said, {0.0}).residual;
-  std::optional<ScanBearing> better;
-  for (const int up : {0, 1, 2}) {
-    for (const int front : {0, 1, 2}) {
-      for (const int signs : {0, 1, 2, 3}) {
-        if (up == front) continue;
-        const ScanBearing bearing{{up, signs % 2 == 0 ? 1 : -1}, {front, signs / 2 == 0 ? 1 : -1}};
-        const PoseHint hint{unit_vector(bearing.up), unit_vector(bearing.front)};
-        const double residual = best_fit(skin, rest, axes, scan, hint, {0.0}).residual;
-        if (residual >= least) continue;
-        least = residual;
-        better = bearing;
-      }
-    }
-  }
-  return better;
+Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_scan) {
+  Similarity pose;
+  pose.scale = of_scan.scale / of_template.scale;
+  pose.rotation = frame_of(of_scan.axes.up, of_scan.axes.front) *
+                  frame_of(of_template.axes.up, of_template.axes.front).transpose();
+  pose.translation = of_scan.between - pose.scale * (pose.rotation * of_template.between);
+  return pose;
 }
 
 }  // namespace crowdface

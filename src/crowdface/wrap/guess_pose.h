@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "crowdface/core/units.h"
+#include "crowdface/paint/face_relief.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/wrap/scan_surface.h"
 #include "crowdface/wrap/skin_mesh.h"
@@ -15,17 +15,18 @@ struct PoseHint {
   Eigen::Vector3d up, front;
 };
 
-/// The similarity from a template to a scan of which only that much is known: of several sizes and
-/// places the one from which closest points come nearest.
+/// The similarity from a template to a scan without landmarks. If a face is found on both by its relief, the faces are laid
+/// on each other and closest points do the rest; otherwise tops of heads are, in several sizes and places, and the pose is the
+/// one from which closest points come nearest.
+/// \param rest     of the skin, in millimetres
+/// \param face     of the template's skin, found by its relief
+/// \param scanned  of the scan
 Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
-                      const ScanSurface& scan, const PoseHint& hint);
+                      const ScanSurface& scan, const PoseHint& hint,
+                      const std::optional<ReliefMatch>& face,
+                      const std::optional<ReliefMatch>& scanned);
 
-/// The axes along which a scan stands that fits clearly better than the one that was said; nothing if none does.
-struct ScanBearing {
-  Axis up, front;
-};
-std::optional<ScanBearing> better_bearing(const SkinMesh& skin, const Positions& rest,
-                                          const HeadAxes& axes, const ScanSurface& scan,
-                                          const PoseHint& said);
+/// The similarity that lays the face found on a template on the face found on a scan.
+Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_scan);
 
 }  // namespace crowdface

@@ -71,54 +71,6 @@ std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
   return text;
 }
 
-/// How far the tip of the nose stands out beyond the cheeks beside it, mm; nothing where the template has no nose.
-std::optional<double> nose_length(const WrapTemplate& shape, const SkinRegions& regions,
-                                  const Positions& positions) {
-  constexpr double kNearestMm = 20, kFarthestMm = 45;  // of cheeks, to the side
-  constexpr std::size_t kFewest = 4;
-  const auto& skin = shape.skin.vertices;
-  const auto of_rest = [&](std::uint32_t v) { return row3(shape.positions, skin[v]); };
-  std::uint32_t tip = kNoIndex;
-  for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
-    if (!regions.is(v, "nose")) continue;
-    if (tip == kNoIndex || of_rest(v).dot(shape.axes.front) > of_rest(tip).dot(shape.axes.front)) {
-      tip = v;
-    }
-  }
-  if (tip == kNoIndex) return std::nullopt;
-  const Eigen::Vector3d normal_side = shape.axes.side();
-  std::vector<double> cheeks;
-  for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
-    const Eigen::Vector3d from_tip = of_rest(v) - of_rest(tip);
-    const double aside = std::abs(from_tip.dot(normal_side));
-    if (!regions.is(v, "nose") || aside < kNearestMm || aside > kFarthestMm ||
-        std::abs(from_tip.dot(shape.axes.up)) > kNearestMm ||
-        from_tip.dot(shape.axes.front) < -2 * kFarthestMm) {
-      continue;
-    }
-    cheeks.push_back(row3(positions, skin[v]).dot(shape.axes.front));
-  }
-  if (cheeks.size() < kFewest) return std::nullopt;
-  return row3(positions, skin[tip]).dot(shape.axes.front) - percentile(cheeks, 0.5);
-}
-
-/// Whether a place that nobody picked has a nose where the template has one.
-void refuse_face_without_nose(const WrapTemplate& shape, const WrapResult& result,
-                              const SkinRegions& regions) {
-  constexpr double kLeastShare = 0.4;
-  const bool is_picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape) >=
-                         static_cast<std::ptrdiff_t>(kFewestLandmarks);
-  if (is_picked) return;
-  const auto before = nose_length(shape, regions, shape.positions),
-             after = nose_length(shape, regions, result.positions);
-  if (!before || !after || *after >= kLeastShare * *before) return;
-  throw InvalidInput(
-      concat("no face is found where the template has it: the nose would stand out by ",
-             format_fixed(*after, 1), " mm, the template's by ", format_fixed(*before, 1),
-             "; pick four landmarks or more (crowdface wrap --pick), or see whether --scan-up and "
-             "--scan-front are right"));
-}
-
 nlohmann::ordered_json rounded(double value) {
   return nlohmann::ordered_json::parse(format_fixed(value, 3));
 }
@@ -127,6 +79,8 @@ nlohmann::ordered_json spread_json(const std::vector<double>& values) {
   return {{"median", rounded(percentile(values, 0.5))},
           {"95 %", rounded(percentile(values, 0.95))}};
 }
+
+constexpr double kMostFaceOffMm = 25;
 
 constexpr int kSidePx = 320;
 constexpr double kScaleEndMm = 2;  // where the heat map's scale ends
@@ -197,6 +151,13 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
     warnings.push_back(concat("the scan shows nothing of ", format_fixed(100 * lacking, 0),
                               " % of the skin, which is guessed"));
   }
+  const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
+  if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kFewestLandmarks)) {
+    warnings.push_back(
+        "no part of the scan, or of the template, has the relief of a face, so nothing says that "
+        "the face lies where it "
+        "should: look at the picture, or pick four landmarks or more");
+  }
   if (result.flipped > 0) {
     warnings.push_back(concat(result.flipped, " triangles are turned over"));
   }
@@ -231,7 +192,12 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                                                        : ": check the landmarks, pick more of them",
                               ", or leave out with --ignore what the scan does not show as skin"));
   }
-  refuse_face_without_nose(shape, result, regions);
+  if (result.face_off_mm && *result.face_off_mm > kMostFaceOffMm) {
+    throw InvalidInput(
+        concat("the template's face came to lie ", format_fixed(*result.face_off_mm, 0),
+               " mm from the face that the scan shows: pick four landmarks or more (crowdface wrap "
+               "--pick), or see whether --scan-up and --scan-front are right"));
+  }
 }
 
 std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,

@@ -17,21 +17,10 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   const Positions samples = sample_skin(topology_of(scan.triangles, scan.positions.rows()),
                                         scan.positions, all, kSkinSamples);
   auto match = match_relief(samples, axes, {});
-  if (match && match->votes < kLeastVotes) match.reset();
+  if (match && (match->votes < kLeastVotes || (hint && match->degrees_off > kMostDegreesOff))) {
+    match.reset();
+  }
   return match;
-}
-
-Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_scan) {
-  const auto frame = [](const HeadAxes& axes) {
-    Eigen::Matrix3d columns;
-    columns << axes.side(), axes.up, axes.front;
-    return columns;
-  };
-  Similarity pose;
-  pose.scale = of_scan.scale / of_template.scale;
-  pose.rotation = frame(of_scan.axes) * frame(of_template.axes).transpose();
-  pose.translation = of_scan.between - pose.scale * (pose.rotation * of_template.between);
-  return pose;
 }
 
 }  // namespace crowdface

@@ -16,6 +16,7 @@
 #include "crowdface/wrap/centred_scan.h"
 #include "crowdface/wrap/detail.h"
 #include "crowdface/wrap/mirrored_landmarks.h"
+#include "crowdface/wrap/scan_face.h"
 #include "crowdface/wrap/shape_regression.h"
 #include "crowdface/wrap/unfold.h"
 
@@ -111,7 +112,7 @@ Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel*
 
 Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTemplate& shape,
                       const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
-                      const std::optional<PoseHint>& hint) {
+                      const std::optional<PoseHint>& hint, const std::optional<ReliefMatch>& face) {
   if (landmarks.size() >= kFewestLandmarks) {
     refuse_mirrored_landmarks(rest, landmarks);
     return pose_of_landmarks(rest, landmarks);
@@ -122,7 +123,8 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
                               "(--scan-up, --scan-front), found ",
                               landmarks.size(), " landmarks"));
   }
-  return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint);
+  return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint,
+                    shape.face, face);
 }
 
 void refuse_no_pose(const Similarity& pose) {
@@ -154,13 +156,16 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
   std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
   const Positions rest = skin.of(shape.positions);
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
+  std::optional<ReliefMatch> face;  // of the scan
+  if (picked < static_cast<std::ptrdiff_t>(kFewestLandmarks)) face = find_scan_face(scan, hint);
   WrapResult result;
   ShapeFit fit;
   std::optional<Small> small;
   const ShapeModel* used = nullptr;
   {
     const ScanSurface surface(scan);
-    fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint);
+    fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint, face);
     if (shape.reduced) small = reduce(shape, rest, model, landmarks, fit.pose);
     const auto& marks = small ? small->landmarks : landmarks;
     const ShapeModel alone{small ? small->rest : rest, {}};
@@ -202,6 +207,11 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   result.flipped = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
+  if (face && shape.face) {
+    Index between = 0;
+    (rest.rowwise() - shape.face->between.transpose()).rowwise().squaredNorm().minCoeff(&between);
+    result.face_off_mm = (row3(wrapped, between) - carried(back, face->between)).norm();
+  }
 
   result.positions = shape.positions;
   for (Index v = 0; v < wrapped.rows(); ++v) {

@@ -30,6 +30,9 @@ struct WrapResult {
   Eigen::VectorXd distance_mm;     ///< #skin: from the wrapped skin to the scan
   std::vector<bool> without_data;  ///< #skin: nothing of the scan is near, or only its rim
   Index flipped = 0;               ///< triangles of the skin
+  /// How far the template's place between the eyes ends from that of the face which the scan's relief shows, mm; nothing
+  /// if no such face is found on one of them, or enough landmarks were picked.
+  std::optional<double> face_off_mm;
 };
 
 /// The model of whole heads at the rows of the template that are skin; where the template is nearly its own

@@ -7,6 +7,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/wrap/scan.h"
+#include "crowdface/wrap/scan_face.h"
 
 namespace crowdface {
 namespace {
@@ -33,7 +34,7 @@ void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
 
 WrapTemplate make_template(const Topology& topology, const Positions& positions,
                            const HeadAxes& axes, const TemplateOptions& options) {
-  WrapTemplate result{topology, build_adjacency(topology), {}, {}, axes, positions, {}, {}};
+  WrapTemplate result{topology, build_adjacency(topology), {}, {}, axes, positions, {}, {}, {}};
   result.components = find_components(result.adjacency);
   result.parts = find_parts(topology, result.adjacency, result.components, positions, {}, axes);
   const Components joined = join_skin(result.components, result.parts);
@@ -52,6 +53,8 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
   result.skin.adjacency =
       build_adjacency(topology_of(result.skin.triangles, result.skin.vertex_count()));
   find_openness(options, result);
+  result.face = find_scan_face({result.skin.of(positions), result.skin.triangles},
+                               PoseHint{.up = axes.up, .front = axes.front});
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "crowdface/paint/face_relief.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/wrap/reduced_skin.h"
@@ -19,6 +20,7 @@ struct WrapTemplate {
   HeadAxes axes;
   Positions positions;  ///< #V by 3, in millimetres
   SkinMesh skin;
+  std::optional<ReliefMatch> face;     ///< of the skin; nothing if its relief is not a face's
   std::optional<ReducedSkin> reduced;  ///< what a skin of many vertices is bent by
 };
 
