@@ -11,7 +11,8 @@ namespace crowdface {
 namespace {
 
 FaceSpace::Point place_at(float x, float y) {
-  const Eigen::VectorXf point = Eigen::Vector2f(x, y);
+  Eigen::VectorXf point(2);
+  point << x, y;
   return {point, point};
 }
 

@@ -16,9 +16,9 @@ struct CornerWords {
   std::array<std::string_view, 3> words;
   explicit CornerWords(std::string_view corner) {
     for (std::string_view& word : words) {
-      const std::size_t end = std::min(corner.find('/'), corner.size());
-      word = corner.substr(0, end);
-      corner.remove_prefix(std::min(end + 1, corner.size()));
+      const auto slash = std::ranges::find(corner, '/');
+      word = {corner.begin(), slash};
+      corner = {slash == corner.end() ? slash : slash + 1, corner.end()};
     }
   }
 };

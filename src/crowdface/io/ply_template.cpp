@@ -42,7 +42,7 @@ PlyTemplate::PlyTemplate(const Topology& topology)
       throw InvalidInput(concat("PLY: expected faces of at most 255 corners, found one of ",
                                 face.size(), ", face ", f + 1));
     }
-    append_number(faces_, static_cast<std::uint8_t>(face.size()));
+    faces_.push_back(static_cast<char>(face.size()));
     for (const std::uint32_t vertex : face) append_number(faces_, vertex);
   }
 }

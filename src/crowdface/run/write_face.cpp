@@ -32,8 +32,9 @@ void write_attachment_materials(const Job& job, const CastFace& face, const fs::
 
 void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file) {
-  const std::vector<MeshFormat> formats = {format};
-  const FaceEncoders encoders(job.config, job.inputs, formats, {&face, 1});
+  const std::vector<MeshFormat> formats(1, format);
+  const FaceEncoders encoders(job.config, job.inputs, std::vector<MeshFormat>(1, format),
+                              {&face, 1});
   const FaceAttachments attachments(job.config, job.inputs, {&face, 1});
   const FaceShapes shapes(job.config, job.inputs);
   FinishedFace finished(face, positions);
