@@ -11,8 +11,9 @@ namespace crowdface {
 namespace {
 
 FaceSpace::Point place_at(float x, float y) {
-  Eigen::VectorXf point(2);
-  point << x, y;
+  Eigen::VectorXf point = Eigen::VectorXf::Zero(2);
+  point[0] = x;
+  point[1] = y;
   return {point, point};
 }
 

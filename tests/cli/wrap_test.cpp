@@ -84,7 +84,20 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   const auto with = [&](const char* name, const std::string& text) {
     return single(folder_.write(name, text), out);
   };
-  crowdface(65, with("few.yaml", "template: {a: 1, b: 2}\nscan: {a: 1, b: 2}\n"),
+  std::string sheet;  // a bent sheet, which has no face
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 20; ++k) sheet += concat("v ", i, " ", k, " ", 0.01 * i * i, "\n");
+  }
+  for (int i = 0; i < 19; ++i) {
+    for (int k = 1; k < 20; ++k) {
+      const int a = 20 * i + k;
+      sheet += concat("f ", a, " ", a + 1, " ", a + 21, " ", a + 20, "\n");
+    }
+  }
+  crowdface(65,
+            {"wrap", head(1).string(), folder_.write("sheet.obj", sheet).string(), "--landmarks",
+             folder_.write("few.yaml", "template: {a: 1, b: 2}\nscan: {a: 1, b: 2}\n").string(),
+             "-o", out.string()},
             {"at least 4", "--scan-up", "found 2"});
   crowdface(64, with("beyond.yaml", "template:\n  a: 99999999\nscan: {a: 1}\n"),
             {"beyond.yaml:2:6", "vertex of the template", "99999999"});
@@ -98,6 +111,13 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   units.insert(units.end(), {"--scan-units", "furlong"});
   crowdface(64, units, {"furlong", "mm, cm, m, in, or a length"});
   EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(Wrap, AFaceThatTheReliefShowsNeedsNoLandmarks) {
+  const fs::path out = folder_ / "head.obj";
+  const auto run = crowdface(0, {"wrap", head(1).string(), head(2).string(), "-o", out.string()});
+  EXPECT_THAT(run.err, ::testing::HasSubstr("a face that looks along +Z with +Y up"));
+  EXPECT_TRUE(fs::exists(out));
 }
 
 // The heads of a model, scans and template were replaced without a word.
