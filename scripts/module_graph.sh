@@ -39,8 +39,8 @@ paint 4
 shapes 4
 attach 4
 blend 4
-wrap 4
 cast 5
+wrap 5
 texture 5
 config 6
 crowd 6
