@@ -49,15 +49,21 @@ constexpr std::array<std::array<double, kHalfColumns>, kRows> kMeanRelief = {{
 
 using Cells = std::array<double, kCells>;
 
+int column_of(int cell) {
+  return cell % kColumns - (kHalfColumns - 1);
+}  ///< 0 in the middle
+int row_of(int cell) {
+  return cell / kColumns;
+}
 double across_mm(int cell) {
-  return kSpacingMm * (cell % kColumns - (kHalfColumns - 1));
+  return kSpacingMm * column_of(cell);
 }
 double height_mm(int cell) {
-  return kTopMm - kSpacingMm * (cell / kColumns);
+  return kTopMm - kSpacingMm * row_of(cell);
 }
 double relief_mm(int cell) {
-  return kMeanRelief[static_cast<std::size_t>(cell / kColumns)]
-                    [static_cast<std::size_t>(std::abs(cell % kColumns - (kHalfColumns - 1)))];
+  return kMeanRelief[static_cast<std::size_t>(row_of(cell))]
+                    [static_cast<std::size_t>(std::abs(column_of(cell)))];
 }
 
 /// How depths compare with the mean face.
@@ -97,16 +103,15 @@ const std::array<Coefficients, kCells>& terms_of_cells() {
 ReliefFit fit_cells(const Cells& depths, std::array<bool, kCells>& used, Coefficients& by) {
   constexpr double kFewest = 0.72 * kCells, kFlatMm = 0.05;
   const auto& terms = terms_of_cells();
+  const auto count = static_cast<double>(std::ranges::count(used, true));
+  if (count < kFewest) return {};
   Products products = Products::Zero();
-  int count = 0;
   for (std::size_t c = 0; c < kCells; ++c) {
     if (!used[c]) continue;
-    ++count;
     Eigen::Matrix<double, kTerms + 1, 1> row;
     row << terms[c], depths[c];
     products.selfadjointView<Eigen::Lower>().rankUpdate(row);
   }
-  if (count < kFewest) return {};
   const Eigen::LLT<Products> factor(products.selfadjointView<Eigen::Lower>());
   const Products lower = factor.matrixL();
   const double explained = lower(kTerms, kTerms - 1), left = lower(kTerms, kTerms);
@@ -279,9 +284,14 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   const DepthMap map(samples, axes, diagonal_of(samples) / kSquares);
   const Eigen::AlignedBox2d& box = map.box();
   const double breadth = box.sizes().x();
-  Candidate best;
+  std::vector<Candidate> of_scale;
   for (double scale = kLeastShare * breadth / kReliefMm; scale < kMostShare * breadth / kReliefMm;
        scale *= grow) {
+    of_scale.emplace_back().scale = scale;
+  }
+  parallel_for_each(of_scale.size(), [&](std::size_t k) {
+    Candidate& best = of_scale[k];
+    const double scale = best.scale;
     const double top = box.max().y() - 0.5 * kTopMm * scale, low = box.min().y() + kTopMm * scale;
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
@@ -294,8 +304,9 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
         if (votes > best.votes) best = {across, height, scale, 1, fit, votes};
       }
     }
-  }
-  return best;
+  });
+  if (of_scale.empty()) return {};
+  return *std::ranges::max_element(of_scale, {}, &Candidate::votes);
 }
 
 ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
@@ -315,10 +326,16 @@ ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
 class Refinement {
  public:
   Refinement(const Positions& samples, const ReliefMatch& first) : best_(first) {
-    constexpr double kAroundMm = 150;
+    constexpr double kAroundMm = 110, kBehindMm = 80;
+    constexpr std::size_t kMost = 20'000;
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
-      if ((row3(samples, i) - first.between).norm() < kAroundMm * first.scale) near.push_back(i);
+      const Eigen::Vector3d off = (row3(samples, i) - first.between) / first.scale;
+      if (off.norm() < kAroundMm && off.dot(first.axes.front) > -kBehindMm) near.push_back(i);
+    }
+    if (const std::size_t step = near.size() / kMost; step > 1) {
+      for (std::size_t i = 0; i * step < near.size(); ++i) near[i] = near[i * step];
+      near.resize(near.size() / step);
     }
     near_ = samples(near, Eigen::all);
     square_ = kSquareMm * first.scale;
@@ -380,15 +397,18 @@ class Refinement {
   }
 
   void try_match(const ReliefMatch& match) {
-    DepthMap map(near_, match.axes, square_);
-    map.soften();
+    if (!map_ || match.axes.front != map_axes_.front || match.axes.up != map_axes_.up) {
+      map_.emplace(near_, match.axes, square_).soften();
+      map_axes_ = match.axes;
+    }
     Candidate candidate{match.between.dot(match.axes.side()),
                         match.between.dot(match.axes.up),
                         match.scale,
                         match.stretch,
                         {},
                         0};
-    candidate.fit = map.fit(candidate.across, candidate.height, candidate.scale, candidate.stretch);
+    candidate.fit =
+        map_->fit(candidate.across, candidate.height, candidate.scale, candidate.stretch);
     const bool is_likely = std::abs(std::log(match.stretch)) < kMostStretch;
     if (is_likely && candidate.fit.agreement > best_.agreement) {
       best_ = match_of(candidate, match.axes);
@@ -397,6 +417,8 @@ class Refinement {
   }
 
   Positions near_;
+  std::optional<DepthMap> map_;  ///< along map_axes_
+  HeadAxes map_axes_;
   double square_ = 1, slope_up_ = 0;
   ReliefMatch best_;
 };
@@ -487,7 +509,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  ReliefMatch match = search(all_axes, 1);
+  // Each run looks along one way, where a face nearly always stands; wide steps find it, and the turned views follow if not.
+  const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
+  ReliefMatch match = search(all_axes, coarseness);
   if (match.votes < kLeastVotes || match.degrees_off > kTurn) {
     const ReliefMatch other = search(others, kCoarser);
     if (other.votes > match.votes) match = other;
