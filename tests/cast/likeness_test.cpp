@@ -11,10 +11,7 @@ namespace crowdface {
 namespace {
 
 FaceSpace::Point place_at(float x, float y) {
-  Eigen::VectorXf point = Eigen::VectorXf::Zero(2);
-  point[0] = x;
-  point[1] = y;
-  return {point, point};
+  return {Eigen::Vector2f(x, y), Eigen::Vector2f(x, y)};
 }
 
 std::vector<FaceSpace::Point> random_places(std::uint64_t count) {

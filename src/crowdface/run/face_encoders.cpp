@@ -20,7 +20,7 @@ std::size_t normals_bytes(const Topology& topology) {
          sizeof(double);
 }
 
-std::string in_shape(std::string what, const Inputs& inputs, ShapeNumber shape) {
+std::string in_shape(const std::string& what, const Inputs& inputs, ShapeNumber shape) {
   return shape ? concat(what, ", ", inputs.shapes.shapes[*shape].name) : what;
 }
 
