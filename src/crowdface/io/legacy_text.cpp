@@ -11,6 +11,7 @@ namespace {
 /// Empty if the bytes are no text of that encoding.
 std::string converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = ::iconv_open("UTF-8", encoding);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open says -1 for failure
   if (converter == reinterpret_cast<iconv_t>(-1)) return {};
   constexpr std::size_t kMostPerByte = 4;
   std::string in(bytes), out(kMostPerByte * bytes.size(), '\0');
