@@ -137,11 +137,6 @@ TEST_F(Geometry, HeadsThatAreNotOneMeshAreRefusedWithTheirFirstDifference) {
       {"the first face flipped", [](ObjText& obj) { obj.face(0) = flipped(obj.face(0)); }, face(0)},
       {"the last face flipped", [last](ObjText& obj) { obj.face(last) = flipped(obj.face(last)); },
        face(last)},
-      {"all faces flipped",
-       [](ObjText& obj) {
-         for (std::size_t f = 0; f < obj.faces(); ++f) obj.face(f) = flipped(obj.face(f));
-       },
-       face(0)},
       {"a quad as two triangles",
        [](ObjText& obj) {
          const auto corners = words_of(obj.face(0));

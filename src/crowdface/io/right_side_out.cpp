@@ -45,13 +45,13 @@ std::string with_turned_faces(std::string_view text) {
 }  // namespace
 
 void turn_right_side_out(FileMesh& mesh) {
-  if (mesh.topology.face_count() == 0 || winding(mesh.topology, mesh.positions) > 0) return;
+  if (!is_inside_out(mesh.topology, mesh.positions)) return;
   turn_faces(mesh.topology);
   mesh.notes.emplace_back(kTurned);
 }
 
 ObjFile right_side_out(ObjFile file) {
-  if (winding(file.topology, file.positions) > 0) return file;
+  if (!is_inside_out(file.topology, file.positions)) return file;
   MappedFile text = MappedFile::of_text(with_turned_faces(file.file.bytes()));
   const ObjOutline outline = outline_obj(text.bytes());
   ObjFile turned = read_obj(file.path, std::move(text), outline);

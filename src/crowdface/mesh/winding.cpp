@@ -11,11 +11,9 @@ namespace {
 
 constexpr Index kFacesPerBlock = 4096;
 
-}  // namespace
-
-float winding(const Topology& topology, const Positions& positions) {
-  const Positions areas = face_area_vectors(topology, positions);
-  const Eigen::RowVector3d middle = positions.colwise().mean();
+/// Flux of the offset from a middle through all faces, as a part of what it would be if all faces looked away from there.
+double outward_share(const Topology& topology, const Positions& positions, const Positions& areas,
+                     const Eigen::RowVector3d& middle) {
   const auto sum = [&](auto&& term) {
     return parallel_sum(topology.face_count(), kFacesPerBlock, [&](Index begin, Index end) {
       double total = 0;
@@ -30,7 +28,32 @@ float winding(const Topology& topology, const Positions& positions) {
   const double outward = sum([](const auto& area, auto& reach) { return area.dot(reach); });
   const double total =
       sum([](const auto& area, auto& reach) { return area.norm() * reach.norm(); });
-  return outward < -0.05 * total ? -1.0F : 1.0F;
+  return total > 0 ? outward / total : 0;
+}
+
+}  // namespace
+
+float winding(const Topology& topology, const Positions& positions) {
+  constexpr double kClearly = 0.05;
+  const Positions areas = face_area_vectors(topology, positions);
+  return outward_share(topology, positions, areas, positions.colwise().mean()) < -kClearly ? -1.0F
+                                                                                           : 1.0F;
+}
+
+bool is_inside_out(const Topology& topology, const Positions& positions) {
+  constexpr double kClearly = 0.2;  // a sphere has 1, an open mask of a face some 0.3
+  constexpr double kFlat = 0.8;     // of the area that all faces of a sheet show one side
+  const Positions areas = face_area_vectors(topology, positions);
+  Eigen::RowVector3d middle(0, 0, 0);
+  double weight = 0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const double area = areas.row(f).norm();
+    if (topology.face(f).empty() || !(area > 0)) continue;
+    middle += area * positions.row(topology.face(f)[0]);
+    weight += area;
+  }
+  if (!(areas.colwise().sum().norm() < kFlat * weight)) return false;
+  return outward_share(topology, positions, areas, middle / weight) < -kClearly;
 }
 
 void turn_faces(Topology& topology) {
