@@ -206,9 +206,9 @@ std::vector<std::string> names_of_channel(const std::string& name) {
 }
 
 bool is_colour_name(const std::string& name) {
-  static const std::set<std::string> kColours = {"r",   "g",     "b",    "a", "y", "l",
-                                                 "red", "green", "blue", "z", "x", "value"};
-  return kColours.contains(lower_case(name));
+  static const std::set<std::string> colours = {"r",   "g",     "b",    "a", "y", "l",
+                                                "red", "green", "blue", "z", "x", "value"};
+  return colours.contains(lower_case(name));
 }
 
 /// Channels that are called like regions, in the regions' order; nothing if none is.
