@@ -99,7 +99,7 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 }
 
 /// Those of the files, or where they are too few, and it is known how the scan stands, those that shapes tell as well.
-/// \param hint  set if nobody said how the scan stands, and its relief shows a face
+/// \param hint  how the scan stands. If it is empty and the scan's relief shows a face, it is set to the axes of that face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -163,7 +163,8 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
   return result;
 }
 
-/// What a refusal says if the scan seems to stand otherwise than it was said.
+/// The end of a refusal if the scan's relief shows a face that looks along other axes than --scan-up and --scan-front say;
+/// empty if not.
 std::string other_bearing(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// Any order but this one gives other last digits for some of these vectors.
+/// Adds from left to right. Other orders give other last digits for some of the vectors below.
 double left_to_right(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }

@@ -153,7 +153,7 @@ std::vector<Changed> changes_of(const FaceSet& faces, const HeadShape& head) {
   return all;
 }
 
-/// Whoever cuts the mesh otherwise, or turns it, finds the same face within 3 mm.
+/// Expects the same marks within 3 mm on each changed copy of the head.
 void expect_marks_of(const FaceSet& faces, const HeadShape& head) {
   const auto before = find_face_marks(faces.topology, {head.positions, head.skin, {}}, {});
   ASSERT_TRUE(before);

@@ -21,7 +21,7 @@ struct TableColumn {
 };
 using TableColumns = std::vector<TableColumn>;
 
-/// A field: between quotes if it needs them.
+/// A CSV field, quoted if it holds a comma, a quote or a line break (RFC 4180).
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string out = "\"";

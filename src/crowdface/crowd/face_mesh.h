@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// The positions of a face of this crowd, from the first of its formats that can be read back.
+/// Reads the vertex positions of a face from the first of the crowd's mesh formats that can be read back.
 /// \throws MissingInput if there is no such format or the file is not there; InvalidInput if it is not
 ///         one of this crowd.
 Positions read_face(const CrowdDirectory& directory, const std::string& id,

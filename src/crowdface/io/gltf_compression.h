@@ -14,7 +14,8 @@ struct MeshoptView {
   std::size_t count = 0, stride = 0;
   std::string mode, filter;
 };
-/// The uncompressed bytes; nothing if they are damaged, or claim more than they can hold.
+/// Decompresses a meshopt buffer view.
+/// \return nothing if the data are damaged or the view declares a larger size than the data can expand to
 std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptView& view);
 
 /// A mesh of Draco: triangles, and attributes by their ids, row after row.

@@ -42,7 +42,7 @@ class GltfFile {
 
  private:
   std::string_view buffer(std::size_t number);
-  /// Takes `count` rows of `width` numbers out of a view.
+  /// Reads `count` rows of `width` numbers from buffer view `number`.
   std::vector<double> numbers_in(std::size_t number, std::size_t begin, int type, std::size_t count,
                                  std::size_t width, std::size_t accessor);
   void require_room(std::size_t more);

@@ -167,7 +167,7 @@ constexpr double kSlitMm = 11;  ///< an open mouth is hollow over less
 constexpr double kBridgeMm = 5, kTipMm = -34, kMouthMm = -74;
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
 constexpr double kBridgeWayMm = 15, kLipWayMm = 5;  ///< over which bridge and mouth are hollow
-constexpr double kPriorMm = 3;  ///< what a place at the end of its reach is worse by
+constexpr double kPriorMm = 3;                      ///< penalty at the end of the reach
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 // Of the way from eyes to mouth, some 65 mm.
 constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
@@ -184,7 +184,7 @@ FaceMarks marks_of(const Topology& topology, const HeadShape& head, const Relief
   if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
   const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle, mm);
   const Outline closed = outline.without_slits(kSlitMm * mm);
-  // Within reach of where the mean relief has it, and the less likely the farther from there: shallow hollows are noise.
+  // A quadratic penalty keeps each feature near its height on the mean face, because shallow hollows may be noise.
   const auto best_near = [&](double expected, double reach, const auto& measure) {
     const double middle = eyes + expected * match.stretch * mm;
     return outline.best(middle - reach * mm, middle + reach * mm, [&](double h) {

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// Where the features of a face lie: heights along axes.up, in the unit of the positions.
 struct FaceMarks {
-  HeadAxes axes;  ///< how the face stands: the axes it was searched along, or turned if the face is
+  HeadAxes axes;          ///< the face's own axes, see ReliefMatch
   double middle = 0;      ///< between the halves of the face, along axes.side()
   double bridge = 0;      ///< of the nose, where it is deepest, between the eyes
   double tip = 0;         ///< of the nose

@@ -509,7 +509,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  // Each run looks along one way, where a face nearly always stands; wide steps find it, and the turned views follow if not.
+  // One pair of axes is the case of every run, so it must be fast: wide steps nearly always find the face, and the turned
+  // views follow if they do not.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.votes < kLeastVotes || match.degrees_off > kTurn) {

@@ -24,17 +24,17 @@ struct ReliefMatch {
   double agreement = -1;
   /// The agreement, and 0.15 more or less if eyeballs are known and lie where this face has its eyes, or do not.
   double votes = -1;
-  std::size_t view = 0;    ///< which of the axes asked for the face stands along most nearly
-  double degrees_off = 0;  ///< by which the face is turned from them
-  HeadAxes axes;  ///< how the face stands: these, or turned from them by more than some degrees
+  std::size_t view = 0;     ///< index of the requested axes nearest to the face's own
+  double degrees_off = 0;   ///< angle between these axes and the face's own
+  HeadAxes axes;            ///< the face's own; the requested ones if they differ by less than 5°
   Eigen::Vector3d between;  ///< the point of the surface between the eyes
   double scale = 1;         ///< units of the positions per millimetre of the mean face, across
   double stretch = 1;       ///< up, as a multiple of scale
 };
 
-/// Votes that a face has at least.
+/// A match with fewer votes is not a face.
 inline constexpr double kLeastVotes = 0.65;
-/// How far a face may be turned from the axes along which it is looked for, degrees.
+/// A match that is turned by more degrees from the requested axes is not accepted as a face along these axes.
 inline constexpr double kMostDegreesOff = 45;
 
 /// Searches the surface for the relief of a face (nose, eye sockets, mouth and chin; normalised cross-correlation with

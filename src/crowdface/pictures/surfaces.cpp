@@ -18,7 +18,7 @@ template <class Value>
 double covered(const Image& image, const Topology& topology, const TextureCoordinates& uvs,
                const std::vector<Index>& faces, const Value& value) {
   constexpr std::size_t kSamples = 4096, kFewest = 4;
-  // Steps of a sequence that fills the plane evenly (Roberts 2018): a card's strands may lie in any rhythm.
+  // Low-discrepancy sequence (Roberts 2018). A regular grid of samples could coincide with the pattern of a card's strands.
   constexpr double kAlong = 0.7548776662466927, kAcross = 0.5698402909980532;
   const std::size_t each = std::max(kFewest, kSamples / std::max<std::size_t>(1, faces.size()));
   double sum = 0;

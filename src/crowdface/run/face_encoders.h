@@ -40,7 +40,7 @@ struct FinishedFace {
   std::vector<Index> crossing;       ///< see FaceShapes::of_face
   std::vector<WornAttachment> worn;
   ColourRows colours;  ///< #V; no rows: it has none at vertices
-  /// Its own pictures in their files' bytes; none if no file has them.
+  /// The face's own textures, encoded as image files; empty if no output file uses them.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
   std::optional<FacePictures> pictures;  ///< none: it is not shown
 
@@ -77,8 +77,8 @@ class FaceEncoders {
   bool holds_textures() const { return own_ && !formats_.empty(); }
   const OwnTextures& textures() const { return *own_; }
 
-  /// Finds what the files of a face have in common: the face on each level of detail. The face must stay where
-  /// it is.
+  /// Computes what all files of a face share: the face at each level of detail. The results refer to `face`, which must
+  /// not move in memory afterwards.
   void prepare(FinishedFace& face) const;
 
   // Of a prepared face:

@@ -38,7 +38,7 @@ struct MeshFileOptions {
   std::string stem;              ///< what their names begin with
   bool all = true;  ///< not only the whole mesh at rest: levels of detail, shapes and points
 };
-/// The meshes, what the face wears, its textures and its material file.
+/// All mesh files of a face, with the files of its attachments, its textures and its material.
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const CastFace& face,
                                  const MeshFileOptions& options);
 

@@ -28,7 +28,7 @@ std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) 
                      }};
 }
 
-/// The eyes' iris, for files that do not bring it along.
+/// The image of the iris as a file of its own, for mesh formats that do not embed it.
 std::optional<SharedFiles> iris_file(const Config& config, const Inputs& inputs) {
   const GlbOptions options = glb_options(config, inputs);
   if (!options.overlay) return std::nullopt;

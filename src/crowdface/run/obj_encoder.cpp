@@ -45,7 +45,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
   return line;
 }
 
-/// What several forms take, and what the largest takes to encode.
+/// Memory of all forms together, and the most that encoding one of them takes, bytes.
 template <class Forms, class FormOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
   std::size_t memory = 0, encode = 0;
