@@ -176,7 +176,6 @@ constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
 FaceMarks marks_of(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
   FaceMarks marks;
   marks.axes = match.axes;
-  marks.agreement = match.agreement;
   const double mm = match.scale, eyes = match.between.dot(match.axes.up);
   // The middle of the skin is more exact, but hair or a cap may move it.
   marks.middle = middle_of(topology, head, marks.axes);

@@ -19,7 +19,6 @@ struct FaceMarks {
   double eyes = 0;        ///< their middles
   double mouth = 0;       ///< between the lips
   double chin = 0;        ///< its lowest point
-  double agreement = 0;   ///< of the face's relief with a mean face, see ReliefMatch
   double chin_front = 0;  ///< how far in front the chin is, along axes.front
   /// From mouth to eyes, some 65 mm: what other lengths are measured by.
   double face() const { return eyes - mouth; }

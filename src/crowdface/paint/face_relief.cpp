@@ -14,6 +14,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/polygon_sample.h"
 
 namespace crowdface {
 namespace {
@@ -440,20 +441,12 @@ Positions sample_skin(const Topology& topology, const Positions& positions,
     passed += area_of(f);
     const auto face = topology.face(f);
     const auto until = static_cast<Index>(passed / area * static_cast<double>(count));
-    const auto corners = static_cast<Index>(face.size());
     for (Index i = made; i < std::min(until, count); ++i) {
-      // Two coordinates of low discrepancy (Roberts 2018), folded into one of the polygon's triangles.
-      double s = std::fmod(0.5 + 0.7548776662466927 * static_cast<double>(i), 1.0);
-      double t = std::fmod(0.5 + 0.5698402909980532 * static_cast<double>(i), 1.0);
-      if (s + t > 1) {
-        s = 1 - s;
-        t = 1 - t;
-      }
-      const Index fan = 1 + (i % (corners - 2));
+      const PolygonSample at = polygon_sample(static_cast<std::size_t>(i), face.size());
       const Eigen::Vector3d a = row3(positions, face[0]);
-      const Eigen::Vector3d b = row3(positions, face[static_cast<std::size_t>(fan)]);
-      const Eigen::Vector3d c = row3(positions, face[static_cast<std::size_t>(fan + 1)]);
-      samples.row(i) = (a + s * (b - a) + t * (c - a)).transpose();
+      const Eigen::Vector3d b = row3(positions, face[at.fan]);
+      const Eigen::Vector3d c = row3(positions, face[at.fan + 1]);
+      samples.row(i) = (a + at.s * (b - a) + at.t * (c - a)).transpose();
     }
     made = std::max(made, std::min(until, count));
   }

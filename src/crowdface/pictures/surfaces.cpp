@@ -8,6 +8,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
+#include "crowdface/mesh/polygon_sample.h"
 
 namespace crowdface {
 namespace {
@@ -18,8 +19,6 @@ template <class Value>
 double covered(const Image& image, const Topology& topology, const TextureCoordinates& uvs,
                const std::vector<Index>& faces, const Value& value) {
   constexpr std::size_t kSamples = 4096, kFewest = 4;
-  // Low-discrepancy sequence (Roberts 2018). A regular grid of samples could coincide with the pattern of a card's strands.
-  constexpr double kAlong = 0.7548776662466927, kAcross = 0.5698402909980532;
   const std::size_t each = std::max(kFewest, kSamples / std::max<std::size_t>(1, faces.size()));
   double sum = 0;
   std::size_t count = 0;
@@ -35,16 +34,10 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
     const auto rows = topology.face_uvs(f);
     if (rows.size() < 3 || std::ranges::find(rows, kNoIndex) != rows.end()) continue;
     for (std::size_t s = 0; s < each; ++s) {
-      const std::size_t triangle = 1 + s % (rows.size() - 2);
-      double along = part(kAlong * static_cast<double>(count)),
-             across = part(kAcross * static_cast<double>(count));
-      if (along + across > 1) {
-        along = 1 - along;
-        across = 1 - across;
-      }
+      const PolygonSample at = polygon_sample(count, rows.size());
       const Eigen::RowVector2d first = uvs.row(rows[0]);
-      sample(first + along * (uvs.row(rows[triangle]) - first) +
-             across * (uvs.row(rows[triangle + 1]) - first));
+      sample(first + at.s * (uvs.row(rows[at.fan]) - first) +
+             at.t * (uvs.row(rows[at.fan + 1]) - first));
     }
   }
   return count == 0 ? 1 : sum / static_cast<double>(count);

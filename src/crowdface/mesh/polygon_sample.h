@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace crowdface {
+
+/// A point of a polygon: corner 0, plus s times the edge to corner `fan`, plus t times the edge to corner `fan` + 1.
+struct PolygonSample {
+  std::size_t fan = 1;
+  double s = 0, t = 0;  ///< not negative; their sum is at most 1
+};
+
+/// Member `number` of a low-discrepancy sequence in the plane (Roberts 2018), folded into one triangle of a polygon.
+/// \param corners  at least three
+inline PolygonSample polygon_sample(std::size_t number, std::size_t corners) {
+  const auto n = static_cast<double>(number);
+  const double s = std::fmod(0.5 + 0.7548776662466927 * n, 1.0);
+  const double t = std::fmod(0.5 + 0.5698402909980532 * n, 1.0);
+  const std::size_t fan = 1 + number % (corners - 2);
+  return s + t > 1 ? PolygonSample{fan, 1 - s, 1 - t} : PolygonSample{fan, s, t};
+}
+
+}  // namespace crowdface
