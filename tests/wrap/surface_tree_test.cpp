@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/surface_tree.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/wrap/scan.h"
+#include "crowdface/wrap/scan_surface.h"
 #include "head_models/synth/synthetic_head.h"
 
 #include "support/meshes.h"
@@ -100,6 +104,39 @@ TEST(SurfaceTree, OnlyTrianglesThatFaceTheRightWayAreFound) {
   EXPECT_NEAR(tree.nearest(inside, 10).point.z(), 1, 1e-12);
   EXPECT_NEAR(tree.nearest_facing(inside, -Eigen::Vector3d::UnitZ(), 0.5, 10).point.z(), -1, 1e-12);
   EXPECT_EQ(tree.nearest_facing(inside, -Eigen::Vector3d::UnitZ(), 0.5, 1).triangle, kNoIndex);
+}
+
+// The shares of a place on an edge are rounded. Above the rim of a scan of a face, the skull was once said to be far from
+// the scan, where the scan has no data.
+TEST(ScanSurface, APlaceOnARimIsToldFromOthersWhateverIsRounded) {
+  constexpr std::uint32_t kSteps = 40, kRows = 3;
+  Scan scan;
+  scan.positions.resize(kRows * (kSteps + 1), 3);
+  for (std::uint32_t i = 0; i <= kSteps; ++i) {
+    const double angle = 0.07 * i;
+    for (std::uint32_t k = 0; k < kRows; ++k) {
+      const std::uint32_t v = kRows * i + k;
+      const double radius = 0.5 + 0.25 * k;
+      scan.positions.row(v) << radius * std::cos(angle), radius * std::sin(angle),
+          0.1 * k * std::sin(9 * angle);
+      if (i == kSteps || k + 1 == kRows) continue;
+      scan.triangles.push_back({v, v + 1, v + kRows});
+      scan.triangles.push_back({v + kRows, v + 1, v + kRows + 1});
+    }
+  }
+  // An edge on the rim may be any side of its triangle.
+  for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
+    Triangle& corners = scan.triangles[t];
+    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(t / 4 % 3),
+                corners.end());
+  }
+  const ScanSurface surface(scan);
+  for (int i = 20; i < 380; ++i) {
+    const double angle = 2.8 * i / 400;
+    const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0);
+    EXPECT_TRUE(surface.nearest(1.7 * direction, 1e300).on_rim) << angle;
+    EXPECT_FALSE(surface.nearest(0.7 * direction, 1e300).on_rim) << angle;
+  }
 }
 
 }  // namespace

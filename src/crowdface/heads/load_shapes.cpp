@@ -157,6 +157,19 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   }
 }
 
+/// A shape that moves no vertex of any head is the neutral, or a shape that a model names and does not have.
+void leave_out_still_shapes(Inputs& inputs) {
+  ShapeSet& set = inputs.shapes;
+  for (std::size_t s = set.shapes.size(); s-- > 0;) {
+    if (!set.shapes[s].moves.vertices.empty()) continue;
+    inputs.warn(concat("the shape ", set.shapes[s].name,
+                       " moves no vertex of any head and is left out: is it the neutral?"));
+    const auto place = static_cast<std::ptrdiff_t>(s);
+    set.shapes.erase(set.shapes.begin() + place);
+    for (auto& of_head : set.of_head) of_head.erase(of_head.begin() + place);
+  }
+}
+
 Digest digest_of_shapes(const ShapeSet& set) {
   Hasher hasher;
   hasher.add_array(numbers_of(set.neutral));
@@ -184,13 +197,7 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
   } else {
     load_heads(source, inputs, problems);
   }
-  for (const Shape& shape : inputs.shapes.shapes) {
-    if (shape.moves.vertices.empty()) {
-      inputs.warn(concat(
-          "the shape ", shape.name,
-          " moves no vertex of any head: is it the neutral? Take its file out of the folder"));
-    }
-  }
+  if (problems.size() == before) leave_out_still_shapes(inputs);
   if (problems.size() == before) inputs.shapes_digest = digest_of_shapes(inputs.shapes);
 }
 

@@ -98,8 +98,11 @@ FileMesh parse_stl(std::string_view bytes, const std::string& name) {
   }
   FileMesh mesh;
   if (!is_exact) {
+    const std::size_t after = bytes.size() - kStlHeader - kStlRecord * count;
     mesh.notes.push_back(
-        concat("it claims ", claimed, " triangles and holds ", room, "; ", count, " are read"));
+        count == claimed
+            ? concat(after, " bytes after its last triangle are not read")
+            : concat("it claims ", claimed, " triangles and holds ", room, ", which are read"));
   }
   mesh.positions.resize(static_cast<Index>(3 * count), 3);
   for (std::size_t t = 0; t < count; ++t) {

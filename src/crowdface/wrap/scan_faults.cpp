@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/wrap/scan_faults.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -98,12 +99,12 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   }
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());
   const double above = median(std::move(out)).value_or(0);
-  // Where the scan ends below the skull nothing stands out.
-  if (above <= kHairMm && (share <= kMostFar || above <= kFarFromScanMm)) return;
-  faults.push_back(concat("the scan seems to show hair: above the brows it stands ",
-                          format_fixed(above, 0), " mm out beyond the template's head, and ",
-                          format_fixed(100 * share, 1), " % of the skin there is more than ",
-                          kFarFromScanMm, " mm off it; leave hair out with --ignore"));
+  if (above <= kHairMm && share <= kMostFar) return;
+  faults.push_back(concat("the scan seems to show hair or a hat: above the brows it stands ",
+                          format_fixed(std::max(above, 0.0), 0),
+                          " mm out beyond the template's head, and ", format_fixed(100 * share, 1),
+                          " % of the skin there is more than ", kFarFromScanMm,
+                          " mm off it; leave that out with --ignore"));
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ namespace {
 /// eyeball has about a hundredth of a head's.
 constexpr double kLeastShare = 0.001;
 
+constexpr double kRounded = 1e-9;  ///< a corner's share of a place on the opposite edge
+
 }  // namespace
 
 ScanSurface::ScanSurface(const Scan& scan)
@@ -31,7 +33,7 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
   bool rim = true;  // all corners that have a share lie on it
   for (std::size_t k = 0; k < 3; ++k) {
     place.normal += hit.shares[k] * normals_.row(corners[k]).transpose();
-    if (hit.shares[k] > 0 && !rim_[corners[k]]) rim = false;
+    if (hit.shares[k] > kRounded && !rim_[corners[k]]) rim = false;
   }
   place.normal = place.normal.normalized();
   place.on_rim = rim;
