@@ -1,9 +1,15 @@
 # Every third-party library, found once. scripts/install_dependencies.sh installs them on Debian.
 find_package(Threads REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Eigen3 REQUIRED NO_MODULE)  # a version here would refuse the next major one: 5 follows 3.4
+if(Eigen3_VERSION VERSION_LESS 3.4)
+  message(FATAL_ERROR "crowdface needs Eigen 3.4 or newer; found ${Eigen3_VERSION} in ${Eigen3_DIR}")
+endif()
 find_package(TBB REQUIRED)
 find_package(tinyobjloader REQUIRED)
 find_package(yaml-cpp REQUIRED)
+if(NOT TARGET yaml-cpp::yaml-cpp)  # until 0.7
+  add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)

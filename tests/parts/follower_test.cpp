@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/all_columns.h"
 
 #include "parts/scene.h"
 
@@ -58,7 +59,7 @@ TEST(PartFollower, ChangesTheSizeOfBothEyeballsAlike) {
   for (const Part& part : scene.parts.parts) {
     if (!part.eyeball) continue;
     const auto extent = [&](const Positions& positions) {
-      const Positions rows = positions(part.vertices, Eigen::all);
+      const Positions rows = positions(part.vertices, kAllColumns);
       return (rows.rowwise() - rows.colwise().mean()).norm();
     };
     growth.push_back(extent(result) / extent(head));

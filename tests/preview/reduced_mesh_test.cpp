@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/require.h"
+#include "crowdface/mesh/all_columns.h"
 
 #include "support/meshes.h"
 
@@ -29,7 +30,7 @@ Positions flat_grid(Index columns, Index rows) {
 
 double area(const ReducedMesh& mesh, const Positions& positions) {
   double sum = 0;
-  const Positions places = positions(mesh.vertices, Eigen::all);
+  const Positions places = positions(mesh.vertices, kAllColumns);
   for (const Triangle& triangle : mesh.triangles) sum += area_vector(places, triangle).norm() / 2;
   return sum;
 }

@@ -8,6 +8,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/pictures/surfaces.h"
 
 namespace crowdface {
@@ -194,7 +195,7 @@ std::vector<CastFace> EditSession::draw(const DrawRequest& request) const {
 
 std::vector<float> EditSession::points(const Positions& face) const {
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> shown =
-      face(preview_.vertices, Eigen::all).cast<float>();
+      face(preview_.vertices, kAllColumns).cast<float>();
   return {shown.data(), shown.data() + shown.size()};
 }
 

@@ -10,6 +10,7 @@
 #include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/all_columns.h"
 
 namespace crowdface {
 namespace {
@@ -75,7 +76,7 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
   const std::size_t count = faces.heads.size();
   if (chosen.size() < 3) return std::vector<HeadPose>(count);
   std::vector<Positions> points;
-  for (const Head& head : faces.heads) points.emplace_back(head.positions(chosen, Eigen::all));
+  for (const Head& head : faces.heads) points.emplace_back(head.positions(chosen, kAllColumns));
   // The reference is the head whose median disagreement with the others is smallest, so that one
   // stray head never makes the rest look wrong.
   std::vector<double> disagreement(count);
@@ -96,11 +97,11 @@ std::vector<std::string> align_heads(FaceSet& faces, const Components& component
   if (align == Align::kRigid) {
     const std::vector<Index> chosen =
         some_skin(components, std::max<Index>(faces.topology.vertex_count, 1));
-    const Positions reference = faces.heads[0].positions(chosen, Eigen::all);
+    const Positions reference = faces.heads[0].positions(chosen, kAllColumns);
     if (chosen.size() >= 3) {
       parallel_for_each(faces.heads.size() - 1, [&](std::size_t h) {
         Positions& positions = faces.heads[h + 1].positions;
-        const Positions points = positions(chosen, Eigen::all);
+        const Positions points = positions(chosen, kAllColumns);
         positions = fit_similarity(points, reference, ScaleFit::kRigid).apply(positions);
       });
     }

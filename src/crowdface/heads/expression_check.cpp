@@ -10,6 +10,7 @@
 #include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/paint/face_marks.h"
 
@@ -81,10 +82,10 @@ std::vector<std::string> odd_expressions(const FaceSet& faces, const std::vector
   for (const Box& box : kBoxes) {
     const std::vector<Index> vertices = vertices_in(box, *marks, head, axes);
     if (vertices.size() < kFewestVertices) continue;
-    const Positions middle = head.positions(vertices, Eigen::all);
+    const Positions middle = head.positions(vertices, kAllColumns);
     std::vector<double> off(faces.heads.size());
     parallel_for_each(off.size(), [&](std::size_t h) {
-      const Positions own = faces.heads[h].positions(vertices, Eigen::all);
+      const Positions own = faces.heads[h].positions(vertices, kAllColumns);
       const Positions moved = fit_similarity(own, middle, ScaleFit::kUniform).apply(own);
       std::vector<double> apart;
       for (Index i = 0; i < middle.rows(); ++i)

@@ -25,6 +25,7 @@
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/paint/face_marks.h"
 #include "crowdface/region/vertex_weights.h"
 #include "crowdface/smooth/level_size.h"
@@ -250,8 +251,8 @@ std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   for (std::size_t i = 0; i < rows.size(); i += step) some.push_back(rows[i]);
   if (some.size() < 3) return {};
   const auto distance = [&](std::size_t a, std::size_t b) {
-    const Positions from = heads[a].positions(some, Eigen::all),
-                    to = heads[b].positions(some, Eigen::all);
+    const Positions from = heads[a].positions(some, kAllColumns),
+                    to = heads[b].positions(some, kAllColumns);
     const Positions moved = fit_similarity(from, to, ScaleFit::kRigid).apply(from);
     return mm * std::sqrt((moved - to).rowwise().squaredNorm().mean());
   };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/preview/split_mesh.h"
 
@@ -35,7 +36,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
   std::copy_if(uvs.begin(), uvs.end(), std::back_inserter(used),
                [](std::uint32_t uv) { return uv != kNoIndex; });
   const std::vector<std::uint32_t> rows = renumber(used, faces.uvs.rows());
-  level.uvs = faces.uvs(rows, Eigen::all);
+  level.uvs = faces.uvs(rows, kAllColumns);
   for (std::size_t c = 0, next = 0; c < uvs.size(); ++c) {
     if (uvs[c] != kNoIndex) uvs[c] = used[next++];
   }
@@ -46,7 +47,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
 }  // namespace
 
 Positions DetailLevel::of(const Positions& whole) const {
-  return whole(vertices, Eigen::all);
+  return whole(vertices, kAllColumns);
 }
 
 Displacements DetailLevel::of(const Displacements& whole) const {
@@ -60,7 +61,7 @@ Displacements DetailLevel::of(const Displacements& whole) const {
     some.vertices.push_back(v);
     rows.push_back(static_cast<std::uint32_t>(next - whole.vertices.begin()));
   }
-  some.moves = whole.moves(rows, Eigen::all);
+  some.moves = whole.moves(rows, kAllColumns);
   return some;
 }
 

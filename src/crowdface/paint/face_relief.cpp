@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/polygon_sample.h"
 
@@ -338,7 +339,7 @@ class Refinement {
       for (std::size_t i = 0; i * step < near.size(); ++i) near[i] = near[i * step];
       near.resize(near.size() / step);
     }
-    near_ = samples(near, Eigen::all);
+    near_ = samples(near, kAllColumns);
     square_ = kSquareMm * first.scale;
     try_match(first);
   }

@@ -11,6 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/pictures/page_pictures.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/preview/reduced_mesh.h"
@@ -156,7 +157,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   mesh_ = preview_of(split, triangles, surfaces.uvs);
   for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
   colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(mesh_.vertices,
-                                                                                 Eigen::all);
+                                                                                 kAllColumns);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
     places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }

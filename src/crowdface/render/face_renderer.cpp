@@ -13,6 +13,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/winding.h"
 #include "crowdface/preview/reduced_mesh.h"
@@ -90,7 +91,7 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical)
   ReducedMesh reduced = reduce_mesh(triangles, typical, kMostOccluders);
   occluders.vertices = std::move(reduced.vertices);
   for (const Triangle& t : reduced.triangles) occluders.quads.push_back({t[0], t[1], t[2], t[2]});
-  occluders.typical = points(typical(occluders.vertices, Eigen::all));
+  occluders.typical = points(typical(occluders.vertices, kAllColumns));
   return occluders;
 }
 

@@ -11,6 +11,7 @@
 #include "crowdface/io/npy.h"
 #include "crowdface/io/single_precision.h"
 #include "crowdface/io/usda_text.h"
+#include "crowdface/mesh/all_columns.h"
 
 namespace crowdface {
 namespace {
@@ -133,7 +134,7 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
   if (face.normals.rows() > 0) reduced.normals = detail.of(face.normals);
   for (const Displacements& shape : face.moves) reduced.moves.push_back(detail.of(shape));
   reduced.worn = levels_[level].of(face.worn);
-  if (face.colours.rows() > 0) reduced.colours = face.colours(detail.vertices, Eigen::all);
+  if (face.colours.rows() > 0) reduced.colours = face.colours(detail.vertices, kAllColumns);
   mesh.positions = &reduced.positions;
   mesh.normals = &reduced.normals;
   mesh.moves = reduced.moves;

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/validity/triangle_scene.h"
 #include "crowdface/validity/triangles.h"
@@ -95,7 +96,7 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
   for (Triangle& triangle : numbered) {
     for (std::uint32_t& v : triangle) v = place_in(vertices_, v);
   }
-  const Positions points = mesh(vertices_, Eigen::all);
+  const Positions points = mesh(vertices_, kAllColumns);
   tree_ = TriangleTree(numbered, points, reach);
   find_near(numbered, points, reach, facing);
 }
@@ -153,7 +154,7 @@ void CrossingSearch::measure(std::size_t l, Boxes& boxes) const {
 
 CrossingSearch::Boxes CrossingSearch::boxes_of(const Positions& mesh) const {
   const std::size_t leaves = tree_.leaf_count();
-  Boxes boxes{mesh(vertices_, Eigen::all).cast<float>(), std::vector<LeafBoxes>(leaves),
+  Boxes boxes{mesh(vertices_, kAllColumns).cast<float>(), std::vector<LeafBoxes>(leaves),
               std::vector<LeafNormals>(leaves), std::vector<Box>(leaves),
               std::vector<std::uint8_t>(leaves, 1)};
   for (std::size_t l = 0; l < leaves; ++l) measure(l, boxes);

@@ -7,6 +7,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/eye_socket.h"
@@ -161,7 +162,7 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   parallel_for_each(used.size(), [&](std::size_t i) {
     alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(used[i]));
   });
-  contact_alpha = regions.alpha(contacts.vertices(), Eigen::all);
+  contact_alpha = regions.alpha(contacts.vertices(), kAllColumns);
   for (const RigidPart& part : rigid) {
     std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
     for (const std::uint32_t v : part.fitted) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/shapes/frame_field.h"
@@ -51,7 +52,7 @@ Vector3d by_turn(const std::array<double, 4>& quaternion, const PlacedPart& plac
 RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
                             std::span<const std::uint32_t> vertices,
                             std::span<const std::uint32_t> rows, const Positions& moves) {
-  const Positions rest = mesh(part.fitted, Eigen::all);
+  const Positions rest = mesh(part.fitted, kAllColumns);
   Positions shape = rest;
   std::vector<std::uint32_t> all(part.fitted.size());
   std::iota(all.begin(), all.end(), 0U);

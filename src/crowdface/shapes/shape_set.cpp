@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
@@ -16,7 +17,7 @@ Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh
   for (std::uint32_t v = 0; v < neutral.rows(); ++v) {
     if ((row3(mesh, v) - row3(neutral, v)).norm() > kStill * extent) vertices.push_back(v);
   }
-  shape.moves.moves = mesh(vertices, Eigen::all) - neutral(vertices, Eigen::all);
+  shape.moves.moves = mesh(vertices, kAllColumns) - neutral(vertices, kAllColumns);
   return shape;
 }
 

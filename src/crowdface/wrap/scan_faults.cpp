@@ -7,6 +7,7 @@
 
 #include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/point_grid.h"
@@ -88,7 +89,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   }
   if (face.size() < kFewest || skull.size() < kFewest) return;
   const Similarity faces_meet =
-      fit_similarity(rest(face, Eigen::all), wrapped(face, Eigen::all), ScaleFit::kUniform);
+      fit_similarity(rest(face, kAllColumns), wrapped(face, kAllColumns), ScaleFit::kUniform);
   const Positions placed = faces_meet.apply(rest);
   const Positions normals = vertex_normals_or_zero(shape.skin.triangles, placed);
   std::vector<double> out;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/render/ray_scene.h"
 
@@ -30,7 +31,7 @@ std::array<Eigen::Vector3f, kRays> directions() {
 }  // namespace
 
 Positions SkinMesh::of(const Positions& positions) const {
-  return positions(vertices, Eigen::all);
+  return positions(vertices, kAllColumns);
 }
 
 std::vector<double> vertex_openness(const Positions& positions, const Positions& normals,

@@ -2,6 +2,7 @@
 #include "crowdface/wrap/unfold.h"
 
 #include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/wrap/growing_patch.h"
 
 namespace crowdface {
@@ -36,8 +37,8 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
       .make =
           [&](const GrowingPatch& patch) {
             const auto rows = patch.vertices();
-            as_it_was = positions(rows, Eigen::all);
-            const Positions of_rest = rest(rows, Eigen::all);
+            as_it_was = positions(rows, kAllColumns);
+            const Positions of_rest = rest(rows, kAllColumns);
             const Positions laid =
                 fit_similarity(of_rest, as_it_was, ScaleFit::kUniform).apply(of_rest);
             for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -46,7 +47,7 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
             }
           },
       .undo =
-          [&](const GrowingPatch& patch) { positions(patch.vertices(), Eigen::all) = as_it_was; }};
+          [&](const GrowingPatch& patch) { positions(patch.vertices(), kAllColumns) = as_it_was; }};
   for (std::size_t before = folded.size() + 1; folded.size() < before && !folded.empty();) {
     before = folded.size();
     mender.mend(folded, is_bad, lay);

@@ -11,6 +11,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/all_columns.h"
 #include "head_models/morph/three_mesh.h"
 
 namespace crowdface {
@@ -126,9 +127,9 @@ void FittedMesh::keep(const std::vector<bool>& faces) {
   std::vector<std::array<std::uint32_t, 3>> kept_anchors;
   for (const std::uint32_t row : rows) kept_anchors.push_back(anchors[row]);
   anchors = std::move(kept_anchors);
-  weights = Positions(weights(rows, Eigen::all));
-  offsets = Positions(offsets(rows, Eigen::all));
-  uvs = TextureCoordinates(uvs(uv_rows, Eigen::all));
+  weights = Positions(weights(rows, kAllColumns));
+  offsets = Positions(offsets(rows, kAllColumns));
+  uvs = TextureCoordinates(uvs(uv_rows, kAllColumns));
   topology = std::move(kept);
 }
 

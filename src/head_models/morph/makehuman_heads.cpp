@@ -13,6 +13,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/mesh/all_columns.h"
 #include "head_models/morph/makehuman_controls.h"
 #include "head_models/morph/three_mesh.h"
 
@@ -79,8 +80,8 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
   out.rows = renumber(topology.corner_vertices, all.positions.rows());
   topology.vertex_count = static_cast<Index>(out.rows.size());
   const auto uv_rows = renumber(topology.corner_uvs, all.uvs.rows());
-  out.head.positions = all.positions(out.rows, Eigen::all);
-  out.head.uvs = all.uvs(uv_rows, Eigen::all);
+  out.head.positions = all.positions(out.rows, kAllColumns);
+  out.head.uvs = all.uvs(uv_rows, kAllColumns);
   out.heights = {mean_height(all, {"helper-r-eye", "helper-l-eye"}, file),
                  mean_height(all, {"helper-upper-teeth", "helper-lower-teeth"}, file)};
   out.file_positions = std::move(all.positions);
@@ -133,7 +134,7 @@ void MakeHumanHeads::wear(std::vector<WornPart> parts) {
   skin_ = renumber(topology.corner_vertices, naked.vertex_count);
   for (std::uint32_t& row : skin_) row = mesh_.rows[row];
   const auto uv_rows = renumber(topology.corner_uvs, mesh_.head.uvs.rows());
-  TextureCoordinates uvs = mesh_.head.uvs(uv_rows, Eigen::all);
+  TextureCoordinates uvs = mesh_.head.uvs(uv_rows, kAllColumns);
   materials_ = {mesh_.materials[0]};
   auto vertices = static_cast<std::uint32_t>(skin_.size());
   for (const auto& [material, mesh] : parts) {
@@ -158,7 +159,7 @@ void MakeHumanHeads::wear(std::vector<WornPart> parts) {
 }
 
 Positions MakeHumanHeads::dressed(const Positions& base) const {
-  Positions head = base(skin_, Eigen::all);
+  Positions head = base(skin_, kAllColumns);
   for (const WornPart& part : worn_) {
     const Positions more = part.mesh.on(base);
     head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
@@ -180,7 +181,7 @@ Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) con
     targets_.add(target, rows, base);
   }
   if (!worn_.empty()) return dressed(base);
-  return in_frame(base(mesh_.rows, Eigen::all), base);
+  return in_frame(base(mesh_.rows, kAllColumns), base);
 }
 
 std::optional<HeadPerson> MakeHumanHeads::person(std::uint64_t seed, std::uint64_t index) const {
