@@ -142,7 +142,7 @@ if [ -n "$mounted" ]; then
   said blend-3 "No space left"
   said blend-3 "attempt 2"
 fi
-ls "$work"/n?/crowdface-cache-*/*.cfhead >/dev/null || fail "no node has a copy of the prepared heads"
+ls "$work"/n?/crowdface-cache-*/prepared-*.cfcache >/dev/null || fail "no node has a copy of the prepared heads"
 grep -q '"state":"interrupted"' "$work/watched" || fail "status never showed an interrupted shard"
 grep -q '"state":"failed"[^}]*"reason":"[^"]' "$work/watched" || fail "status never showed a reason"
 grep -q '"faces_a_second":[0-9]' "$work/watched" || fail "status never showed a pace"

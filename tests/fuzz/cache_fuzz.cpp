@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An entry's checksum would stop the fuzzer at once, so the input gets the right one at its end.
+// An entry's key and checksum would stop the fuzzer at once, so the input gets the right ones.
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -39,33 +39,35 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                              ("crowdface_fuzz_cache_" + std::to_string(::getpid()));
   const Digest key = {1, 2};
   std::string bytes(fuzz::text_of(data, size));
-  Digest sum;
-  if (bytes.size() >= sizeof sum) {
-    sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
-    std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
-  }
   std::filesystem::create_directories(folder);
-  const auto write = [&](const std::filesystem::path& entry) {
-    std::ofstream(entry, std::ios::binary) << bytes;
-  };
-  write(cache_entry(folder, key, kPreparedEnding));
-  for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
-    const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
+  const auto with_entry = [&](const CacheKey& entry_key, const auto& read) {
+    constexpr std::size_t kKeyPlace = 16;
+    if (bytes.size() >= kKeyPlace + 2 * sizeof(Digest)) {
+      const Digest in_header = Hasher().add(entry_key.kind).add(entry_key.digest).digest();
+      std::memcpy(bytes.data() + kKeyPlace, &in_header, sizeof in_header);
+      const std::size_t content = bytes.size() - sizeof(Digest);
+      const Digest sum = hash_bytes(std::string_view(bytes).substr(0, content));
+      std::memcpy(bytes.data() + content, &sum, sizeof sum);
+    }
+    std::ofstream(cache_entry(folder, entry_key), std::ios::binary) << bytes;
     try {
-      if (const auto head = read_cached_head(folder, key, shape)) read_all(*head, shape);
+      if (const auto entry = CacheEntry::open(folder, entry_key)) read(*entry);
     } catch (const RecoverableError&) {
     }
+  };
+  for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
+    const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
+    with_entry(prepared_key(key), [&](const CacheEntry& entry) {
+      read_all(prepared_head(entry, shape), shape);
+      return 0;
+    });
   }
-  write(head_entry(folder, key));
-  write(mesh_entry(folder, key));
-  try {
+  with_entry(read_key(key), [](const CacheEntry& entry) {
     ObjFile head;
-    find_head(folder, key, head);
-  } catch (const RecoverableError&) {
-  }
-  try {
-    if (const auto mesh = find_mesh(folder, key)) build_adjacency(mesh->topology);
-  } catch (const RecoverableError&) {
-  }
+    return read_head(entry, head).low;
+  });
+  with_entry(mesh_key(key), [&](const CacheEntry& entry) {
+    return build_adjacency(read_mesh(entry, key).topology).group_count();
+  });
   return 0;
 }

@@ -72,7 +72,9 @@ TEST(HeadCache, IsWhereTheEnvironmentSays) {
 /// Entries of prepared heads: beside them there is one of all heads' patches.
 std::vector<fs::path> kept_heads(const SmallCrowdFolder& folder) {
   std::vector<fs::path> heads = list_cache(folder.cache()).entries;
-  std::erase_if(heads, [](const fs::path& entry) { return entry.extension() != kPreparedEnding; });
+  std::erase_if(heads, [](const fs::path& entry) {
+    return !entry.filename().string().starts_with(kPreparedKind);
+  });
   return heads;
 }
 
@@ -115,12 +117,9 @@ TEST(HeadCache, DamagedEntriesAreMadeAnewWithTheSameBytes) {
   const auto first = crowd_files(folder.out());
   const fs::path entry = kept_heads(folder).at(1);
   const std::string whole = testing::read_text(entry);
-  std::vector<std::string> damaged = {"",
-                                      "x",
-                                      whole.substr(0, 127),
-                                      whole.substr(0, 128),
-                                      whole.substr(0, whole.size() - 1),
-                                      whole + "x"};
+  std::vector<std::string> damaged = {
+      "",         "x", whole.substr(0, 47), whole.substr(0, 368), whole.substr(0, whole.size() - 1),
+      whole + "x"};
   for (const std::size_t at :
        {std::size_t{0}, std::size_t{9}, std::size_t{20}, std::size_t{70}, std::size_t{73},
         std::size_t{90}, whole.size() / 2, whole.size() - 1}) {
@@ -205,6 +204,7 @@ TEST(HeadCache, ClearRemovesEntriesAndNothingElse) {
   const SmallCrowdFolder folder(SmallCrowd{});
   run(folder);
   folder.folder().write("cache/notes.txt", "mine");
+  folder.folder().write("cache/notes.cfcache", "mine");
   const CacheContents contents = list_cache(folder.cache());
   std::uintmax_t bytes = 0;
   for (const fs::path& entry : contents.entries) bytes += fs::file_size(entry);
@@ -212,6 +212,7 @@ TEST(HeadCache, ClearRemovesEntriesAndNothingElse) {
   EXPECT_EQ(clear_cache(folder.cache()), contents.entries.size());
   EXPECT_EQ(clear_cache(folder.cache()), 0U);
   EXPECT_TRUE(fs::exists(folder.cache() / "notes.txt"));
+  EXPECT_TRUE(fs::exists(folder.cache() / "notes.cfcache"));
   EXPECT_EQ(list_cache(folder / "nowhere").entries.size(), 0U);
 }
 

@@ -2,7 +2,6 @@
 #include "crowdface/heads/kept_face_space.h"
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -10,9 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/cast/training_recipe.h"
+#include "crowdface/core/file.h"
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/heads/kept_lists.h"
 
+#include "support/forged_entry.h"
 #include "support/temporary_folder.h"
 
 namespace crowdface {
@@ -116,37 +116,24 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsDamaged) {
 TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsForged) {
   const std::vector<float> first = places(kept(folder_.path()));
   const fs::path entry = list_cache(folder_.path()).entries.at(0);
-  const auto key = parse_digest(entry.stem().string());
-  ASSERT_TRUE(key);
-  std::vector<std::uint64_t> sizes;
-  std::vector<std::string> numbers;
-  {
-    const auto found = find_lists(folder_.path(), *key, 5);
-    ASSERT_TRUE(found);
-    ASSERT_TRUE(detail::take_list(found->lists[0], sizes));
-    for (std::size_t i = 1; i < 5; ++i) numbers.emplace_back(found->lists[i]);
-  }
-  const auto expect_mended = [&](const std::vector<std::uint64_t>& forged_sizes,
-                                 const std::vector<std::string>& forged) {
-    keep_lists(folder_.path(), *key,
-               {bytes_of(std::span(forged_sizes)), forged[0], forged[1], forged[2], forged[3]});
+  const std::string sound = read_file(entry);
+  const auto expect_mended = [&](const std::string& forged) {
+    write_file(entry, forged);
     EXPECT_EQ(places(kept(folder_.path())), first);
+    EXPECT_EQ(read_file(entry), sound);
   };
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
+  constexpr std::size_t kColumns = 28, kRows = 32;
+  for (const char* name : {"levels", "functions", "directions", "metrics"}) {
+    const std::size_t row = testing::row_of_array(sound, name);
     for (const std::uint64_t size :
-         {std::uint64_t{0}, sizes[i] + 1, std::uint64_t{1} << 63U, ~std::uint64_t{0}}) {
-      if (size == sizes[i]) continue;
-      std::vector<std::uint64_t> forged = sizes;
-      forged[i] = size;
-      expect_mended(forged, numbers);
+         {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 63U, ~std::uint64_t{0}}) {
+      expect_mended(testing::forged_at(sound, row + kRows, size));
+      expect_mended(testing::forged_at(sound, row + kColumns, static_cast<std::uint32_t>(size)));
     }
-  }
-  expect_mended({1, 2}, numbers);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::vector<std::string> forged = numbers;
-    const float none = std::numeric_limits<float>::quiet_NaN();
-    std::memcpy(forged[i].data(), &none, sizeof none);
-    expect_mended(sizes, forged);
+    std::string other_name = sound;
+    other_name[row] = 'x';
+    expect_mended(testing::forged_at(other_name, row + 1, 'x'));
+    expect_mended(testing::forged_array(sound, name, 0, std::numeric_limits<float>::quiet_NaN()));
   }
 }
 

@@ -2,7 +2,6 @@
 // Heads are read once: then the cache knows them, is never trusted when damaged, and sees any change.
 #include "crowdface/heads/read_heads.h"
 
-#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -16,6 +15,7 @@
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
+#include "support/forged_entry.h"
 #include "support/small_crowd.h"
 
 namespace crowdface {
@@ -62,11 +62,11 @@ class KeptHeads : public ::testing::Test {
     return {};
   }
   fs::path entry_of(const std::string& head) const {
-    return head_entry(folder_.cache(), hash_bytes(read_text(folder_.head(head))));
+    return cache_entry(folder_.cache(), read_key(hash_bytes(read_text(folder_.head(head)))));
   }
   fs::path mesh() const {
     for (const fs::path& entry : list_cache(folder_.cache()).entries) {
-      if (entry.extension() == kMeshEnding) return entry;
+      if (entry.filename().string().starts_with("mesh")) return entry;
     }
     return {};
   }
@@ -106,20 +106,15 @@ TEST_F(KeptHeads, ChangeOnDiskIsSeenWhateverTheClockSays) {
   EXPECT_THAT(differing_files(crowd_files(folder_.out()), changed), ::testing::IsEmpty());
 }
 
-/// The bytes with another number at this place, and the checksum that goes with them.
-template <class T>
-std::string forged(std::string bytes, std::size_t at, T number) {
-  std::memcpy(bytes.data() + at, &number, sizeof number);
-  const std::size_t content = bytes.size() - sizeof(Digest);
-  const Digest sum = hash_bytes(std::string_view(bytes).substr(0, content));
-  std::memcpy(bytes.data() + content, &sum, sizeof sum);
-  return bytes;
-}
-
 TEST_F(KeptHeads, DamagedForgedAndForeignEntriesAreReadPast) {
   const fs::path entry = entry_of("ann"), mesh = this->mesh();
   const std::string head_bytes = read_text(entry), mesh_bytes = read_text(mesh);
-  const std::size_t names = 64 + 24 * static_cast<std::size_t>(folder_.crowd().bowl.vertex_count());
+  const auto of_head = [&](std::string_view array, auto number) {
+    return std::pair(entry, testing::forged_array(head_bytes, array, 0, number));
+  };
+  const auto of_mesh = [&](std::string_view array, auto number) {
+    return std::pair(mesh, testing::forged_array(mesh_bytes, array, 0, number));
+  };
   std::string flipped = head_bytes;
   flipped[1000] = static_cast<char>(flipped[1000] ^ 1);
   constexpr std::uint64_t kHuge = std::numeric_limits<std::uint64_t>::max() / 2;
@@ -130,24 +125,24 @@ TEST_F(KeptHeads, DamagedForgedAndForeignEntriesAreReadPast) {
       {entry, head_bytes.substr(0, head_bytes.size() - 1)},
       {entry, head_bytes + "x"},
       {entry, flipped},
-      {entry, forged(head_bytes, 8, std::uint64_t{999})},  // version
-      {entry, forged(head_bytes, 16, std::uint64_t{1})},   // of another text
-      {entry, forged(head_bytes, 48, std::uint64_t{7})},   // vertices
-      {entry, forged(head_bytes, 48, kHuge)},
-      {entry, forged(head_bytes, 64, std::numeric_limits<double>::quiet_NaN())},
-      {entry, forged(head_bytes, 64, 1e30)},
-      {entry, forged(head_bytes, names, kHuge)},  // how many material files
+      {entry, testing::forged_at(head_bytes, 8, std::uint32_t{999})},  // version
+      {entry, testing::forged_at(head_bytes, 16, std::uint64_t{1})},   // of another text
+      {entry, mesh_bytes},
+      of_head("positions", std::numeric_limits<double>::quiet_NaN()),
+      of_head("positions", 1e30),
+      of_head("materials sizes", kHuge),
+      of_head("materials faces", kHuge),
       {mesh, mesh_bytes.substr(0, 5000)},
       {mesh, mesh_bytes + "x"},
-      {mesh, forged(mesh_bytes, 8, std::uint64_t{999})},
-      {mesh, forged(mesh_bytes, 32, std::uint64_t{7})},  // vertices: corners of others
-      {mesh, forged(mesh_bytes, 32, kHuge)},             // of another size than positions
-      {mesh, forged(mesh_bytes, 40, kHuge)},             // faces
-      {mesh, forged(mesh_bytes, 48, kHuge)},             // corners
-      {mesh, forged(mesh_bytes, 56, std::uint64_t{1})},  // texture coordinates
-      {mesh, forged(mesh_bytes, 128, std::uint32_t{1U << 30U})}};
+      {mesh, testing::forged_at(mesh_bytes, 8, std::uint32_t{999})},
+      of_mesh("vertices", std::uint64_t{7}),  // corners of others
+      of_mesh("vertices", kHuge),             // of another size than positions
+      of_mesh("face offsets", std::uint32_t{1}),
+      of_mesh("corner uvs", kNoIndex - 1),
+      of_mesh("uvs", 1e30),
+      of_mesh("corner vertices", std::uint32_t{1U << 30U})};
   for (const auto& [path, bytes] : damaged) {
-    SCOPED_TRACE(concat(path.extension().string(), ' ', bytes.size()));
+    SCOPED_TRACE(concat(path.filename().string(), ' ', bytes.size()));
     folder_.folder().write("cache/" + path.filename().string(), bytes);
     run();
     EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr(kBoth)));

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test 5 of docs/reliability.md: a damaged cache is made anew, and changes nothing.
 #include <csignal>
-#include <cstring>
-#include <functional>
 #include <random>
 
 #include <unistd.h>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/cache_folder.h"
 
 #include "reliability/crowd_under_test.h"
+#include "support/forged_entry.h"
 
 namespace crowdface::testing {
 namespace {
@@ -121,39 +121,19 @@ TEST_F(DamagedCache, CutWhileItIsInUseItIsMadeAnewAndTheRunGoesOn) {
 
 // A checksum that is right is no proof that we wrote it: one such entry aborted in the ray tracer.
 TEST_F(DamagedCache, NumbersThatNoHeadHasAreNotUsed) {
-  const auto number_at = [](const std::string& entry, std::size_t place) {
-    std::uint64_t number = 0;
-    std::memcpy(&number, entry.data() + place, sizeof number);
-    return number;
-  };
   struct Forged {
-    std::function<std::size_t(const std::string& entry)> place;  // as docs/cache-format.md says
+    const char* array;
+    std::size_t at;
     float value;
   };
-  const auto first_fields = [&](const std::string& entry) {
-    const std::size_t nodes = number_at(entry, 64), rank = number_at(entry, 72);
-    return 128 + 8 * nodes * rank + 12 * number_at(entry, 40) * number_at(entry, 48);
-  };
-  const auto steps = [&](const std::string& entry) {
-    return first_fields(entry) + 4 * ((number_at(entry, 32) + 63) / 64 + 1);
-  };
-  const Forged forged[] = {
-      {[](const std::string&) { return std::size_t{128 + 4}; },
-       1e30F},  // half of a number of the mixing
-      {[&](const std::string& entry) { return first_fields(entry) + 4; }, 1e30F},
-      {steps, 1e30F},
-      {steps, 0.3F},
-  };
-  for (const Forged& forge : forged) {
+  constexpr Forged kForged[] = {{"mixing", 4, 1e30F},  // half of a number
+                                {"first fields", 4, 1e30F},
+                                {"steps", 0, 1e30F},
+                                {"steps", 0, 0.3F}};
+  for (const Forged& forge : kForged) {
     for (const fs::path& entry : list_cache(folder_.cache()).entries) {
-      if (entry.extension() != ".cfhead") continue;
-      std::string bytes = read_text(entry);
-      bytes.replace(forge.place(bytes), sizeof forge.value,
-                    reinterpret_cast<const char*>(&forge.value), sizeof forge.value);
-      const Digest sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof sum));
-      bytes.replace(bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<const char*>(&sum),
-                    sizeof sum);
-      write_file(entry, bytes);
+      if (!entry.filename().string().starts_with(kPreparedKind)) continue;
+      write_file(entry, forged_array(read_text(entry), forge.array, forge.at, forge.value));
     }
     fs::remove_all(folder_.out());
     EXPECT_EQ(run({}).code, 0);

@@ -75,12 +75,12 @@ TEST_F(Tasks, EndWithTheProgramsCodeAndSaySo) {
 
 TEST_F(Tasks, UseTheMachinesOwnCopyOfTheCacheIfItCanBeMade) {
   job_.scratch = "$OWN";
-  folder_.write("cache/a.cfhead", "head");
+  folder_.write("cache/a.cfcache", "head");
   write_task_scripts(job_, Engine::kSlurm, {});
   EXPECT_EQ(run(concat("OWN=", (folder_ / "own").string()), "blend 1"), 0);
   const std::string own = concat((folder_ / "own/crowdface-cache-").string(), ::getuid());
   EXPECT_THAT(said(), ::testing::HasSubstr(concat("--cache|", own, "|")));
-  EXPECT_EQ(read_text(own + "/a.cfhead"), "head");
+  EXPECT_EQ(read_text(own + "/a.cfcache"), "head");
   folder_.write("file", "");
   EXPECT_EQ(run(concat("OWN=", (folder_ / "file").string()), "blend 1"), 0);
   EXPECT_THAT(said(), ::testing::HasSubstr(concat("--cache|", job_.cache.string(), "|")));

@@ -1,39 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/cache_folder.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
+#include <string_view>
 #include <system_error>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
+#include "crowdface/core/hash.h"
 #include "crowdface/core/text.h"
-#include "crowdface/mesh/topology.h"
+#include "crowdface/heads/cache_entry.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kEndings = {kPreparedEnding, kReadEnding, kMeshEnding, kListsEnding,
-                                 kSeenEnding};
-
-/// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
-/// compared as integers, vectors of them at once: any too large makes its difference negative.
-template <class Integer, class T>
-bool all_coordinates(std::span<const T> values) {
-  constexpr auto kMagnitude = std::numeric_limits<Integer>::max();
-  constexpr auto kLargest = std::bit_cast<Integer>(T{1e9});
-  Integer differences = 0;
-  for (const T value : values) {
-    differences |= kLargest - (std::bit_cast<Integer>(value) & kMagnitude);
-  }
-  return differences >= 0;
+/// Whether a file has the name of an entry, see cache_entry.
+bool has_name_of_entry(const fs::path& path) {
+  constexpr std::size_t kDigits = 32;
+  const std::string stem = path.stem().string();
+  return path.extension().string() == kCacheEnding && stem.size() > kDigits &&
+         parse_digest(std::string_view(stem).substr(stem.size() - kDigits));
 }
 
 }  // namespace
@@ -53,27 +43,19 @@ fs::path cache_directory() {
   return (error ? fs::path("/tmp") : temporary) / "crowdface-cache";
 }
 
-fs::path cache_entry(const fs::path& cache, const Digest& key, std::string_view ending) {
-  return cache / concat(key.hex(), ending);
-}
-
 CacheContents list_cache(const fs::path& cache) {
   std::error_code error, ignored;
   CacheContents contents;
   contents.entries = list_files(
-      cache,
-      [&](const fs::path& path) {
-        return std::ranges::find(kEndings, path.extension().string()) != kEndings.end() &&
-               is_file(path);
-      },
-      &error);
+      cache, [](const fs::path& path) { return has_name_of_entry(path) && is_file(path); }, &error);
   if (error && error != std::errc::no_such_file_or_directory) {
     throw MissingInput(concat(cache.string(), ": cannot be read as a folder: ", error.message()));
   }
   for (const fs::path& entry : contents.entries) {
     contents.bytes += fs::file_size(entry, ignored);
-    contents.prepared += entry.extension() == kPreparedEnding ? 1U : 0U;
-    contents.read += entry.extension() == kReadEnding ? 1U : 0U;
+    const std::string name = entry.filename().string();
+    contents.prepared += name.starts_with(kPreparedKind) ? 1U : 0U;
+    contents.read += name.starts_with(kReadKind) ? 1U : 0U;
   }
   return contents;
 }
@@ -86,53 +68,6 @@ std::size_t clear_cache(const fs::path& cache) {
     if (error) throw IoError(concat(entry.string(), ": cannot be removed: ", error.message()));
   }
   return removed;
-}
-
-std::optional<MappedEntry> map_entry(const fs::path& path, const std::optional<Digest>& known) {
-  if (!is_there(path)) return std::nullopt;
-  const auto file = std::make_shared<const MappedFile>(path, WhenCut::kFill);
-  if (file->bytes().size() < sizeof(Digest)) throw bad_entry(path, "of the wrong size");
-  const std::size_t size = file->bytes().size() - sizeof(Digest);
-  const std::string_view content = file->bytes().substr(0, size);
-  const Digest sum = known ? *known : hash_bytes(content);
-  if (file->bytes().substr(size) != bytes_of(&sum, sizeof sum)) {
-    throw bad_entry(path, "damaged (its checksum is wrong)");
-  }
-  return MappedEntry{file, content, sum};
-}
-
-void write_entry(const fs::path& path, std::vector<std::string_view> pieces) {
-  make_directories(path.parent_path());
-  Hasher hasher;
-  for (const std::string_view piece : pieces) hasher.add_raw(piece);
-  const Digest sum = hasher.digest();
-  pieces.push_back(bytes_of(&sum, sizeof sum));
-  write_file(path, pieces);
-}
-
-InvalidInput bad_entry(const fs::path& path, std::string_view what) {
-  return InvalidInput(concat(path.string(), ": cache entry is ", what));
-}
-
-bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end) {
-  return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
-}
-
-bool all_finite(std::span<const float> numbers) {
-  return std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
-}
-
-bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end) {
-  return std::ranges::all_of(
-      numbers, [&](std::uint32_t number) { return number < end || number == kNoIndex; });
-}
-
-bool are_coordinates(std::span<const float> values) {
-  return all_coordinates<std::int32_t>(values);
-}
-
-bool are_coordinates(std::span<const double> values) {
-  return all_coordinates<std::int64_t>(values);
 }
 
 }  // namespace crowdface

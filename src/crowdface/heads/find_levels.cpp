@@ -2,17 +2,17 @@
 #include "crowdface/heads/find_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/kept_lists.h"
+#include "crowdface/heads/cached.h"
 #include "crowdface/lod/level_error.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -114,60 +114,56 @@ bool is_sound(const DetailLevel& level, const Topology& whole) {
          level.topology.corner_vertices.size() == 3 * level.faces.size() &&
          all_below(level.topology.corner_vertices, level.vertices.size()) &&
          (uvs.empty() || uvs.size() == 3 * level.faces.size()) &&
-         are_rows(uvs, end(level.uvs.rows())) && level.uvs.allFinite();
+         are_rows(uvs, end(level.uvs.rows()));
 }
 
-/// As measured_level, from the cache if it is there.
-MeasuredLevel kept_level(const Inputs& inputs, const std::filesystem::path& cache,
-                         const FaceSet& typical, double share, double mm) {
-  const auto level_of = [&](auto vertices, auto corners, auto corner_uvs, auto faces,
-                            const std::vector<double>& uvs) {
-    DetailLevel level{share, std::move(vertices), {}, {}, std::move(faces)};
-    level.topology.vertex_count = static_cast<Index>(level.vertices.size());
-    level.topology.corner_vertices = std::move(corners);
-    level.topology.corner_uvs = std::move(corner_uvs);
-    for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
-      level.topology.face_offsets.push_back(3 * t);  // after the 0 that is there
-    }
-    level.uvs =
-        Eigen::Map<const TextureCoordinates>(uvs.data(), static_cast<Index>(uvs.size()) / 2, 2);
-    return level;
-  };
-  auto [vertices, corners, corner_uvs, faces, uvs, errors] =
-      kept_lists<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, double, double>(
-          cache, key_of(inputs, typical, share, mm),
-          [&] {
-            MeasuredLevel made = measured_level(inputs, typical, share, mm);
-            DetailLevel& level = made.level;
-            return std::tuple(
-                std::move(level.vertices), std::move(level.topology.corner_vertices),
-                std::move(level.topology.corner_uvs), std::move(level.faces),
-                std::vector<double>(level.uvs.data(), level.uvs.data() + level.uvs.size()),
-                std::vector<double>{made.heads.most, made.heads.root_mean_square, made.shapes.most,
-                                    made.shapes.root_mean_square});
-          },
-          [&](const auto& vertex, const auto& corner, const auto& corner_uv, const auto& face,
-              const auto& uv, const auto& error) {
-            return is_sound(level_of(vertex, corner, corner_uv, face, uv), inputs.faces.topology) &&
-                   error.size() == 4 &&
-                   std::ranges::all_of(error, [](double mm_off) { return mm_off >= 0; });
-          });
-  return {level_of(std::move(vertices), std::move(corners), std::move(corner_uvs), std::move(faces),
-                   uvs),
-          {errors[0], errors[1]},
-          {errors[2], errors[3]}};
+MeasuredLevel level_in(const CacheEntry& entry, const Topology& whole, double share) {
+  MeasuredLevel found;
+  DetailLevel& level = found.level;
+  level.share = share;
+  level.vertices = entry.list<std::uint32_t>("vertices");
+  level.faces = entry.list<std::uint32_t>("faces");
+  level.uvs = entry.matrix<TextureCoordinates>("uvs");
+  level.topology.vertex_count = static_cast<Index>(level.vertices.size());
+  level.topology.corner_vertices = entry.list<std::uint32_t>("corner vertices");
+  level.topology.corner_uvs = entry.list<std::uint32_t>("corner uvs");
+  for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
+    level.topology.face_offsets.push_back(3 * t);  // after the 0 that is there
+  }
+  const auto errors = entry.value<std::array<double, 4>>("errors");
+  found.heads = {errors[0], errors[1]};
+  found.shapes = {errors[2], errors[3]};
+  entry.require(is_sound(level, whole) &&
+                std::ranges::all_of(errors, [](double mm_off) { return mm_off >= 0; }));
+  return found;
+}
+
+std::vector<EntryArray> arrays_of(const MeasuredLevel& made) {
+  const DetailLevel& level = made.level;
+  return {array_of("vertices", level.vertices),
+          array_of("corner vertices", level.topology.corner_vertices),
+          array_of("corner uvs", level.topology.corner_uvs),
+          array_of("faces", level.faces),
+          array_of("uvs", level.uvs),
+          value_array("errors", std::array{made.heads.most, made.heads.root_mean_square,
+                                           made.shapes.most, made.shapes.root_mean_square})};
 }
 
 }  // namespace
 
-void find_levels(const Config& config, const std::filesystem::path& cache, Inputs& inputs) {
+void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs) {
   if (config.output.lods.empty() || config.output.meshes.empty()) return;
   const double mm = mm_per(config.faces.units);
   const FaceSet typical{
       inputs.faces.topology, inputs.faces.uvs, {{"mean", weighted(inputs.mean, inputs.parts)}}};
   inputs.levels.resize(config.output.lods.size());
   parallel_for_each(inputs.levels.size(), [&](std::size_t l) {
-    inputs.levels[l] = kept_level(inputs, cache, typical, config.output.lods[l] / 100, mm);
+    const double share = config.output.lods[l] / 100;
+    inputs.levels[l] = cached(
+        cache, {"level", key_of(inputs, typical, share, mm)},
+        [&](const CacheEntry& entry) { return level_in(entry, inputs.faces.topology, share); },
+        [&] { return measured_level(inputs, typical, share, mm); },
+        [](const MeasuredLevel& made) { return arrays_of(made); });
   });
 }
 

@@ -2,15 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "crowdface/cast/face_samples.h"
 #include "crowdface/config/config.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
-#include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cache_entry.h"
 #include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
@@ -41,13 +40,12 @@ struct HeadCacheShape {
   Levels levels = Levels::kBasis;
 };
 
-/// Reads an entry, whose fields stay in the file, mapped. \return nothing if there is none.
-/// \throws InvalidInput if it is damaged, of another version or of another shape.
-std::optional<PreparedHead> read_cached_head(const CacheFolder& cache, const Digest& key,
-                                             const HeadCacheShape& shape);
+CacheKey prepared_key(const Digest& digest);
 
-/// Writes an entry. \throws CannotCreate, IoError.
-void write_cached_head(const std::filesystem::path& cache, const Digest& key,
-                       const HeadCacheShape& shape, const PreparedHead& head);
+/// The head of an entry, whose fields stay in the file, mapped. \throws InvalidInput if it is of another shape.
+PreparedHead prepared_head(const CacheEntry& entry, const HeadCacheShape& shape);
+
+/// What the entry of a head holds.
+std::vector<EntryArray> arrays_of(const PreparedHead& head);
 
 }  // namespace crowdface

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/smooth/field_patches.h"
 
 namespace crowdface {
@@ -18,11 +18,10 @@ struct KeptPatches {
   std::shared_ptr<const MappedFile> mapped;  ///< if they lie in a file
 };
 
-/// What `make()` returns; kept, so that with the same key it is made once. A damaged entry is made anew with a warning;
-/// a cache that cannot be written costs a warning.
+/// What `make()` returns, from the cache if it is there.
 /// \param key    of all that the patches depend on
 /// \param ranks  #heads: how many fields each has
-KeptPatches kept_patches(const std::filesystem::path& cache, const Digest& key, Index vertex_count,
+KeptPatches kept_patches(const CacheFolder& cache, const Digest& key, Index vertex_count,
                          std::span<const Index> ranks, const std::function<FieldPatches()>& make);
 
 }  // namespace crowdface

@@ -2,19 +2,16 @@
 #include "crowdface/heads/kept_statistics.h"
 
 #include <span>
-#include <tuple>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/result_versions.h"
-#include "crowdface/heads/kept_lists.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/cached.h"
 
 namespace crowdface {
 namespace {
-
-/// Numbers without detail, of one head after the other; covariances.
-using Lists = std::tuple<std::vector<float>, std::vector<float>>;
 
 Digest digest_of_map(const TextureMap& map) {
   Hasher hasher;
@@ -24,14 +21,8 @@ Digest digest_of_map(const TextureMap& map) {
   return hasher.digest();
 }
 
-Lists lists_of(SurfaceStatistics statistics) {
-  Lists lists;
-  auto& [coarse, covariances] = lists;
-  for (const SurfaceStatistics::Colours& of_head : statistics.coarse) {
-    coarse.insert(coarse.end(), of_head.data(), of_head.data() + of_head.size());
-  }
-  covariances = std::move(statistics.covariances);
-  return lists;
+std::string coarse_name(std::size_t head) {
+  return concat("coarse ", head);
 }
 
 }  // namespace
@@ -47,7 +38,7 @@ Digest statistics_key(const Digest& rows, const Topology& topology, const Textur
     if (maps[m] != nullptr) digests[m] = digest_of_map(*maps[m]);
   });
   Hasher hasher;
-  hasher.add(kTextureVersion).add("texture statistics").add(rows);
+  hasher.add(kTextureVersion).add(rows);
   hasher.add_array(std::span(topology.corner_uvs));
   hasher.add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
   hasher.add_array(std::span(textures.layout.of_face));
@@ -59,24 +50,30 @@ Digest statistics_key(const Digest& rows, const Topology& topology, const Textur
   return hasher.digest();
 }
 
-SurfaceStatistics kept_statistics(const std::filesystem::path& cache, const Digest& key,
-                                  std::size_t vertices, std::size_t heads,
+SurfaceStatistics kept_statistics(const CacheFolder& cache, const Digest& key, std::size_t vertices,
+                                  std::size_t heads,
                                   const std::function<SurfaceStatistics()>& make) {
-  SurfaceStatistics statistics;
-  statistics.pairs = heads * (heads + 1) / 2;
-  auto [coarse, covariances] = kept_lists<float, float>(
-      cache, key, [&] { return lists_of(make()); },
-      [&](const std::vector<float>& of_heads, const std::vector<float>& of_pairs) {
-        return of_heads.size() == heads * vertices * 3 &&
-               of_pairs.size() == vertices * statistics.pairs && all_finite(of_heads) &&
-               all_finite(of_pairs);
+  return cached(
+      cache, {"textures", key},
+      [&](const CacheEntry& entry) {
+        SurfaceStatistics statistics;
+        statistics.pairs = heads * (heads + 1) / 2;
+        for (std::size_t h = 0; h < heads; ++h) {
+          statistics.coarse.emplace_back(entry.matrix<SurfaceStatistics::Colours>(coarse_name(h)));
+          entry.require(statistics.coarse.back().rows() == static_cast<Index>(vertices));
+        }
+        statistics.covariances = entry.list<float>("covariances");
+        entry.require(statistics.covariances.size() == vertices * statistics.pairs);
+        return statistics;
+      },
+      make,
+      [](const SurfaceStatistics& made) {
+        std::vector<EntryArray> arrays = {array_of("covariances", made.covariances)};
+        for (std::size_t h = 0; h < made.coarse.size(); ++h) {
+          arrays.push_back(array_of(coarse_name(h), made.coarse[h]));
+        }
+        return arrays;
       });
-  for (std::size_t h = 0; h < heads; ++h) {
-    statistics.coarse.emplace_back(Eigen::Map<const SurfaceStatistics::Colours>(
-        coarse.data() + h * vertices * 3, static_cast<Index>(vertices), 3));
-  }
-  statistics.covariances = std::move(covariances);
-  return statistics;
 }
 
 }  // namespace crowdface

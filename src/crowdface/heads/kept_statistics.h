@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/texture/surface_statistics.h"
 
 namespace crowdface {
@@ -15,11 +15,10 @@ namespace crowdface {
 Digest statistics_key(const Digest& rows, const Topology& topology, const TextureCoordinates& uvs,
                       const CrowdTextures& textures, const StatisticsScale& scale);
 
-/// What `make()` returns; kept, so that with the same key it is made once.
-/// \param cache     the folder; empty: nothing is kept.
+/// What `make()` returns, from the cache if it is there.
 /// \param vertices  of the mesh
-SurfaceStatistics kept_statistics(const std::filesystem::path& cache, const Digest& key,
-                                  std::size_t vertices, std::size_t heads,
+SurfaceStatistics kept_statistics(const CacheFolder& cache, const Digest& key, std::size_t vertices,
+                                  std::size_t heads,
                                   const std::function<SurfaceStatistics()>& make);
 
 }  // namespace crowdface

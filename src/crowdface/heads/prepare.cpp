@@ -12,6 +12,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
+#include "crowdface/heads/cached.h"
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/smooth/cubic_fit.h"
 #include "crowdface/smooth/principal_directions.h"
@@ -88,12 +89,8 @@ class HeadPreparation {
 
 std::optional<PreparedHead> from_cache(const CacheFolder& cache, const Digest& key,
                                        const HeadCacheShape& shape) {
-  try {
-    return read_cached_head(cache, key, shape);
-  } catch (const RecoverableError& error) {
-    log_warning(concat(error.what(), "; it is made anew"));
-    return std::nullopt;
-  }
+  return find_cached(cache, prepared_key(key),
+                     [&](const CacheEntry& entry) { return prepared_head(entry, shape); });
 }
 
 /// Removes what runs left that were killed while they kept a head. A cache is no reason to stop.
@@ -102,18 +99,6 @@ void clean(const std::filesystem::path& cache) {
     remove_leftovers(cache);
   } catch (const RecoverableError& error) {
     log_warning(error.what());
-  }
-}
-
-/// \return whether writing works; after one failure there is no point in more warnings.
-bool into_cache(const std::filesystem::path& cache, const Digest& key, const HeadCacheShape& shape,
-                const PreparedHead& head) {
-  try {
-    write_cached_head(cache, key, shape, head);
-    return true;
-  } catch (const RecoverableError& error) {
-    log_warning(concat("prepared heads cannot be kept: ", error.what()));
-    return false;
   }
 }
 
@@ -180,7 +165,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
     throw_if_interrupted();
     const Digest key = key_of(config, inputs, prepared.traced, h);
     if (from_cache(cache, key, shape)) continue;
-    write_cached_head(cache, key, shape, preparation.prepare(inputs.faces.heads[h]));
+    write_entry(cache, prepared_key(key), arrays_of(preparation.prepare(inputs.faces.heads[h])));
   }
 }
 
@@ -207,7 +192,9 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
       ++prepared.from_cache;
     } else {
       head = preparation.prepare(inputs.faces.heads[h]);
-      cache_works = cache_works && into_cache(cache, keys[h], shape, *head);
+      // After one failure there is no point in more warnings.
+      cache_works =
+          cache_works && store(cache, prepared_key(keys[h]), arrays_of(*head), "prepared heads");
       // What was written is used from there, so that memory holds the fields of one head only.
       if (cache_works) {
         if (auto written = from_cache(cache, keys[h], shape)) head = std::move(written);

@@ -17,7 +17,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached.h"
 #include "crowdface/heads/seen_files.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/obj_colours.h"
@@ -39,12 +39,13 @@ class MeshShelf {
   MeshShelf(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}
   Winding winding() const { return winding_; }
 
-  /// \return null if neither we nor the cache have it. \throws InvalidInput of the cache's entry.
+  /// \return null if neither we nor the cache have it.
   std::shared_ptr<HeadMesh> find(const Digest& digest) {
     const std::lock_guard lock(mutex_);
     const auto known = meshes_.find(digest);
     if (known != meshes_.end()) return known->second;
-    auto kept = find_mesh(cache_, digest);
+    auto kept = find_cached(cache_, mesh_key(digest),
+                            [&](const CacheEntry& entry) { return read_mesh(entry, digest); });
     if (!kept) return nullptr;
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
@@ -118,17 +119,16 @@ void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
 
 /// Fills in what the cache knows of a head. \return false if it does not.
 bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf) {
-  try {
-    const auto mesh = find_head(cache, head.text, head.file);
-    if (!mesh) return false;
-    head.mesh_digest = *mesh;
-    head.mesh = shelf.find(*mesh);
-    if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
-    refuse_file(head.file.path, "its cache entry is damaged (it is of another mesh)");
-  } catch (const RecoverableError& error) {
-    log_warning(concat(error.what(), "; it is made anew"));
-    return false;
-  }
+  const auto mesh = find_cached(cache, read_key(head.text), [&](const CacheEntry& entry) {
+    return read_head(entry, head.file);
+  });
+  if (!mesh) return false;
+  head.mesh_digest = *mesh;
+  head.mesh = shelf.find(*mesh);
+  if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
+  warn_of_entry(InvalidInput(
+      concat(head.file.path.string(), ": its cache entry is damaged (it is of another mesh)")));
+  return false;
 }
 
 /// A head that is being read.
@@ -398,10 +398,11 @@ void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
       lacking.push_back(&head);
       if (std::ranges::find(meshes, head.mesh_digest) != meshes.end()) continue;
       meshes.push_back(head.mesh_digest);
-      keep_mesh(cache, *head.mesh);
+      write_entry(cache, mesh_key(head.mesh_digest), arrays_of(*head.mesh));
     }
     parallel_for_each(lacking.size(), [&](std::size_t i) {
-      keep_head(cache, lacking[i]->text, lacking[i]->mesh_digest, lacking[i]->file);
+      write_entry(cache, read_key(lacking[i]->text),
+                  arrays_of(lacking[i]->file, lacking[i]->mesh_digest));
     });
   } catch (const RecoverableError& error) {
     log_warning(concat("heads that were read cannot be kept: ", error.what()));

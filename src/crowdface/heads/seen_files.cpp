@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/seen_files.h"
 
-#include <cstring>
 #include <ctime>
-#include <type_traits>
+#include <span>
 
 #include <sys/stat.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/heads/cache_entry.h"
 
 namespace crowdface {
 namespace {
@@ -19,31 +19,32 @@ std::int64_t nanoseconds(const timespec& time) {
   return time.tv_sec * kSecond + time.tv_nsec;
 }
 
+/// One entry for each device and inode.
+CacheKey seen_key(std::span<const std::int64_t> stamp) {
+  return {"seen", Hasher().add(stamp[0]).add(stamp[1]).digest()};
+}
+
 }  // namespace
 
 std::optional<SeenFile::Stamp> SeenFile::stamp_of(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return std::nullopt;
-  return Stamp{status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
-               nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
+  return Stamp{static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino),
+               status.st_size, nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
 }
 
-SeenFile::SeenFile(const CacheFolder& cache, const fs::path& file) : file_(file) {
-  static_assert(std::has_unique_object_representations_v<Stamp>);
+SeenFile::SeenFile(const CacheFolder& cache, const fs::path& file)
+    : file_(file), cache_(cache.path) {
   if (!cache.trusts_seen_files || cache.path.empty()) return;
   stamp_ = stamp_of(file);
   if (!stamp_) return;
-  const Digest place = Hasher().add(stamp_->device).add(stamp_->inode).digest();
-  entry_ = cache_entry(cache, place, kSeenEnding);
   try {
-    const auto entry = map_entry(entry_);
-    if (!entry || entry->content.size() != sizeof(Stamp) + sizeof(Digest)) return;
-    Stamp seen;
-    std::memcpy(&seen, entry->content.data(), sizeof seen);
-    if (seen != *stamp_) return;
-    digest_.emplace();
-    std::memcpy(&*digest_, entry->content.data() + sizeof seen, sizeof *digest_);
-  } catch (const RecoverableError&) {  // what is not kept well is not known
+    const auto entry = CacheEntry::open(cache_, seen_key(*stamp_));
+    if (!entry) return;
+    if (entry->value<Stamp>("stamp") != *stamp_) return;
+    const auto [high, low] = entry->value<std::array<std::uint64_t, 2>>("digest");
+    digest_ = Digest{high, low};
+  } catch (const RecoverableError&) {  // a damaged entry tells nothing of the file
   }
 }
 
@@ -52,13 +53,14 @@ void SeenFile::remember(const Digest& digest) const {
   // Clocks of file systems tick some hundred times a second.
   constexpr std::int64_t kSettled = 1'000'000'000;
   timespec now{};
-  if (::clock_gettime(CLOCK_REALTIME, &now) != 0 ||
-      nanoseconds(now) - stamp_->changed_ns < kSettled) {
+  if (::clock_gettime(CLOCK_REALTIME, &now) != 0 || nanoseconds(now) - stamp_->back() < kSettled) {
     return;
   }
   try {
-    write_entry(entry_, {bytes_of(&*stamp_, sizeof *stamp_), bytes_of(&digest, sizeof digest)});
-  } catch (const RecoverableError&) {  // then it is read whole the next time too
+    write_entry(cache_, seen_key(*stamp_),
+                {value_array("stamp", *stamp_),
+                 value_array("digest", std::array{digest.high, digest.low})});
+  } catch (const RecoverableError&) {  // then the next run hashes the file again
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -26,14 +27,11 @@ class SeenFile {
   void remember(const Digest& digest) const;
 
  private:
-  struct Stamp {
-    std::uint64_t device = 0, inode = 0, size = 0;
-    std::int64_t modified_ns = 0, changed_ns = 0;
-    bool operator==(const Stamp&) const = default;
-  };
+  /// Device, inode, size, and the times of both changes in nanoseconds.
+  using Stamp = std::array<std::int64_t, 5>;
   static std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 
-  std::filesystem::path file_, entry_;
+  std::filesystem::path file_, cache_;
   std::optional<Stamp> stamp_;
   std::optional<Digest> digest_;
 };

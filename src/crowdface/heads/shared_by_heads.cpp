@@ -13,7 +13,7 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/kept_lists.h"
+#include "crowdface/heads/cached.h"
 #include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
@@ -23,11 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr Index kLeastKeptVertices = 50'000;
 
-/// Each kind of entry has keys of its own.
-enum class Kind { kNeighbours, kRegions, kSamples, kCells, kMirror };
-
-Hasher& begin_key(Hasher& hasher, Kind kind, const Inputs& inputs) {
-  return hasher.add(kSharedVersion).add(static_cast<int>(kind)).add(inputs.topology_digest);
+Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
+  return hasher.add(kSharedVersion).add(inputs.topology_digest);
 }
 
 /// Of all that follows from where the skin of all heads is.
@@ -57,7 +54,7 @@ bool are_shares(const std::array<double, 3>& shares) {
 std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs) {
   const InputLimits& limits = input_limits();
   Hasher key;
-  add_skins(begin_key(key, Kind::kRegions, inputs), inputs)
+  add_skins(begin_key(key, inputs), inputs)
       .add_array(std::span(inputs.faces.topology.corner_uvs))
       .add_array(numbers_of(inputs.faces.uvs))
       .add(join(config.region_names()))
@@ -77,14 +74,59 @@ RegionWeights weights_of_masks(const Config& config, const Inputs& inputs) {
                         config.region_names());
 }
 
-template <class Rows>
-std::vector<double> list_of(const Rows& rows) {
-  return {rows.data(), rows.data() + rows.size()};
+struct Neighbours {
+  Adjacency adjacency;
+  Components components;
+};
+
+Neighbours neighbours_in(const CacheEntry& entry, const Topology& topology) {
+  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
+  Neighbours found;
+  auto& [adjacency, components] = found;
+  adjacency.offsets = entry.list<std::uint32_t>("offsets");
+  adjacency.items = entry.list<std::uint32_t>("neighbours");
+  const auto boundary = entry.get<std::uint8_t>("boundary");
+  adjacency.boundary.assign(boundary.begin(), boundary.end());
+  components = {entry.list<std::uint32_t>("components"), entry.list<std::uint32_t>("sizes")};
+  const auto& offsets = adjacency.offsets;
+  entry.require(offsets.size() == vertices + 1 && offsets.front() == 0 &&
+                offsets.back() == adjacency.items.size() && std::ranges::is_sorted(offsets) &&
+                all_below(adjacency.items, vertices) && boundary.size() == vertices &&
+                components.of_vertex.size() == vertices &&
+                are_sizes(components.of_vertex, components.sizes));
+  return found;
 }
 
-template <class Rows>
-Rows rows_of(const std::vector<double>& list, Index columns) {
-  return Eigen::Map<const Rows>(list.data(), static_cast<Index>(list.size()) / columns, columns);
+/// Arrays of what was found of the mirror image.
+constexpr const char *kCorners = "corners", *kShares = "shares", *kWithout = "without",
+                     *kAdded = "added", *kPlane = "plane", *kDistances = "distances",
+                     *kCounts = "counts";
+using PlaneNumbers = std::array<double, 4>;
+using Pair = std::array<double, 2>;
+using Counts = std::array<std::int64_t, 2>;
+
+FoundMirror mirror_in(const CacheEntry& entry, const Topology& topology) {
+  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
+  FoundMirror found;
+  MirrorMap& map = found.map;
+  map.corners = entry.list<Triangle>(kCorners);
+  map.shares = entry.list<std::array<double, 3>>(kShares);
+  map.without = entry.list<std::uint32_t>(kWithout);
+  map.kept = entry.matrix<Positions>(kAdded);
+  const auto plane = entry.value<PlaneNumbers>(kPlane);
+  map.plane = {{plane[0], plane[1], plane[2]}, plane[3]};
+  const auto [rms, largest] = entry.value<Pair>(kDistances);
+  found.rms = rms;
+  found.largest = largest;
+  const auto [at_vertices, on_surface] = entry.value<Counts>(kCounts);
+  found.vertices = at_vertices;
+  found.on_surface = on_surface;
+  const auto is_place = [&](const Triangle& triangle) { return all_below(triangle, vertices); };
+  entry.require(map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
+                map.shares.size() == vertices && std::ranges::all_of(map.shares, are_shares) &&
+                all_below(map.without, vertices) &&
+                map.kept.rows() == static_cast<Index>(map.without.size()));
+  return found;
 }
 
 }  // namespace
@@ -94,135 +136,113 @@ fs::path folder_for(const fs::path& cache, const Topology& topology) {
 }
 
 void find_neighbours(Inputs& inputs) {
-  const auto vertices = static_cast<std::size_t>(inputs.faces.topology.vertex_count);
+  const Topology& topology = inputs.faces.topology;
   Hasher key;
-  begin_key(key, Kind::kNeighbours, inputs);
-  using Numbers = std::vector<std::uint32_t>;
-  auto [offsets, items, boundary, of_vertex, sizes] =
-      kept_lists<std::uint32_t, std::uint32_t, std::uint8_t, std::uint32_t, std::uint32_t>(
-          inputs.cache, key.digest(),
-          [&] {
-            Adjacency adjacency = build_adjacency(inputs.faces.topology);
-            Components components = find_components(adjacency);
-            return std::tuple(
-                std::move(adjacency.offsets), std::move(adjacency.items),
-                std::vector<std::uint8_t>(adjacency.boundary.begin(), adjacency.boundary.end()),
-                std::move(components.of_vertex), std::move(components.sizes));
-          },
-          [&](const Numbers& offset, const Numbers& item, const auto& open, const Numbers& of,
-              const Numbers& size) {
-            return offset.size() == vertices + 1 && offset.front() == 0 &&
-                   offset.back() == item.size() && std::ranges::is_sorted(offset) &&
-                   all_below(item, vertices) && open.size() == vertices && of.size() == vertices &&
-                   are_sizes(of, size);
-          });
-  inputs.adjacency.offsets = std::move(offsets);
-  inputs.adjacency.items = std::move(items);
-  inputs.adjacency.boundary.assign(boundary.begin(), boundary.end());
-  inputs.components = {std::move(of_vertex), std::move(sizes)};
+  begin_key(key, inputs);
+  auto found = cached(
+      inputs.cache, {"neighbours", key.digest()},
+      [&](const CacheEntry& entry) { return neighbours_in(entry, topology); },
+      [&] {
+        Adjacency adjacency = build_adjacency(topology);
+        Components components = find_components(adjacency);
+        return Neighbours{std::move(adjacency), std::move(components)};
+      },
+      [](const Neighbours& made) {
+        const std::vector<bool>& boundary = made.adjacency.boundary;
+        return std::vector{
+            array_of("offsets", made.adjacency.offsets),
+            array_of("neighbours", made.adjacency.items),
+            owned_array("boundary", std::vector<std::uint8_t>(boundary.begin(), boundary.end())),
+            array_of("components", made.components.of_vertex),
+            array_of("sizes", made.components.sizes)};
+      });
+  inputs.adjacency = std::move(found.adjacency);
+  inputs.components = std::move(found.components);
 }
 
 RegionWeights load_regions(const Config& config, const Inputs& inputs) {
   if (config.regions.names.empty()) return whole_head(inputs.faces.topology);
   const auto key = inputs.cache.empty() ? std::nullopt : key_of_regions(config, inputs);
   if (!key) return weights_of_masks(config, inputs);
-  const auto vertices = inputs.faces.topology.vertex_count;
-  const auto regions = static_cast<Index>(config.region_names().size());
-  const auto [alpha, uncovered] = kept_lists<double, std::uint64_t>(
-      inputs.cache, *key,
-      [&] {
-        const RegionWeights weights = weights_of_masks(config, inputs);
-        return std::tuple(
-            list_of(weights.alpha),
-            std::vector<std::uint64_t>{static_cast<std::uint64_t>(weights.uncovered_vertices)});
+  return cached(
+      inputs.cache, {"masks", *key},
+      [&](const CacheEntry& entry) {
+        RegionWeights weights{entry.matrix<RegionWeights::Alpha>("alpha"),
+                              entry.value<Index>("uncovered")};
+        const auto& alpha = weights.alpha;
+        entry.require(alpha.rows() == inputs.faces.topology.vertex_count &&
+                      alpha.cols() == static_cast<Index>(config.region_names().size()) &&
+                      (alpha.array() >= 0 && alpha.array() <= 1).all());
+        return weights;
       },
-      [&](const auto& values, const auto& count) {
-        return values.size() == static_cast<std::size_t>(vertices * regions) && count.size() == 1 &&
-               std::ranges::all_of(values, [](double value) { return value >= 0 && value <= 1; });
+      [&] { return weights_of_masks(config, inputs); },
+      [](const RegionWeights& made) {
+        return std::vector{array_of("alpha", made.alpha),
+                           value_array("uncovered", made.uncovered_vertices)};
       });
-  return {rows_of<RegionWeights::Alpha>(alpha, regions), static_cast<Index>(uncovered.front())};
 }
 
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count) {
   Hasher key;
-  add_skins(begin_key(key, Kind::kSamples, inputs), inputs)
+  add_skins(begin_key(key, inputs), inputs)
       .add(count)
       .add(config.faces.front.index)
       .add(config.faces.front.sign);
-  auto [samples] = kept_lists<std::uint32_t>(
-      inputs.cache, key.digest(),
-      [&] {
-        return std::tuple(choose_face_samples(inputs.faces.topology, inputs.skin, inputs.mean,
-                                              config.faces.front, count));
+  return cached(
+      inputs.cache, {"samples", key.digest()},
+      [&](const CacheEntry& entry) {
+        FaceSamples chosen = entry.list<std::uint32_t>("vertices");
+        entry.require(!chosen.empty() && std::ranges::is_sorted(chosen) &&
+                      std::ranges::adjacent_find(chosen) == chosen.end() &&
+                      chosen.back() <
+                          static_cast<std::uint32_t>(inputs.faces.topology.vertex_count));
+        return chosen;
       },
-      [&](const auto& chosen) {
-        return !chosen.empty() && std::ranges::is_sorted(chosen) &&
-               std::ranges::adjacent_find(chosen) == chosen.end() &&
-               chosen.back() < static_cast<std::uint32_t>(inputs.faces.topology.vertex_count);
-      });
-  return std::move(samples);
+      [&] {
+        return choose_face_samples(inputs.faces.topology, inputs.skin, inputs.mean,
+                                   config.faces.front, count);
+      },
+      [](const FaceSamples& made) { return std::vector{array_of("vertices", made)}; });
 }
 
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
-  begin_key(key, Kind::kCells, inputs).add_array(std::span(samples));
+  begin_key(key, inputs).add_array(std::span(samples));
   for (const Digest& head : inputs.head_digests) key.add(head);
-  auto [of_vertex] = kept_lists<std::uint32_t>(
-      inputs.cache, key.digest(),
-      [&] {
-        return std::tuple(find_sample_cells(inputs.adjacency, inputs.mean, samples).of_vertex);
-      },
-      [&](const auto& cells) {
+  return cached(
+      inputs.cache, {"cells", key.digest()},
+      [&](const CacheEntry& entry) {
         static_assert(SampleCells::kNone == kNoIndex);
-        return cells.size() == static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
-               are_rows(cells, samples.size());
-      });
-  return {std::move(of_vertex)};
+        SampleCells cells{entry.list<std::uint32_t>("samples")};
+        entry.require(cells.of_vertex.size() ==
+                          static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
+                      are_rows(cells.of_vertex, samples.size()));
+        return cells;
+      },
+      [&] { return find_sample_cells(inputs.adjacency, inputs.mean, samples); },
+      [](const SampleCells& made) { return std::vector{array_of("samples", made.of_vertex)}; });
 }
 
 FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) {
-  const auto vertices = static_cast<std::size_t>(inputs.faces.topology.vertex_count);
   Hasher key;
-  begin_key(key, Kind::kMirror, inputs).add(kMirrorVersion);
+  begin_key(key, inputs).add(kMirrorVersion);
   for (const Digest& head : inputs.head_digests) key.add(head);
   for (const double value : side) key.add(value);
-  const auto [corners, shares, without, kept, counts, measures] =
-      kept_lists<Triangle, std::array<double, 3>, std::uint32_t, double, std::uint64_t, double>(
-          inputs.cache, key.digest(),
-          [&] {
-            FoundMirror found =
-                find_mirror(inputs.faces.topology, inputs.components, inputs.mean, side);
-            const auto& [normal, offset] = found.map.plane;
-            return std::tuple(
-                std::move(found.map.corners), std::move(found.map.shares),
-                std::move(found.map.without), list_of(found.map.kept),
-                std::vector<std::uint64_t>{static_cast<std::uint64_t>(found.vertices),
-                                           static_cast<std::uint64_t>(found.on_surface)},
-                std::vector<double>{normal[0], normal[1], normal[2], offset, found.rms,
-                                    found.largest});
-          },
-          [&](const auto& corner, const auto& share, const auto& lacking, const auto& added,
-              const auto& count, const auto& measure) {
-            const auto is_place = [&](const Triangle& triangle) {
-              return all_below(triangle, vertices);
-            };
-            return corner.size() == vertices && std::ranges::all_of(corner, is_place) &&
-                   share.size() == vertices && std::ranges::all_of(share, are_shares) &&
-                   all_below(lacking, vertices) && added.size() == 3 * lacking.size() &&
-                   are_coordinates(std::span(added)) && count.size() == 2 && measure.size() == 6 &&
-                   are_coordinates(std::span(measure));
-          });
-  FoundMirror found;
-  found.map.plane = {{measures[0], measures[1], measures[2]}, measures[3]};
-  found.map.corners = corners;
-  found.map.shares = shares;
-  found.map.without = without;
-  found.map.kept = rows_of<Positions>(kept, 3);
-  found.vertices = static_cast<Index>(counts[0]);
-  found.on_surface = static_cast<Index>(counts[1]);
-  found.rms = measures[4];
-  found.largest = measures[5];
-  return found;
+  return cached(
+      inputs.cache, {"mirror", key.digest()},
+      [&](const CacheEntry& entry) { return mirror_in(entry, inputs.faces.topology); },
+      [&] { return find_mirror(inputs.faces.topology, inputs.components, inputs.mean, side); },
+      [](const FoundMirror& made) {
+        const auto& [normal, offset] = made.map.plane;
+        return std::vector{
+            array_of(kCorners, made.map.corners),
+            array_of(kShares, made.map.shares),
+            array_of(kWithout, made.map.without),
+            array_of(kAdded, made.map.kept),
+            value_array(kPlane, PlaneNumbers{normal[0], normal[1], normal[2], offset}),
+            value_array(kDistances, Pair{made.rms, made.largest}),
+            value_array(kCounts, Counts{made.vertices, made.on_surface})};
+      });
 }
 
 }  // namespace crowdface

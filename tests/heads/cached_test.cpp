@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/kept_lists.h"
+#include "crowdface/heads/cached.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +17,7 @@
 #include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/shared_by_heads.h"
 
+#include "support/forged_entry.h"
 #include "support/meshes.h"
 #include "support/temporary_folder.h"
 
@@ -26,19 +26,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Lists = std::tuple<std::vector<std::uint32_t>, std::vector<double>>;
+struct Lists {
+  std::vector<std::uint32_t> numbers;
+  std::vector<double> values;
+  bool operator==(const Lists&) const = default;
+};
 
-class KeptLists : public ::testing::Test {
+class Cached : public ::testing::Test {
  protected:
   Lists lists(const Digest& key, std::uint32_t most = 9) {
-    return kept_lists<std::uint32_t, double>(
-        folder_.path(), key,
+    return cached(
+        folder_.path(), {"test", key},
+        [&](const CacheEntry& entry) {
+          Lists found{entry.list<std::uint32_t>("numbers"), entry.list<double>("values")};
+          entry.require(found.numbers.size() == 3 && found.numbers[2] <= most);
+          return found;
+        },
         [&] {
           ++made_;
           return Lists{{1, 2, 3}, {0.5}};
         },
-        [&](const auto& numbers, const auto& values) {
-          return numbers.size() == 3 && numbers[2] <= most && values.size() == 1;
+        [](const Lists& made) {
+          return std::vector{array_of("numbers", made.numbers), array_of("values", made.values)};
         });
   }
   fs::path entry() const { return list_cache(folder_.path()).entries.at(0); }
@@ -47,7 +56,7 @@ class KeptLists : public ::testing::Test {
   int made_ = 0;
 };
 
-TEST_F(KeptLists, AreMadeOnceForAKey) {
+TEST_F(Cached, IsMadeOnceForAKey) {
   const Digest key{1, 2}, other{1, 3};
   const Lists first = lists(key);
   EXPECT_EQ(lists(key), first);
@@ -56,7 +65,7 @@ TEST_F(KeptLists, AreMadeOnceForAKey) {
   EXPECT_EQ(made_, 2);
 }
 
-TEST_F(KeptLists, AreMadeAnewWhereAnEntryIsCutOrChangedOrOfAnotherKey) {
+TEST_F(Cached, IsMadeAnewWhereAnEntryIsCutOrChangedOrOfAnotherKey) {
   const Digest key{1, 2};
   const Lists first = lists(key);
   fs::resize_file(entry(), fs::file_size(entry()) - 1);
@@ -68,45 +77,76 @@ TEST_F(KeptLists, AreMadeAnewWhereAnEntryIsCutOrChangedOrOfAnotherKey) {
   EXPECT_EQ(made_, 3);
 
   const Digest other{7, 7};
-  fs::copy_file(entry(), cache_entry(folder_.path(), other, kListsEnding));
+  fs::copy_file(entry(), cache_entry(folder_.path(), {"test", other}));
   EXPECT_EQ(lists(other), first);
   EXPECT_EQ(made_, 4);
   EXPECT_EQ(lists(other), first);
   EXPECT_EQ(made_, 4);
 }
 
-TEST_F(KeptLists, AreMadeAnewWhereTheyAreNotSound) {
+TEST_F(Cached, IsMadeAnewWhereItIsNotSound) {
   const Digest key{1, 2};
   lists(key);
   EXPECT_EQ(lists(key, 2), (Lists{{1, 2, 3}, {0.5}}));
   EXPECT_EQ(made_, 2);
 }
 
-/// Puts another number into an entry, under a right checksum.
-template <class T>
-void forge(const fs::path& entry, std::size_t at, T number) {
-  std::string bytes = read_file(entry);
-  std::memcpy(bytes.data() + at, &number, sizeof number);
-  const Digest sum = hash_bytes(std::string_view(bytes).substr(0, bytes.size() - sizeof(Digest)));
-  std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
-  write_file(entry, bytes);
+TEST_F(Cached, EntryTellsArraysByNameAndType) {
+  const CacheKey key{"test", {1, 2}};
+  const std::vector<std::array<double, 2>> pairs = {{1, 2}, {3, 4}};
+  const Eigen::MatrixXd by_columns = Eigen::MatrixXd::Random(3, 5);
+  const Positions by_rows = Positions::Random(4, 3);
+  write_entry(folder_.path(), key,
+              {array_of("pairs", pairs), array_of("by columns", by_columns),
+               array_of("by rows", by_rows), value_array("one", std::int16_t{-7})});
+  const auto entry = CacheEntry::open(folder_.path(), key);
+  ASSERT_TRUE(entry);
+  EXPECT_EQ((entry->list<std::array<double, 2>>("pairs")), pairs);
+  EXPECT_EQ(entry->matrix<Eigen::MatrixXd>("by columns"), by_columns);
+  EXPECT_EQ(entry->matrix<Positions>("by rows"), by_rows);
+  EXPECT_EQ(entry->value<std::int16_t>("one"), -7);
+  for (const char* name : {"pairs", "by columns", "by rows", "one"}) {
+    EXPECT_EQ(testing::place_of_array(read_file(this->entry()), name) % 64, 0U);
+  }
+  EXPECT_THROW(entry->get<double>("one"), InvalidInput);
+  EXPECT_THROW(entry->get<std::uint16_t>("one"), InvalidInput);
+  EXPECT_THROW(entry->get<double>("pairs"), InvalidInput);
+  EXPECT_THROW(entry->get<double>("none"), InvalidInput);
+  EXPECT_THROW((entry->value<std::array<double, 2>>("pairs")), InvalidInput);
+  EXPECT_THROW(entry->matrix<TextureCoordinates>("by rows"), InvalidInput);
+}
+
+// Any number in the header may be forged under a right checksum.
+TEST_F(Cached, NoForgedHeaderIsFollowedOutOfTheFile) {
+  const Digest key{1, 2};
+  const Lists first = lists(key);
+  const std::string sound = read_file(entry());
+  const std::size_t end = 32 + 2 * std::size_t{48};
+  for (std::size_t at = 0; at + 8 <= end; at += 4) {
+    for (const std::uint64_t number : {std::uint64_t{0}, std::uint64_t{7}, ~std::uint64_t{0},
+                                       std::uint64_t{1} << 63U, std::uint64_t{1} << 32U}) {
+      write_file(entry(), testing::forged_at(sound, at, number));
+      EXPECT_EQ(lists(key), first) << at << ' ' << number;
+    }
+  }
+  EXPECT_GT(made_, 80);
 }
 
 // Rows were made for as many vertices as a component said to have.
-TEST_F(KeptLists, ComponentsOfOtherSizesThanTheyHaveAreNotTaken) {
+TEST_F(Cached, ComponentsOfOtherSizesThanTheyHaveAreNotTaken) {
   Inputs inputs;
   inputs.faces.topology = testing::cube_topology();
   inputs.cache = folder_.path();
   find_neighbours(inputs);
   ASSERT_EQ(inputs.components.sizes, std::vector<std::uint32_t>{8});
   const std::string kept = read_file(entry());
-  forge(entry(), kept.size() - sizeof(Digest) - 4, std::uint32_t{1'000'000'000});
+  write_file(entry(), testing::forged_array(kept, "sizes", 0, std::uint32_t{1'000'000'000}));
   find_neighbours(inputs);
   EXPECT_EQ(inputs.components.sizes, std::vector<std::uint32_t>{8});
   EXPECT_EQ(read_file(entry()), kept);
 }
 
-TEST_F(KeptLists, PlacesOnTheOtherSideLieInTheirTriangles) {
+TEST_F(Cached, PlacesOnTheOtherSideLieInTheirTriangles) {
   Inputs inputs;
   inputs.faces.topology = testing::cube_topology();
   inputs.mean = testing::cube_positions();
@@ -115,15 +155,14 @@ TEST_F(KeptLists, PlacesOnTheOtherSideLieInTheirTriangles) {
   const Eigen::Vector3d side(1, 0, 0);
   const FoundMirror found = find_other_sides(inputs, side);
   const std::string kept = read_file(entry());
-  constexpr std::size_t kFirstShare = 48 + 6 * 8 + 8 * 12;  // after header, sizes and corners
   for (const double share : {std::nan(""), 1e300}) {
-    forge(entry(), kFirstShare, share);
+    write_file(entry(), testing::forged_array(kept, "shares", 0, share));
     EXPECT_EQ(find_other_sides(inputs, side).map.shares, found.map.shares);
     EXPECT_EQ(read_file(entry()), kept);
   }
 }
 
-TEST_F(KeptLists, LevelsOfDetailAreThoseOfTheMesh) {
+TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
   Inputs inputs;
   inputs.faces.topology = testing::cube_topology();
   inputs.faces.heads = {{"cube", testing::cube_positions()}};
@@ -150,22 +189,19 @@ TEST_F(KeptLists, LevelsOfDetailAreThoseOfTheMesh) {
     EXPECT_EQ(found.heads.root_mean_square, made.heads.root_mean_square);
   };
   expect_same(level());
-  constexpr std::size_t kFirstVertex = 48 + 6 * 8;  // after header and sizes
-  forge(entry(), kFirstVertex, std::uint32_t{8});
+  write_file(entry(), testing::forged_array(kept, "vertices", 0, std::uint32_t{8}));
   expect_same(level());
   EXPECT_EQ(read_file(entry()), kept);
-  forge(entry(), kept.size() - sizeof(Digest) - sizeof(double), std::nan(""));
+  write_file(entry(), testing::forged_array(kept, "errors", 3 * sizeof(double), std::nan("")));
   expect_same(level());
   EXPECT_EQ(read_file(entry()), kept);
 }
 
-TEST_F(KeptLists, WithoutACacheAreNotKept) {
+TEST_F(Cached, WithoutACacheNothingIsKept) {
   for (int times = 1; times <= 2; ++times) {
-    const auto make = [&] {
-      ++made_;
-      return std::tuple(std::vector<double>{1});
-    };
-    kept_lists<double>({}, Digest{}, make, [](const auto&) { return true; });
+    const auto none = [](const CacheEntry&) { return 0; };
+    const auto make = [&] { return ++made_; };
+    cached({}, {"test", Digest{}}, none, make, [](int) { return std::vector<EntryArray>(); });
     EXPECT_EQ(made_, times);
   }
 }

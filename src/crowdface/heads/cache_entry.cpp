@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/cache_entry.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "crowdface/core/require.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EntryHeader {
+  char magic[8] = {'C', 'F', 'D', 'A', 'T', 'A', '\r', '\n'};
+  std::uint32_t version = 1;
+  std::uint32_t arrays = 0;
+  Digest key;
+};
+static_assert(sizeof(EntryHeader) == 32);
+
+constexpr std::uint64_t kAlignment = 64;
+
+std::uint64_t aligned(std::uint64_t offset) {
+  return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+Digest digest_of(const CacheKey& key) {
+  return Hasher().add(key.kind).add(key.digest).digest();
+}
+
+std::string_view as_bytes(const void* data, std::size_t size) {
+  return {static_cast<const char*>(data), size};
+}
+
+/// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
+/// compared as integers, vectors of them at once: any too large makes its difference negative.
+template <class Integer, class T>
+bool all_at_most(std::span<const T> values, T most) {
+  constexpr auto kMagnitude = std::numeric_limits<Integer>::max();
+  const auto largest = std::bit_cast<Integer>(most);
+  Integer differences = 0;
+  for (const T value : values) {
+    differences |= largest - (std::bit_cast<Integer>(value) & kMagnitude);
+  }
+  return differences >= 0;
+}
+
+}  // namespace
+
+fs::path cache_entry(const fs::path& cache, const CacheKey& key) {
+  return cache / concat(key.kind, '-', key.digest.hex(), kCacheEnding);
+}
+
+void write_entry(const fs::path& cache, const CacheKey& key,
+                 const std::vector<EntryArray>& arrays) {
+  constexpr char kPadding[kAlignment] = {};
+  EntryHeader header;
+  header.arrays = static_cast<std::uint32_t>(arrays.size());
+  header.key = digest_of(key);
+  std::vector<CacheEntry::Row> rows;
+  std::uint64_t end = sizeof header + arrays.size() * sizeof(CacheEntry::Row);
+  std::vector<std::string_view> pieces = {as_bytes(&header, sizeof header), {}};
+  for (const EntryArray& array : arrays) {
+    const std::uint64_t offset = aligned(end);
+    CacheEntry::Row row{{}, array.type, array.columns, array.rows, offset};
+    require(array.name.size() < sizeof row.name, "cache: the name of an array is too long");
+    std::ranges::copy(array.name, row.name);
+    rows.push_back(row);
+    pieces.push_back(as_bytes(kPadding, offset - end));
+    pieces.push_back(as_bytes(array.data, array.bytes));
+    end = offset + array.bytes;
+  }
+  pieces[1] = as_bytes(rows.data(), rows.size() * sizeof(CacheEntry::Row));
+  Hasher hasher;
+  for (const std::string_view piece : pieces) hasher.add_raw(piece);
+  const Digest checksum = hasher.digest();
+  pieces.push_back(as_bytes(&checksum, sizeof checksum));
+  make_directories(cache);
+  write_file(cache_entry(cache, key), pieces);
+}
+
+std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey& key,
+                                           const std::optional<Digest>& known) {
+  CacheEntry entry;
+  entry.path_ = cache_entry(cache, key);
+  if (!is_there(entry.path_)) return std::nullopt;
+  entry.file_ = std::make_shared<const MappedFile>(entry.path_, WhenCut::kFill);
+  const std::string_view bytes = entry.file_->bytes();
+  EntryHeader header;
+  entry.require_size(bytes.size() >= sizeof header + sizeof(Digest));
+  const std::size_t size = bytes.size() - sizeof(Digest);
+  entry.checksum_ = known ? *known : hash_bytes(bytes.substr(0, size));
+  if (bytes.substr(size) != as_bytes(&entry.checksum_, sizeof(Digest))) {
+    throw InvalidInput(
+        concat(entry.path_.string(), ": cache entry is damaged (its checksum is wrong)"));
+  }
+  std::memcpy(&header, bytes.data(), sizeof header);
+  EntryHeader expected;
+  expected.arrays = header.arrays;
+  expected.key = digest_of(key);
+  entry.require_same(bytes.starts_with(as_bytes(&expected, sizeof expected)));
+  std::uint64_t end = sizeof header + header.arrays * sizeof(Row);
+  entry.require_size(end <= size);
+  entry.arrays_.resize(header.arrays);
+  std::memcpy(entry.arrays_.data(), bytes.data() + sizeof header, end - sizeof header);
+  for (const Row& row : entry.arrays_) {
+    end = aligned(end);
+    entry.require_size(row.offset == end && end <= size && row.name[sizeof row.name - 1] == 0);
+    const auto number = static_cast<std::uint64_t>(row.type[1] - '0');
+    entry.require_size(number >= 1 && number <= sizeof(double));
+    const std::uint64_t in_row = number * row.columns;
+    entry.require_size(row.rows <= size / std::max<std::uint64_t>(in_row, 1));
+    end += in_row * row.rows;
+  }
+  entry.require_size(end == size);
+  return entry;
+}
+
+const CacheEntry::Row& CacheEntry::find(std::string_view name,
+                                        const std::array<char, 4>& type) const {
+  const auto row = std::ranges::find_if(arrays_, [&](const Row& at) { return name == at.name; });
+  require_same(row != arrays_.end() && row->type == type);
+  return *row;
+}
+
+void CacheEntry::require(bool holds) const {
+  if (!holds) {
+    throw InvalidInput(
+        concat(path_.string(), ": cache entry is damaged (it holds numbers that no head has)"));
+  }
+}
+
+void CacheEntry::require_whole() const {
+  if (file_->was_cut()) throw InvalidInput(concat(path_.string(), ": cache entry is being cut"));
+}
+
+void CacheEntry::require_same(bool same) const {
+  if (!same) {
+    throw InvalidInput(
+        concat(path_.string(), ": cache entry is of another version or for other data"));
+  }
+}
+
+void CacheEntry::require_size(bool fits) const {
+  if (!fits) throw InvalidInput(concat(path_.string(), ": cache entry is of the wrong size"));
+}
+
+bool are_coordinates(std::span<const float> values, float largest) {
+  return all_at_most<std::int32_t>(values, largest);
+}
+
+bool are_coordinates(std::span<const double> values, double largest) {
+  return all_at_most<std::int64_t>(values, largest);
+}
+
+bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end) {
+  return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
+}
+
+bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end) {
+  return std::ranges::all_of(
+      numbers, [&](std::uint32_t number) { return number < end || number == kNoIndex; });
+}
+
+}  // namespace crowdface
