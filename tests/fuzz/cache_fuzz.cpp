@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Digest key = {1, 2};
   std::string bytes(fuzz::text_of(data, size));
   std::filesystem::create_directories(folder);
-  const auto with_entry = [&](const CacheKey& entry_key, const auto& read) {
+  const auto write = [&](const CacheKey& entry_key) {
     constexpr std::size_t kKeyPlace = 16;
     if (bytes.size() >= kKeyPlace + 2 * sizeof(Digest)) {
       const Digest in_header = Hasher().add(entry_key.kind).add(entry_key.digest).digest();
@@ -50,24 +50,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       std::memcpy(bytes.data() + content, &sum, sizeof sum);
     }
     std::ofstream(cache_entry(folder, entry_key), std::ios::binary) << bytes;
-    try {
-      if (const auto entry = CacheEntry::open(folder, entry_key)) read(*entry);
-    } catch (const RecoverableError&) {
-    }
   };
   for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
     const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
-    with_entry(prepared_key(key), [&](const CacheEntry& entry) {
-      read_all(prepared_head(entry, shape), shape);
-      return 0;
-    });
+    write(prepared_key(key));
+    if (const auto head = find_prepared(folder, key, shape)) read_all(*head, shape);
   }
-  with_entry(read_key(key), [](const CacheEntry& entry) {
-    ObjFile head;
-    return read_head(entry, head).low;
-  });
-  with_entry(mesh_key(key), [&](const CacheEntry& entry) {
-    return build_adjacency(read_mesh(entry, key).topology).group_count();
-  });
+  write(read_key(key));
+  ObjFile head;
+  find_head(folder, key, head);
+  write({"mesh", key});
+  if (const auto mesh = find_mesh(folder, key)) build_adjacency(mesh->topology);
   return 0;
 }

@@ -123,7 +123,7 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsForged) {
     EXPECT_EQ(read_file(entry), sound);
   };
   constexpr std::size_t kColumns = 28, kRows = 32;
-  for (const char* name : {"levels", "functions", "directions", "metrics"}) {
+  for (const char* name : {"levels", "functions", "directions", "metric 0"}) {
     const std::size_t row = testing::row_of_array(sound, name);
     for (const std::uint64_t size :
          {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 63U, ~std::uint64_t{0}}) {

@@ -39,12 +39,12 @@ std::string_view as_bytes(const void* data, std::size_t size) {
 /// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
 /// compared as integers, vectors of them at once: any too large makes its difference negative.
 template <class Integer, class T>
-bool all_at_most(std::span<const T> values, T most) {
+bool all_coordinates(std::span<const T> values) {
   constexpr auto kMagnitude = std::numeric_limits<Integer>::max();
-  const auto largest = std::bit_cast<Integer>(most);
+  constexpr auto kLargest = std::bit_cast<Integer>(T{1e9});
   Integer differences = 0;
   for (const T value : values) {
-    differences |= largest - (std::bit_cast<Integer>(value) & kMagnitude);
+    differences |= kLargest - (std::bit_cast<Integer>(value) & kMagnitude);
   }
   return differences >= 0;
 }
@@ -149,12 +149,12 @@ void CacheEntry::require_size(bool fits) const {
   if (!fits) throw InvalidInput(concat(path_.string(), ": cache entry is of the wrong size"));
 }
 
-bool are_coordinates(std::span<const float> values, float largest) {
-  return all_at_most<std::int32_t>(values, largest);
+bool are_coordinates(std::span<const float> values) {
+  return all_coordinates<std::int32_t>(values);
 }
 
-bool are_coordinates(std::span<const double> values, double largest) {
-  return all_at_most<std::int64_t>(values, largest);
+bool are_coordinates(std::span<const double> values) {
+  return all_coordinates<std::int64_t>(values);
 }
 
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end) {

@@ -46,6 +46,11 @@ struct Element<std::array<T, N>> {
   using Number = T;
   static constexpr std::uint32_t kNumbers = N;
 };
+template <>
+struct Element<Digest> {
+  using Number = std::uint64_t;
+  static constexpr std::uint32_t kNumbers = 2;
+};
 
 /// The type of an array's numbers as the file tells it: "f4", "u8", "i2".
 template <class T>
@@ -72,56 +77,57 @@ struct EntryArray {
       owner;  ///< of the numbers, if nobody else owns them while the entry is written
 };
 
-template <class T>
-EntryArray array_of(std::string_view name, std::span<const T> values) {
-  using Element = detail::Element<T>;
-  return {std::string(name),
-          detail::number_type<typename Element::Number>(),
-          Element::kNumbers,
-          values.size(),
-          values.data(),
-          values.size_bytes(),
-          nullptr};
-}
-template <class T>
-EntryArray array_of(std::string_view name, const std::vector<T>& values) {
-  return array_of(name, std::span<const T>(values));
-}
-template <class Matrix>
-EntryArray array_of(std::string_view name, const Eigen::PlainObjectBase<Matrix>& matrix) {
-  using Number = typename Matrix::Scalar;
-  return {std::string(name),
-          detail::number_type<Number>(),
-          static_cast<std::uint32_t>(matrix.innerSize()),
-          static_cast<std::uint64_t>(matrix.outerSize()),
-          matrix.data(),
-          static_cast<std::uint64_t>(matrix.size()) * sizeof(Number),
-          nullptr};
-}
-/// An array that owns its numbers. \param values  a vector or a matrix.
-template <class T>
-EntryArray owned_array(std::string_view name, T values) {
-  const auto owner = std::make_shared<const T>(std::move(values));
-  EntryArray array = array_of(name, *owner);
-  array.owner = owner;
-  return array;
-}
+/// Collects arrays that are to be written: `arrays("name", value)` for a number, a std::array of numbers, a vector or
+/// span of such, or a matrix. The values must live until the entry is written.
+class ArrayWriter {
+ public:
+  template <class T>
+  void operator()(std::string_view name, const T& value) {
+    add(name, std::span<const T>(&value, 1));
+  }
+  template <class T>
+  void operator()(std::string_view name, const std::vector<T>& values) {
+    add(name, std::span<const T>(values));
+  }
+  void operator()(std::string_view name, const std::vector<bool>& values) {
+    const auto owner =
+        std::make_shared<const std::vector<std::uint8_t>>(values.begin(), values.end());
+    operator()(name, *owner);
+    arrays.back().owner = owner;
+  }
+  template <class T>
+  void operator()(std::string_view name, const std::span<const T>& values) {
+    add(name, values);
+  }
+  template <class Scalar, int R, int C, int O>
+  void operator()(std::string_view name, const Eigen::Matrix<Scalar, R, C, O>& matrix) {
+    add<Scalar>(name, matrix.innerSize(), matrix.outerSize(), matrix.data());
+  }
 
-/// An array of one element.
-template <class T>
-EntryArray value_array(std::string_view name, T value) {
-  return owned_array(name, std::vector<T>{value});
-}
+  std::vector<EntryArray> arrays;
+
+ private:
+  template <class T>
+  void add(std::string_view name, std::span<const T> values) {
+    using Element = detail::Element<T>;
+    add<typename Element::Number>(name, Element::kNumbers, values.size(), values.data());
+  }
+  template <class Number>
+  void add(std::string_view name, auto columns, auto rows, const void* data) {
+    arrays.push_back({std::string(name), detail::number_type<Number>(),
+                      static_cast<std::uint32_t>(columns), static_cast<std::uint64_t>(rows), data,
+                      static_cast<std::uint64_t>(columns * rows) * sizeof(Number), nullptr});
+  }
+};
 
 /// Writes an entry. \throws CannotCreate, IoError.
 void write_entry(const std::filesystem::path& cache, const CacheKey& key,
                  const std::vector<EntryArray>& arrays);
 
-/// Larger numbers are no coordinates of a mesh, nor what smoothing makes of them.
-inline constexpr double kLargestCoordinate = 1e9;
-/// Whether no number is NaN, or larger than that.
-bool are_coordinates(std::span<const float> values, float largest = kLargestCoordinate);
-bool are_coordinates(std::span<const double> values, double largest = kLargestCoordinate);
+/// Whether all numbers are finite, and none larger than coordinates of a mesh may be, with room for
+/// what smoothing makes of them.
+bool are_coordinates(std::span<const float> values);
+bool are_coordinates(std::span<const double> values);
 /// Whether all numbers are below `end`; in `are_rows` some may be kNoIndex, too.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
 bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end);
@@ -138,38 +144,25 @@ class CacheEntry {
   const std::shared_ptr<const MappedFile>& file() const { return file_; }
   const Digest& checksum() const { return checksum_; }
 
-  /// An array. \param largest  see are_coordinates; checked of floating-point numbers.
-  /// \throws InvalidInput if the entry has no array of this name and type, or if it holds larger numbers.
+  /// An array in the file. \throws InvalidInput if the entry has no array of this name and type, or if floating-point
+  /// numbers of it are no coordinates.
   template <class T>
-  std::span<const T> get(std::string_view name, double largest = kLargestCoordinate) const {
+  std::span<const T> get(std::string_view name) const {
     using Element = detail::Element<T>;
-    const Row& row = find<typename Element::Number>(name, largest);
+    const Row& row = find<typename Element::Number>(name);
     require_same(row.columns == Element::kNumbers);
     return {reinterpret_cast<const T*>(at(row)), row.rows};
   }
-  /// A copy of an array.
-  template <class T>
-  std::vector<T> list(std::string_view name) const {
-    const std::span<const T> values = get<T>(name);
-    return {values.begin(), values.end()};
-  }
-  /// The element of an array of one. \throws InvalidInput as `get` does, also if there are more or none.
-  template <class T>
-  T value(std::string_view name) const {
-    const std::span<const T> values = get<T>(name);
-    require(values.size() == 1);
-    return values.front();
-  }
-  /// A matrix. \throws InvalidInput as `get` does, also if a `Matrix` has another number of columns.
   template <class Matrix>
-  Eigen::Map<const Matrix> matrix(std::string_view name,
-                                  double largest = kLargestCoordinate) const {
-    const Row& row = find<typename Matrix::Scalar>(name, largest);
+  Eigen::Map<const Matrix> matrix(std::string_view name) const {
+    using Number = typename Matrix::Scalar;
+    const Row& row = find<Number>(name);
     auto rows = static_cast<Index>(row.rows), columns = static_cast<Index>(row.columns);
     if (!Matrix::IsRowMajor) std::swap(rows, columns);
-    require_same(Matrix::ColsAtCompileTime == Eigen::Dynamic ||
-                 Matrix::ColsAtCompileTime == columns);
-    return {reinterpret_cast<const typename Matrix::Scalar*>(at(row)), rows, columns};
+    constexpr Index kRows = Matrix::RowsAtCompileTime, kColumns = Matrix::ColsAtCompileTime;
+    require_same((kRows == Eigen::Dynamic || kRows == rows) &&
+                 (kColumns == Eigen::Dynamic || kColumns == columns));
+    return {reinterpret_cast<const Number*>(at(row)), rows, columns};
   }
 
   /// A checksum shows that an entry is as somebody wrote it. What it holds may still be anything: so readers check all
@@ -190,11 +183,10 @@ class CacheEntry {
                           const std::vector<EntryArray>&);
 
   template <class Number>
-  const Row& find(std::string_view name, double largest) const {
+  const Row& find(std::string_view name) const {
     const Row& row = find(name, detail::number_type<Number>());
     if constexpr (std::is_floating_point_v<Number>) {
-      require(are_coordinates({reinterpret_cast<const Number*>(at(row)), row.rows * row.columns},
-                              static_cast<Number>(largest)));
+      require(are_coordinates({reinterpret_cast<const Number*>(at(row)), row.rows * row.columns}));
     }
     return row;
   }
@@ -207,6 +199,40 @@ class CacheEntry {
   std::shared_ptr<const MappedFile> file_;
   Digest checksum_;
   std::vector<Row> arrays_;
+};
+
+/// Fills in values from an entry: `arrays("name", value)` as of an ArrayWriter. A span then lies in the file.
+/// \throws InvalidInput as CacheEntry::get.
+class ArrayReader {
+ public:
+  explicit ArrayReader(const CacheEntry& entry) : entry_(entry) {}
+
+  template <class T>
+  void operator()(std::string_view name, T& value) const {
+    const std::span<const T> values = entry_.get<T>(name);
+    entry_.require(values.size() == 1);
+    value = values.front();
+  }
+  template <class T>
+  void operator()(std::string_view name, std::vector<T>& values) const {
+    const std::span<const T> found = entry_.get<T>(name);
+    values.assign(found.begin(), found.end());
+  }
+  void operator()(std::string_view name, std::vector<bool>& values) const {
+    const auto found = entry_.get<std::uint8_t>(name);
+    values.assign(found.begin(), found.end());
+  }
+  template <class T>
+  void operator()(std::string_view name, std::span<const T>& values) const {
+    values = entry_.get<T>(name);
+  }
+  template <class Scalar, int R, int C, int O>
+  void operator()(std::string_view name, Eigen::Matrix<Scalar, R, C, O>& matrix) const {
+    matrix = entry_.matrix<Eigen::Matrix<Scalar, R, C, O>>(name);
+  }
+
+ private:
+  const CacheEntry& entry_;
 };
 
 }  // namespace crowdface

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values that the cache holds: read from its entries, or made and stored. An entry that is damaged, of another version
 // or of other data costs a warning and the computation; a cache that cannot be written to costs a warning.
+//
+// One function tells which arrays a value is kept in, for reading and writing: `visit(arrays, value)` calls
+// `arrays("name", member)` for each, with an ArrayReader or an ArrayWriter.
 #pragma once
 
 #include <optional>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,15 +24,19 @@ std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& k
 /// Says that a value is made anew because its entry could not be used.
 void warn_of_entry(const RecoverableError& error);
 
-/// \return what `read` makes of the entry; nothing if there is none or, with a warning, if `read` throws a
-///         RecoverableError or somebody cut the file meanwhile.
-template <class Read>
-auto find_cached(const CacheFolder& cache, const CacheKey& key, const Read& read)
-    -> std::optional<std::invoke_result_t<Read, const CacheEntry&>> {
+/// \param is_sound  of a value and its entry: whether the value is such as could have been stored. It may complete the
+///                  value.
+/// \param value     into which the arrays are read
+/// \return nothing if there is no entry or, with a warning, if it cannot be used.
+template <class Value, class Visit, class IsSound>
+std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, const Visit& visit,
+                                 const IsSound& is_sound, Value value = {}) {
   try {
     const std::optional<CacheEntry> entry = open_entry(cache, key);
     if (!entry) return std::nullopt;
-    auto value = read(*entry);
+    const ArrayReader arrays(*entry);
+    visit(arrays, value);
+    entry->require(is_sound(value, *entry));
     entry->require_whole();
     return value;
   } catch (const RecoverableError& error) {
@@ -39,20 +45,27 @@ auto find_cached(const CacheFolder& cache, const CacheKey& key, const Read& read
   }
 }
 
+/// The arrays of a value, which must live until they are written.
+template <class Value, class Visit>
+std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
+  ArrayWriter arrays;
+  visit(arrays, value);
+  return std::move(arrays.arrays);
+}
+
 /// Writes an entry, if there is a cache. \param what  the warning says "WHAT cannot be kept".
 /// \return whether the entry is there.
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
            std::string_view what = "what was found of the heads");
 
-/// \param read    makes the value of an entry
-/// \param make    makes the value itself
-/// \param arrays  of a value that was made: what the entry is to hold
-template <class Read, class Make, class Arrays>
-auto cached(const CacheFolder& cache, const CacheKey& key, const Read& read, const Make& make,
-            const Arrays& arrays) {
-  if (auto found = find_cached(cache, key, read)) return *std::move(found);
+/// What `make()` returns, from the cache if it is there.
+template <class Make, class Visit, class IsSound>
+auto cached(const CacheFolder& cache, const CacheKey& key, const Make& make, const Visit& visit,
+            const IsSound& is_sound, decltype(make()) value = {}) {
+  auto found = find_cached(cache, key, visit, is_sound, std::move(value));
+  if (found) return *std::move(found);
   auto made = make();
-  if (!cache.path.empty()) store(cache, key, arrays(made));  // arrays may be large copies
+  store(cache, key, arrays_of(made, visit));
   return made;
 }
 

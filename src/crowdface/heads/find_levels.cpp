@@ -2,7 +2,6 @@
 #include "crowdface/heads/find_levels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -117,36 +116,31 @@ bool is_sound(const DetailLevel& level, const Topology& whole) {
          are_rows(uvs, end(level.uvs.rows()));
 }
 
-MeasuredLevel level_in(const CacheEntry& entry, const Topology& whole, double share) {
-  MeasuredLevel found;
-  DetailLevel& level = found.level;
+constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
+  auto& level = measured.level;
+  arrays("vertices", level.vertices);
+  arrays("corner vertices", level.topology.corner_vertices);
+  arrays("corner uvs", level.topology.corner_uvs);
+  arrays("faces", level.faces);
+  arrays("uvs", level.uvs);
+  arrays("most of heads", measured.heads.most);
+  arrays("rms of heads", measured.heads.root_mean_square);
+  arrays("most of shapes", measured.shapes.most);
+  arrays("rms of shapes", measured.shapes.root_mean_square);
+};
+
+/// Fills in what follows from the arrays.
+bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
+  DetailLevel& level = measured.level;
   level.share = share;
-  level.vertices = entry.list<std::uint32_t>("vertices");
-  level.faces = entry.list<std::uint32_t>("faces");
-  level.uvs = entry.matrix<TextureCoordinates>("uvs");
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
-  level.topology.corner_vertices = entry.list<std::uint32_t>("corner vertices");
-  level.topology.corner_uvs = entry.list<std::uint32_t>("corner uvs");
   for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
     level.topology.face_offsets.push_back(3 * t);  // after the 0 that is there
   }
-  const auto errors = entry.value<std::array<double, 4>>("errors");
-  found.heads = {errors[0], errors[1]};
-  found.shapes = {errors[2], errors[3]};
-  entry.require(is_sound(level, whole) &&
-                std::ranges::all_of(errors, [](double mm_off) { return mm_off >= 0; }));
-  return found;
-}
-
-std::vector<EntryArray> arrays_of(const MeasuredLevel& made) {
-  const DetailLevel& level = made.level;
-  return {array_of("vertices", level.vertices),
-          array_of("corner vertices", level.topology.corner_vertices),
-          array_of("corner uvs", level.topology.corner_uvs),
-          array_of("faces", level.faces),
-          array_of("uvs", level.uvs),
-          value_array("errors", std::array{made.heads.most, made.heads.root_mean_square,
-                                           made.shapes.most, made.shapes.root_mean_square})};
+  const auto is_error = [](const LevelError& error) {
+    return error.most >= 0 && error.root_mean_square >= 0;
+  };
+  return is_sound(level, whole) && is_error(measured.heads) && is_error(measured.shapes);
 }
 
 }  // namespace
@@ -161,9 +155,10 @@ void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs)
     const double share = config.output.lods[l] / 100;
     inputs.levels[l] = cached(
         cache, {"level", key_of(inputs, typical, share, mm)},
-        [&](const CacheEntry& entry) { return level_in(entry, inputs.faces.topology, share); },
-        [&] { return measured_level(inputs, typical, share, mm); },
-        [](const MeasuredLevel& made) { return arrays_of(made); });
+        [&] { return measured_level(inputs, typical, share, mm); }, kLevelArrays,
+        [&](MeasuredLevel& found, const CacheEntry&) {
+          return is_sound(found, inputs.faces.topology, share);
+        });
   });
 }
 

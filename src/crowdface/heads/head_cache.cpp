@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached.h"
 #include "crowdface/smooth/cubic_fit.h"
 
 namespace crowdface {
@@ -27,46 +27,52 @@ bool are_fields(const LevelFields& fields) {
                              std::ranges::all_of(fields.steps, is_step);
 }
 
+constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
+  auto& [fields, mapped, mixing, error] = head.levels;
+  arrays("mixing", mixing);
+  arrays("error max", error.max);
+  arrays("error rms", error.rms);
+  arrays("error level", error.level);
+  arrays("trajectory", head.trajectory);
+  arrays("first fields", fields.first);
+  arrays("steps", fields.steps);
+  arrays("numbers", fields.numbers);
+};
+
+/// Fills in what follows from the shape.
+bool is_head(PreparedHead& head, const HeadCacheShape& shape) {
+  const Eigen::MatrixXd& mixing = head.levels.mixing;
+  LevelFields& fields = head.levels.fields;
+  std::size_t firsts = 0;
+  if (shape.levels != Levels::kExact) {
+    fields.vertex_count = shape.vertices;
+    fields.rank = shape.levels == Levels::kCubic ? CubicFit::kRank : mixing.cols();
+    firsts = LevelFields::tile_count(static_cast<std::size_t>(shape.vertices)) + 1;
+  }
+  const Index nodes = shape.levels == Levels::kBasis ? shape.nodes : 0;
+  return head.trajectory.rows() == shape.trajectory_levels &&
+         head.trajectory.cols() == 3 * shape.samples && mixing.rows() == nodes &&
+         mixing.cols() <= nodes && fields.first.size() == firsts && are_fields(fields) &&
+         fields.numbers.size() == fields.steps.size() * kTileValues;
+}
+
 }  // namespace
+
+std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
+                                          const HeadCacheShape& shape) {
+  return find_cached<PreparedHead>(cache, prepared_key(key), kPreparedArrays,
+                                   [&](PreparedHead& head, const CacheEntry& entry) {
+                                     head.levels.fields.owner = head.levels.mapped = entry.file();
+                                     return is_head(head, shape);
+                                   });
+}
 
 CacheKey prepared_key(const Digest& digest) {
   return {kPreparedKind, digest};
 }
 
-PreparedHead prepared_head(const CacheEntry& entry, const HeadCacheShape& shape) {
-  PreparedHead head;
-  head.trajectory = entry.matrix<Trajectory>("trajectory");
-  entry.require(head.trajectory.rows() == shape.trajectory_levels &&
-                head.trajectory.cols() == 3 * shape.samples);
-  StoredLevels& levels = head.levels;
-  levels.mixing = entry.matrix<Eigen::MatrixXd>("mixing");
-  levels.error = {entry.value<double>("error max"), entry.value<double>("error rms"),
-                  entry.value<std::uint64_t>("error level")};
-  LevelFields& fields = levels.fields;
-  fields.first = entry.get<std::uint32_t>("first fields");
-  fields.steps = entry.get<float>("steps");
-  fields.numbers = entry.get<std::int16_t>("numbers");
-  fields.owner = levels.mapped = entry.file();
-  std::size_t firsts = 0;
-  if (shape.levels != Levels::kExact) {
-    fields.vertex_count = shape.vertices;
-    fields.rank = shape.levels == Levels::kCubic ? CubicFit::kRank : levels.mixing.cols();
-    firsts = LevelFields::tile_count(static_cast<std::size_t>(shape.vertices)) + 1;
-  }
-  const Index nodes = shape.levels == Levels::kBasis ? shape.nodes : 0;
-  entry.require(levels.mixing.rows() == nodes && levels.mixing.cols() <= nodes &&
-                fields.first.size() == firsts && are_fields(fields) &&
-                fields.numbers.size() == fields.steps.size() * kTileValues);
-  return head;
-}
-
 std::vector<EntryArray> arrays_of(const PreparedHead& head) {
-  const StoredLevels& levels = head.levels;
-  return {
-      array_of("mixing", levels.mixing),          value_array("error max", levels.error.max),
-      value_array("error rms", levels.error.rms), value_array("error level", levels.error.level),
-      array_of("trajectory", head.trajectory),    array_of("first fields", levels.fields.first),
-      array_of("steps", levels.fields.steps),     array_of("numbers", levels.fields.numbers)};
+  return arrays_of(head, kPreparedArrays);
 }
 
 }  // namespace crowdface

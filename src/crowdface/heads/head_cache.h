@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "crowdface/cast/face_samples.h"
@@ -10,6 +11,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/cache_entry.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/smooth/level_basis.h"
 
 namespace crowdface {
@@ -40,12 +42,12 @@ struct HeadCacheShape {
   Levels levels = Levels::kBasis;
 };
 
+/// A prepared head from the cache, whose fields stay in the file, mapped; nothing if it is not there, or of another shape.
+std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
+                                          const HeadCacheShape& shape);
+
+/// For `write_entry` or `store`.
 CacheKey prepared_key(const Digest& digest);
-
-/// The head of an entry, whose fields stay in the file, mapped. \throws InvalidInput if it is of another shape.
-PreparedHead prepared_head(const CacheEntry& entry, const HeadCacheShape& shape);
-
-/// What the entry of a head holds.
 std::vector<EntryArray> arrays_of(const PreparedHead& head);
 
 }  // namespace crowdface

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_face_space.h"
 
-#include <algorithm>
-#include <limits>
 #include <span>
 #include <utility>
 
 #include "crowdface/core/result_versions.h"
+#include "crowdface/core/text.h"
 #include "crowdface/heads/cached.h"
 
 namespace crowdface {
@@ -35,32 +34,14 @@ Digest digest_of(const SampledHeads& heads, const std::vector<double>& weights, 
   return hasher.digest();
 }
 
-/// Each metric is a row.
-FloatRows metric_rows(const FaceSpaceTables& tables) {
-  const Index rank = tables.directions.rows();
-  FloatRows rows(static_cast<Index>(tables.metrics.size()), rank * rank);
-  for (Index k = 0; k < rows.rows(); ++k) {
-    std::ranges::copy(tables.metrics[static_cast<std::size_t>(k)].reshaped<Eigen::RowMajor>(),
-                      rows.row(k).begin());
+constexpr auto kFaceSpaceArrays = [](auto& arrays, auto& tables) {
+  arrays("levels", tables.levels);
+  arrays("functions", tables.functions);
+  arrays("directions", tables.directions);
+  for (std::size_t k = 0; k < tables.metrics.size(); ++k) {
+    arrays(concat("metric ", k), tables.metrics[k]);
   }
-  return rows;
-}
-
-FaceSpaceTables tables_of(const CacheEntry& entry, const SampledHeads& heads) {
-  constexpr double kAny = std::numeric_limits<float>::max();
-  FaceSpaceTables tables{entry.matrix<FloatRows>("levels", kAny),
-                         entry.matrix<FloatRows>("functions", kAny),
-                         entry.matrix<FloatRows>("directions", kAny),
-                         {}};
-  const auto metrics = entry.matrix<FloatRows>("metrics", kAny);
-  const Index rank = tables.directions.rows();
-  entry.require(metrics.cols() == rank * rank);
-  for (Index k = 0; k < metrics.rows(); ++k) {
-    tables.metrics.emplace_back(Eigen::Map<const FloatRows>(metrics.row(k).data(), rank, rank));
-  }
-  entry.require(FaceSpace::fit(tables, heads));
-  return tables;
-}
+};
 
 }  // namespace
 
@@ -68,14 +49,15 @@ FaceSpace kept_face_space(const CacheFolder& cache, SampledHeads heads,
                           const std::vector<double>& weights, std::size_t bands) {
   if (cache.path.empty()) return FaceSpace(std::move(heads), weights, bands);
   const CacheKey key{"face-space", digest_of(heads, weights, bands)};
-  auto tables =
-      find_cached(cache, key, [&](const CacheEntry& entry) { return tables_of(entry, heads); });
+  FaceSpaceTables room;
+  if (heads.alpha.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.alpha.cols()));
+  auto tables = find_cached(
+      cache, key, kFaceSpaceArrays,
+      [&](const FaceSpaceTables& found, const CacheEntry&) { return FaceSpace::fit(found, heads); },
+      std::move(room));
   if (tables) return FaceSpace(std::move(heads), weights, *std::move(tables));
   FaceSpace made(std::move(heads), weights, bands);
-  store(cache, key,
-        {array_of("levels", made.tables().levels), array_of("functions", made.tables().functions),
-         array_of("directions", made.tables().directions),
-         owned_array("metrics", metric_rows(made.tables()))});
+  store(cache, key, arrays_of(made.tables(), kFaceSpaceArrays));
   return made;
 }
 

@@ -1,36 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_patches.h"
 
+#include <optional>
 #include <utility>
 
 #include "crowdface/heads/cached.h"
 
 namespace crowdface {
 
+namespace {
+
+constexpr auto kPatchArrays = [](auto& arrays, auto& lists) {
+  arrays("weights", lists.weights);
+  arrays("vertices", lists.vertices);
+  arrays("skeletons", lists.skeletons);
+  arrays("counts", lists.counts);
+  arrays("steps", lists.steps);
+  arrays("numbers", lists.numbers);
+};
+
+}  // namespace
+
 KeptPatches kept_patches(const CacheFolder& cache, const Digest& key, Index vertex_count,
                          std::span<const Index> ranks, const std::function<FieldPatches()>& make) {
   const CacheKey entry_key{"patches", key};
-  const auto in_file = [&](const CacheEntry& entry) {
-    auto patches = FieldPatches::of({.vertices = entry.get<std::uint32_t>("vertices"),
-                                     .skeletons = entry.get<std::uint32_t>("skeletons"),
-                                     .counts = entry.get<std::uint32_t>("counts"),
-                                     .steps = entry.get<float>("steps"),
-                                     .weights = entry.get<float>("weights"),
-                                     .numbers = entry.get<std::int16_t>("numbers"),
-                                     .owner = entry.file()},
-                                    vertex_count, ranks);
-    entry.require(patches.has_value());
-    return KeptPatches{*std::move(patches), entry.file()};
+  const auto in_file = [&] {
+    KeptPatches kept;
+    const bool is_there =
+        find_cached<PatchLists>(cache, entry_key, kPatchArrays,
+                                [&](PatchLists& lists, const CacheEntry& entry) {
+                                  lists.owner = kept.mapped = entry.file();
+                                  auto patches = FieldPatches::of(lists, vertex_count, ranks);
+                                  if (patches) kept.patches = *std::move(patches);
+                                  return patches.has_value();
+                                })
+            .has_value();
+    return is_there ? std::optional(std::move(kept)) : std::nullopt;
   };
-  if (auto found = find_cached(cache, entry_key, in_file)) return *std::move(found);
+  if (auto found = in_file()) return *std::move(found);
   FieldPatches made = make();
-  const PatchLists& lists = made.lists();
-  const bool kept = store(cache, entry_key,
-                          {array_of("weights", lists.weights), array_of("vertices", lists.vertices),
-                           array_of("skeletons", lists.skeletons), array_of("counts", lists.counts),
-                           array_of("steps", lists.steps), array_of("numbers", lists.numbers)});
-  if (kept) {  // used from there from now on: memory holds them once
-    if (auto found = find_cached(cache, entry_key, in_file)) return *std::move(found);
+  if (store(cache, entry_key, arrays_of(made.lists(), kPatchArrays))) {
+    if (auto found = in_file()) return *std::move(found);  // memory holds them once
   }
   return {std::move(made), nullptr};
 }

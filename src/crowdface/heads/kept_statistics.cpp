@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/kept_statistics.h"
 
+#include <algorithm>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "crowdface/core/parallel.h"
@@ -21,9 +22,12 @@ Digest digest_of_map(const TextureMap& map) {
   return hasher.digest();
 }
 
-std::string coarse_name(std::size_t head) {
-  return concat("coarse ", head);
-}
+constexpr auto kStatisticsArrays = [](auto& arrays, auto& statistics) {
+  arrays("covariances", statistics.covariances);
+  for (std::size_t h = 0; h < statistics.coarse.size(); ++h) {
+    arrays(concat("coarse ", h), statistics.coarse[h]);
+  }
+};
 
 }  // namespace
 
@@ -53,27 +57,19 @@ Digest statistics_key(const Digest& rows, const Topology& topology, const Textur
 SurfaceStatistics kept_statistics(const CacheFolder& cache, const Digest& key, std::size_t vertices,
                                   std::size_t heads,
                                   const std::function<SurfaceStatistics()>& make) {
+  SurfaceStatistics room;
+  room.coarse.resize(heads);
+  room.pairs = heads * (heads + 1) / 2;
   return cached(
-      cache, {"textures", key},
-      [&](const CacheEntry& entry) {
-        SurfaceStatistics statistics;
-        statistics.pairs = heads * (heads + 1) / 2;
-        for (std::size_t h = 0; h < heads; ++h) {
-          statistics.coarse.emplace_back(entry.matrix<SurfaceStatistics::Colours>(coarse_name(h)));
-          entry.require(statistics.coarse.back().rows() == static_cast<Index>(vertices));
-        }
-        statistics.covariances = entry.list<float>("covariances");
-        entry.require(statistics.covariances.size() == vertices * statistics.pairs);
-        return statistics;
+      cache, {"textures", key}, make, kStatisticsArrays,
+      [&](const SurfaceStatistics& found, const CacheEntry&) {
+        const auto has_all = [&](const SurfaceStatistics::Colours& colours) {
+          return colours.rows() == static_cast<Index>(vertices);
+        };
+        return std::ranges::all_of(found.coarse, has_all) &&
+               found.covariances.size() == vertices * found.pairs;
       },
-      make,
-      [](const SurfaceStatistics& made) {
-        std::vector<EntryArray> arrays = {array_of("covariances", made.covariances)};
-        for (std::size_t h = 0; h < made.coarse.size(); ++h) {
-          arrays.push_back(array_of(coarse_name(h), made.coarse[h]));
-        }
-        return arrays;
-      });
+      std::move(room));
 }
 
 }  // namespace crowdface

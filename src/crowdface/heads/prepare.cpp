@@ -87,12 +87,6 @@ class HeadPreparation {
   Prepared& prepared_;
 };
 
-std::optional<PreparedHead> from_cache(const CacheFolder& cache, const Digest& key,
-                                       const HeadCacheShape& shape) {
-  return find_cached(cache, prepared_key(key),
-                     [&](const CacheEntry& entry) { return prepared_head(entry, shape); });
-}
-
 /// Removes what runs left that were killed while they kept a head. A cache is no reason to stop.
 void clean(const std::filesystem::path& cache) {
   try {
@@ -164,7 +158,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
     if (!is_wanted(h)) continue;
     throw_if_interrupted();
     const Digest key = key_of(config, inputs, prepared.traced, h);
-    if (from_cache(cache, key, shape)) continue;
+    if (find_prepared(cache, key, shape)) continue;
     write_entry(cache, prepared_key(key), arrays_of(preparation.prepare(inputs.faces.heads[h])));
   }
 }
@@ -183,7 +177,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   parallel_for_each(keys.size(), [&](std::size_t h) {
     throw_if_interrupted();
     keys[h] = key_of(config, inputs, prepared.traced, h);
-    heads[h] = from_cache(cache, keys[h], shape);
+    heads[h] = find_prepared(cache, keys[h], shape);
   });
   for (std::size_t h = 0; h < heads.size(); ++h) {
     throw_if_interrupted();
@@ -197,7 +191,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
           cache_works && store(cache, prepared_key(keys[h]), arrays_of(*head), "prepared heads");
       // What was written is used from there, so that memory holds the fields of one head only.
       if (cache_works) {
-        if (auto written = from_cache(cache, keys[h], shape)) head = std::move(written);
+        if (auto written = find_prepared(cache, keys[h], shape)) head = std::move(written);
       }
     }
     prepared.trajectories.push_back(std::move(head->trajectory));

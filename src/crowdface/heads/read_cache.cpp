@@ -2,17 +2,18 @@
 #include "crowdface/heads/read_cache.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "crowdface/core/input_limits.h"
-#include "crowdface/core/text.h"
-#include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached.h"
 
 namespace crowdface {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Raised when the reader, `read_obj`, makes something else of a text.
 constexpr std::uint32_t kVersion = 1;
@@ -28,35 +29,77 @@ bool is_topology(const Topology& topology) {
   return all_below(topology.corner_vertices, static_cast<std::uint64_t>(topology.vertex_count));
 }
 
-/// Adds names, and from which face on each is in use, as three arrays.
-void add_ranges(std::vector<EntryArray>& arrays, const std::string& name,
-                const std::vector<MaterialRange>& ranges) {
+/// Names, and from which face on each is in use.
+struct KeptNames {
   std::vector<std::uint64_t> faces, sizes;
-  std::string names;
-  for (const MaterialRange& range : ranges) {
-    faces.push_back(static_cast<std::uint64_t>(range.first_face));
-    sizes.push_back(range.name.size());
-    names += range.name;
+  std::vector<std::uint8_t> names;
+
+  void add(const std::string& name, Index face) {
+    faces.push_back(static_cast<std::uint64_t>(face));
+    sizes.push_back(name.size());
+    names.insert(names.end(), name.begin(), name.end());
   }
-  arrays.push_back(owned_array(name + " faces", std::move(faces)));
-  arrays.push_back(owned_array(name + " sizes", std::move(sizes)));
-  arrays.push_back(
-      owned_array(name + " names", std::vector<std::uint8_t>(names.begin(), names.end())));
+  bool are_sound() const {
+    std::size_t left = names.size();
+    for (const std::uint64_t size : sizes) {
+      if (size > left) return false;
+      left -= size;
+    }
+    return faces.size() == sizes.size() && std::ranges::is_sorted(faces);
+  }
+  std::vector<MaterialRange> ranges() const {
+    std::vector<MaterialRange> result;
+    auto begin = names.begin();
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const auto end = begin + static_cast<std::ptrdiff_t>(sizes[i]);
+      result.push_back({std::string(begin, end), static_cast<Index>(faces[i])});
+      begin = end;
+    }
+    return result;
+  }
+};
+
+struct KeptHead {
+  Digest mesh;
+  Positions positions;
+  KeptNames libraries, materials, groups;
+};
+
+constexpr auto kHeadArrays = [](auto& arrays, auto& head) {
+  const auto names = [&](const std::string& of, auto& kept) {
+    arrays(of + " faces", kept.faces);
+    arrays(of + " sizes", kept.sizes);
+    arrays(of + " names", kept.names);
+  };
+  arrays("mesh", head.mesh);
+  arrays("positions", head.positions);
+  names("libraries", head.libraries);
+  names("materials", head.materials);
+  names("groups", head.groups);
+};
+
+constexpr auto kMeshArrays = [](auto& arrays, auto& mesh) {
+  arrays("vertices", mesh.topology.vertex_count);
+  arrays("corner vertices", mesh.topology.corner_vertices);
+  arrays("corner uvs", mesh.topology.corner_uvs);
+  arrays("face offsets", mesh.topology.face_offsets);
+  arrays("corner normals", mesh.corner_normals);
+  arrays("uvs", mesh.uvs);
+};
+
+bool is_mesh(const HeadMesh& mesh) {
+  const Topology& topology = mesh.topology;
+  const auto has_all_or_none = [&](const std::vector<std::uint32_t>& rows) {
+    return rows.empty() || rows.size() == topology.corner_vertices.size();
+  };
+  return is_topology(topology) &&
+         static_cast<std::uint64_t>(topology.face_count()) <= input_limits().faces &&
+         has_all_or_none(topology.corner_uvs) && has_all_or_none(mesh.corner_normals) &&
+         are_rows(topology.corner_uvs, static_cast<std::uint64_t>(mesh.uvs.rows()));
 }
 
-std::vector<MaterialRange> ranges_of(const CacheEntry& entry, const std::string& name) {
-  const auto faces = entry.get<std::uint64_t>(name + " faces");
-  const auto sizes = entry.get<std::uint64_t>(name + " sizes");
-  auto names = entry.get<std::uint8_t>(name + " names");
-  entry.require(faces.size() == sizes.size() && std::ranges::is_sorted(faces));
-  std::vector<MaterialRange> ranges;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    entry.require(sizes[i] <= names.size());
-    const auto own = names.first(sizes[i]);
-    ranges.push_back({std::string(own.begin(), own.end()), static_cast<Index>(faces[i])});
-    names = names.subspan(sizes[i]);
-  }
-  return ranges;
+CacheKey mesh_key(const Digest& mesh) {
+  return {"mesh", mesh};
 }
 
 }  // namespace
@@ -79,60 +122,41 @@ CacheKey read_key(const Digest& text) {
           Hasher().add(kVersion).add(text).add(limits.vertices).add(limits.faces).digest()};
 }
 
-CacheKey mesh_key(const Digest& mesh) {
-  return {"mesh", mesh};
-}
-
-Digest read_head(const CacheEntry& entry, ObjFile& head) {
-  const auto [high, low] = entry.value<std::array<std::uint64_t, 2>>("mesh");
-  head.positions = entry.matrix<Positions>("positions");
+std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head) {
+  auto kept = find_cached<KeptHead>(
+      cache, read_key(text), kHeadArrays, [](const KeptHead& found, const CacheEntry&) {
+        return found.libraries.are_sound() && found.materials.are_sound() &&
+               found.groups.are_sound();
+      });
+  if (!kept) return std::nullopt;
+  head.positions = std::move(kept->positions);
   head.material_libraries.clear();
-  for (MaterialRange& library : ranges_of(entry, "libraries")) {
+  for (MaterialRange& library : kept->libraries.ranges()) {
     head.material_libraries.push_back(std::move(library.name));
   }
-  head.materials = ranges_of(entry, "materials");
-  head.groups = ranges_of(entry, "groups");
-  return {high, low};
+  head.materials = kept->materials.ranges();
+  head.groups = kept->groups.ranges();
+  return kept->mesh;
 }
 
-HeadMesh read_mesh(const CacheEntry& entry, const Digest& mesh) {
-  HeadMesh result;
-  Topology& topology = result.topology;
-  topology.vertex_count = static_cast<Index>(entry.value<std::uint64_t>("vertices"));
-  topology.corner_vertices = entry.list<std::uint32_t>("corner vertices");
-  topology.corner_uvs = entry.list<std::uint32_t>("corner uvs");
-  topology.face_offsets = entry.list<std::uint32_t>("face offsets");
-  result.corner_normals = entry.list<std::uint32_t>("corner normals");
-  result.uvs = entry.matrix<TextureCoordinates>("uvs");
-  for (const std::size_t corners : {topology.corner_uvs.size(), result.corner_normals.size()}) {
-    entry.require(corners == 0 || corners == topology.corner_vertices.size());
-  }
-  entry.require(is_topology(topology) &&
-                static_cast<std::uint64_t>(topology.face_count()) <= input_limits().faces &&
-                are_rows(topology.corner_uvs, static_cast<std::uint64_t>(result.uvs.rows())) &&
-                result.digest() == mesh);
-  return result;
+std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh) {
+  return find_cached<HeadMesh>(cache, mesh_key(mesh), kMeshArrays,
+                               [&](const HeadMesh& found, const CacheEntry&) {
+                                 return is_mesh(found) && found.digest() == mesh;
+                               });
 }
 
-std::vector<EntryArray> arrays_of(const ObjFile& head, const Digest& mesh) {
-  std::vector<EntryArray> arrays = {value_array("mesh", std::array{mesh.high, mesh.low}),
-                                    array_of("positions", head.positions)};
-  std::vector<MaterialRange> libraries;
-  for (const std::string& library : head.material_libraries) libraries.push_back({library, 0});
-  add_ranges(arrays, "libraries", libraries);
-  add_ranges(arrays, "materials", head.materials);
-  add_ranges(arrays, "groups", head.groups);
-  return arrays;
+void keep_head(const fs::path& cache, const Digest& text, const Digest& mesh, const ObjFile& head) {
+  KeptHead kept{mesh, head.positions, {}, {}, {}};
+  for (const std::string& library : head.material_libraries) kept.libraries.add(library, 0);
+  for (const MaterialRange& range : head.materials)
+    kept.materials.add(range.name, range.first_face);
+  for (const MaterialRange& range : head.groups) kept.groups.add(range.name, range.first_face);
+  write_entry(cache, read_key(text), arrays_of(kept, kHeadArrays));
 }
 
-std::vector<EntryArray> arrays_of(const HeadMesh& mesh) {
-  const Topology& topology = mesh.topology;
-  return {value_array("vertices", static_cast<std::uint64_t>(topology.vertex_count)),
-          array_of("corner vertices", topology.corner_vertices),
-          array_of("corner uvs", topology.corner_uvs),
-          array_of("face offsets", topology.face_offsets),
-          array_of("corner normals", mesh.corner_normals),
-          array_of("uvs", mesh.uvs)};
+void keep_mesh(const fs::path& cache, const HeadMesh& mesh) {
+  write_entry(cache, mesh_key(mesh.digest()), arrays_of(mesh, kMeshArrays));
 }
 
 }  // namespace crowdface

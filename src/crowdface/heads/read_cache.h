@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/cache_entry.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/io/obj_file.h"
 
 namespace crowdface {
@@ -18,18 +21,18 @@ struct HeadMesh {
   Digest digest() const;
 };
 
-/// \param text  digest of the whole file.
-CacheKey read_key(const Digest& text);
-CacheKey mesh_key(const Digest& mesh);
-
 /// Fills in positions, materials and groups, as the reader found them when this text was last read.
-/// \return the digest of its mesh. \throws InvalidInput if the entry holds no head.
-Digest read_head(const CacheEntry& entry, ObjFile& head);
-/// \param mesh  its digest. \throws InvalidInput if the entry does not hold this mesh.
-HeadMesh read_mesh(const CacheEntry& entry, const Digest& mesh);
+/// \param text  digest of the whole file.
+/// \return the digest of its mesh, or nothing if the cache does not know the text.
+std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head);
+/// \param mesh  its digest
+std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh);
 
-/// What the entries hold.
-std::vector<EntryArray> arrays_of(const ObjFile& head, const Digest& mesh);
-std::vector<EntryArray> arrays_of(const HeadMesh& mesh);
+/// Write entries. \throws CannotCreate, IoError.
+void keep_head(const std::filesystem::path& cache, const Digest& text, const Digest& mesh,
+               const ObjFile& head);
+void keep_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);
+
+CacheKey read_key(const Digest& text);
 
 }  // namespace crowdface

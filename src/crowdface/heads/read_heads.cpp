@@ -44,8 +44,7 @@ class MeshShelf {
     const std::lock_guard lock(mutex_);
     const auto known = meshes_.find(digest);
     if (known != meshes_.end()) return known->second;
-    auto kept = find_cached(cache_, mesh_key(digest),
-                            [&](const CacheEntry& entry) { return read_mesh(entry, digest); });
+    auto kept = find_mesh(cache_, digest);
     if (!kept) return nullptr;
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
@@ -119,9 +118,7 @@ void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
 
 /// Fills in what the cache knows of a head. \return false if it does not.
 bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf) {
-  const auto mesh = find_cached(cache, read_key(head.text), [&](const CacheEntry& entry) {
-    return read_head(entry, head.file);
-  });
+  const auto mesh = find_head(cache, head.text, head.file);
   if (!mesh) return false;
   head.mesh_digest = *mesh;
   head.mesh = shelf.find(*mesh);
@@ -398,11 +395,10 @@ void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
       lacking.push_back(&head);
       if (std::ranges::find(meshes, head.mesh_digest) != meshes.end()) continue;
       meshes.push_back(head.mesh_digest);
-      write_entry(cache, mesh_key(head.mesh_digest), arrays_of(*head.mesh));
+      keep_mesh(cache, *head.mesh);
     }
     parallel_for_each(lacking.size(), [&](std::size_t i) {
-      write_entry(cache, read_key(lacking[i]->text),
-                  arrays_of(lacking[i]->file, lacking[i]->mesh_digest));
+      keep_head(cache, lacking[i]->text, lacking[i]->mesh_digest, lacking[i]->file);
     });
   } catch (const RecoverableError& error) {
     log_warning(concat("heads that were read cannot be kept: ", error.what()));

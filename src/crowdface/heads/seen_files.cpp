@@ -41,9 +41,12 @@ SeenFile::SeenFile(const CacheFolder& cache, const fs::path& file)
   try {
     const auto entry = CacheEntry::open(cache_, seen_key(*stamp_));
     if (!entry) return;
-    if (entry->value<Stamp>("stamp") != *stamp_) return;
-    const auto [high, low] = entry->value<std::array<std::uint64_t, 2>>("digest");
-    digest_ = Digest{high, low};
+    const ArrayReader arrays(*entry);
+    Stamp seen;
+    Digest digest;
+    arrays("stamp", seen);
+    arrays("digest", digest);
+    if (seen == *stamp_) digest_ = digest;
   } catch (const RecoverableError&) {  // a damaged entry tells nothing of the file
   }
 }
@@ -57,9 +60,10 @@ void SeenFile::remember(const Digest& digest) const {
     return;
   }
   try {
-    write_entry(cache_, seen_key(*stamp_),
-                {value_array("stamp", *stamp_),
-                 value_array("digest", std::array{digest.high, digest.low})});
+    ArrayWriter arrays;
+    arrays("stamp", *stamp_);
+    arrays("digest", digest);
+    write_entry(cache_, seen_key(*stamp_), arrays.arrays);
   } catch (const RecoverableError&) {  // then the next run hashes the file again
   }
 }

@@ -79,54 +79,44 @@ struct Neighbours {
   Components components;
 };
 
-Neighbours neighbours_in(const CacheEntry& entry, const Topology& topology) {
-  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  Neighbours found;
-  auto& [adjacency, components] = found;
-  adjacency.offsets = entry.list<std::uint32_t>("offsets");
-  adjacency.items = entry.list<std::uint32_t>("neighbours");
-  const auto boundary = entry.get<std::uint8_t>("boundary");
-  adjacency.boundary.assign(boundary.begin(), boundary.end());
-  components = {entry.list<std::uint32_t>("components"), entry.list<std::uint32_t>("sizes")};
+constexpr auto kNeighbourArrays = [](auto& arrays, auto& found) {
+  arrays("offsets", found.adjacency.offsets);
+  arrays("neighbours", found.adjacency.items);
+  arrays("boundary", found.adjacency.boundary);
+  arrays("components", found.components.of_vertex);
+  arrays("sizes", found.components.sizes);
+};
+
+bool are_neighbours(const Neighbours& found, std::size_t vertices) {
+  const auto& [adjacency, components] = found;
   const auto& offsets = adjacency.offsets;
-  entry.require(offsets.size() == vertices + 1 && offsets.front() == 0 &&
-                offsets.back() == adjacency.items.size() && std::ranges::is_sorted(offsets) &&
-                all_below(adjacency.items, vertices) && boundary.size() == vertices &&
-                components.of_vertex.size() == vertices &&
-                are_sizes(components.of_vertex, components.sizes));
-  return found;
+  return offsets.size() == vertices + 1 && offsets.front() == 0 &&
+         offsets.back() == adjacency.items.size() && std::ranges::is_sorted(offsets) &&
+         all_below(adjacency.items, vertices) && adjacency.boundary.size() == vertices &&
+         components.of_vertex.size() == vertices &&
+         are_sizes(components.of_vertex, components.sizes);
 }
 
-/// Arrays of what was found of the mirror image.
-constexpr const char *kCorners = "corners", *kShares = "shares", *kWithout = "without",
-                     *kAdded = "added", *kPlane = "plane", *kDistances = "distances",
-                     *kCounts = "counts";
-using PlaneNumbers = std::array<double, 4>;
-using Pair = std::array<double, 2>;
-using Counts = std::array<std::int64_t, 2>;
+constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
+  arrays("corners", found.map.corners);
+  arrays("shares", found.map.shares);
+  arrays("without", found.map.without);
+  arrays("added", found.map.kept);
+  arrays("normal", found.map.plane.normal);
+  arrays("offset", found.map.plane.offset);
+  arrays("at vertices", found.vertices);
+  arrays("on surface", found.on_surface);
+  arrays("rms", found.rms);
+  arrays("largest", found.largest);
+};
 
-FoundMirror mirror_in(const CacheEntry& entry, const Topology& topology) {
-  const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  FoundMirror found;
-  MirrorMap& map = found.map;
-  map.corners = entry.list<Triangle>(kCorners);
-  map.shares = entry.list<std::array<double, 3>>(kShares);
-  map.without = entry.list<std::uint32_t>(kWithout);
-  map.kept = entry.matrix<Positions>(kAdded);
-  const auto plane = entry.value<PlaneNumbers>(kPlane);
-  map.plane = {{plane[0], plane[1], plane[2]}, plane[3]};
-  const auto [rms, largest] = entry.value<Pair>(kDistances);
-  found.rms = rms;
-  found.largest = largest;
-  const auto [at_vertices, on_surface] = entry.value<Counts>(kCounts);
-  found.vertices = at_vertices;
-  found.on_surface = on_surface;
+bool is_mirror(const FoundMirror& found, std::size_t vertices) {
+  const MirrorMap& map = found.map;
   const auto is_place = [&](const Triangle& triangle) { return all_below(triangle, vertices); };
-  entry.require(map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
-                map.shares.size() == vertices && std::ranges::all_of(map.shares, are_shares) &&
-                all_below(map.without, vertices) &&
-                map.kept.rows() == static_cast<Index>(map.without.size()));
-  return found;
+  return map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
+         map.shares.size() == vertices && std::ranges::all_of(map.shares, are_shares) &&
+         all_below(map.without, vertices) &&
+         map.kept.rows() == static_cast<Index>(map.without.size());
 }
 
 }  // namespace
@@ -141,20 +131,14 @@ void find_neighbours(Inputs& inputs) {
   begin_key(key, inputs);
   auto found = cached(
       inputs.cache, {"neighbours", key.digest()},
-      [&](const CacheEntry& entry) { return neighbours_in(entry, topology); },
       [&] {
         Adjacency adjacency = build_adjacency(topology);
         Components components = find_components(adjacency);
         return Neighbours{std::move(adjacency), std::move(components)};
       },
-      [](const Neighbours& made) {
-        const std::vector<bool>& boundary = made.adjacency.boundary;
-        return std::vector{
-            array_of("offsets", made.adjacency.offsets),
-            array_of("neighbours", made.adjacency.items),
-            owned_array("boundary", std::vector<std::uint8_t>(boundary.begin(), boundary.end())),
-            array_of("components", made.components.of_vertex),
-            array_of("sizes", made.components.sizes)};
+      kNeighbourArrays,
+      [&](const Neighbours& kept, const CacheEntry&) {
+        return are_neighbours(kept, static_cast<std::size_t>(topology.vertex_count));
       });
   inputs.adjacency = std::move(found.adjacency);
   inputs.components = std::move(found.components);
@@ -165,20 +149,16 @@ RegionWeights load_regions(const Config& config, const Inputs& inputs) {
   const auto key = inputs.cache.empty() ? std::nullopt : key_of_regions(config, inputs);
   if (!key) return weights_of_masks(config, inputs);
   return cached(
-      inputs.cache, {"masks", *key},
-      [&](const CacheEntry& entry) {
-        RegionWeights weights{entry.matrix<RegionWeights::Alpha>("alpha"),
-                              entry.value<Index>("uncovered")};
-        const auto& alpha = weights.alpha;
-        entry.require(alpha.rows() == inputs.faces.topology.vertex_count &&
-                      alpha.cols() == static_cast<Index>(config.region_names().size()) &&
-                      (alpha.array() >= 0 && alpha.array() <= 1).all());
-        return weights;
+      inputs.cache, {"masks", *key}, [&] { return weights_of_masks(config, inputs); },
+      [](auto& arrays, auto& weights) {
+        arrays("alpha", weights.alpha);
+        arrays("uncovered", weights.uncovered_vertices);
       },
-      [&] { return weights_of_masks(config, inputs); },
-      [](const RegionWeights& made) {
-        return std::vector{array_of("alpha", made.alpha),
-                           value_array("uncovered", made.uncovered_vertices)};
+      [&](const RegionWeights& found, const CacheEntry&) {
+        const auto& alpha = found.alpha;
+        return alpha.rows() == inputs.faces.topology.vertex_count &&
+               alpha.cols() == static_cast<Index>(config.region_names().size()) &&
+               (alpha.array() >= 0 && alpha.array() <= 1).all();
       });
 }
 
@@ -188,21 +168,18 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
       .add(count)
       .add(config.faces.front.index)
       .add(config.faces.front.sign);
+  const Topology& topology = inputs.faces.topology;
   return cached(
       inputs.cache, {"samples", key.digest()},
-      [&](const CacheEntry& entry) {
-        FaceSamples chosen = entry.list<std::uint32_t>("vertices");
-        entry.require(!chosen.empty() && std::ranges::is_sorted(chosen) &&
-                      std::ranges::adjacent_find(chosen) == chosen.end() &&
-                      chosen.back() <
-                          static_cast<std::uint32_t>(inputs.faces.topology.vertex_count));
-        return chosen;
-      },
       [&] {
-        return choose_face_samples(inputs.faces.topology, inputs.skin, inputs.mean,
-                                   config.faces.front, count);
+        return choose_face_samples(topology, inputs.skin, inputs.mean, config.faces.front, count);
       },
-      [](const FaceSamples& made) { return std::vector{array_of("vertices", made)}; });
+      [](auto& arrays, auto& samples) { arrays("vertices", samples); },
+      [&](const FaceSamples& found, const CacheEntry&) {
+        return !found.empty() && std::ranges::is_sorted(found) &&
+               std::ranges::adjacent_find(found) == found.end() &&
+               found.back() < static_cast<std::uint32_t>(topology.vertex_count);
+      });
 }
 
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
@@ -211,16 +188,14 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   for (const Digest& head : inputs.head_digests) key.add(head);
   return cached(
       inputs.cache, {"cells", key.digest()},
-      [&](const CacheEntry& entry) {
-        static_assert(SampleCells::kNone == kNoIndex);
-        SampleCells cells{entry.list<std::uint32_t>("samples")};
-        entry.require(cells.of_vertex.size() ==
-                          static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
-                      are_rows(cells.of_vertex, samples.size()));
-        return cells;
-      },
       [&] { return find_sample_cells(inputs.adjacency, inputs.mean, samples); },
-      [](const SampleCells& made) { return std::vector{array_of("samples", made.of_vertex)}; });
+      [](auto& arrays, auto& cells) { arrays("samples", cells.of_vertex); },
+      [&](const SampleCells& found, const CacheEntry&) {
+        static_assert(SampleCells::kNone == kNoIndex);
+        return found.of_vertex.size() ==
+                   static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
+               are_rows(found.of_vertex, samples.size());
+      });
 }
 
 FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) {
@@ -228,20 +203,12 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
   begin_key(key, inputs).add(kMirrorVersion);
   for (const Digest& head : inputs.head_digests) key.add(head);
   for (const double value : side) key.add(value);
+  const Topology& topology = inputs.faces.topology;
   return cached(
       inputs.cache, {"mirror", key.digest()},
-      [&](const CacheEntry& entry) { return mirror_in(entry, inputs.faces.topology); },
-      [&] { return find_mirror(inputs.faces.topology, inputs.components, inputs.mean, side); },
-      [](const FoundMirror& made) {
-        const auto& [normal, offset] = made.map.plane;
-        return std::vector{
-            array_of(kCorners, made.map.corners),
-            array_of(kShares, made.map.shares),
-            array_of(kWithout, made.map.without),
-            array_of(kAdded, made.map.kept),
-            value_array(kPlane, PlaneNumbers{normal[0], normal[1], normal[2], offset}),
-            value_array(kDistances, Pair{made.rms, made.largest}),
-            value_array(kCounts, Counts{made.vertices, made.on_surface})};
+      [&] { return find_mirror(topology, inputs.components, inputs.mean, side); }, kMirrorArrays,
+      [&](const FoundMirror& found, const CacheEntry&) {
+        return is_mirror(found, static_cast<std::size_t>(topology.vertex_count));
       });
 }
 
