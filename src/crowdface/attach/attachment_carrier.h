@@ -11,27 +11,33 @@
 
 namespace crowdface {
 
-/// Carries one attachment to faces. What depends on the fitted mesh alone is found once.
+/// Carries one attachment to faces. The constructor precomputes what depends on the fitted mesh
+/// only.
 class AttachmentCarrier {
  public:
-  /// \param skin      must outlive this object.
-  /// \param topology  of the attachment.
-  /// \param points    #P by 3, beside the fitted mesh; must outlive this object.
+  /// \param skin      Skin of the fitted mesh; must outlive this object.
+  /// \param topology  Topology of the attachment.
+  /// \param points    #P by 3. Vertices of the attachment on the fitted mesh; must outlive this
+  ///                  object.
+  /// \param move      How the attachment follows the skin.
   AttachmentCarrier(const FittedSkin& skin, const Topology& topology, const Positions& points,
                     AttachmentMove move);
 
-  /// The attachment's vertices on a face. What was off the skin stays off it: what bends to the gap
-  /// that it had, if that was narrow, or else to two millimetres, what is rigid as far as moving it as
-  /// a whole can do that.
+  /// Returns the attachment's vertices on a face. Vertices that were outside the skin of the fitted
+  /// mesh stay outside. A bending attachment gets its original gap to the skin if that gap was
+  /// narrow, otherwise at least two millimetres. A rigid attachment keeps its distance as far as
+  /// moving it as a whole allows.
+  ///
   /// \param face     #V by 3, in the topology of the fitted mesh.
-  /// \param normals  of the face, from FittedSkin::normals.
+  /// \param normals  Normals of the face, from FittedSkin::normals.
+  /// \return         #P by 3.
   Positions carry(const Positions& face, const Positions& normals) const;
 
   std::size_t memory_bytes() const;
 
  private:
   std::unique_ptr<const SkinGaps> gaps_;
-  std::unique_ptr<const SmoothBend> bend_;  ///< one of the two
+  std::unique_ptr<const SmoothBend> bend_;  ///< Exactly one of `bend_` and `seat_` is set.
   std::unique_ptr<const RigidSeat> seat_;
 };
 

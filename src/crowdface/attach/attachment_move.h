@@ -3,10 +3,10 @@
 
 namespace crowdface {
 
-/// How an attachment goes along with the skin under it.
+/// How an attachment follows the skin under it.
 enum class AttachmentMove {
-  kBend,   ///< each place with the skin around it, smoothly: hair, brows, beard
-  kRigid,  ///< as a whole, turned, moved and scaled: glasses
+  kBend,   ///< each place follows the skin around it, smoothly: hair, brows, beard
+  kRigid,  ///< the whole attachment rotates, translates and scales: glasses
 };
 
 }  // namespace crowdface

@@ -9,18 +9,19 @@
 
 namespace crowdface {
 
-/// Places from which points hear the skin around.
+/// The nodes of a moving-least-squares deformation. Each node has a patch of skin that determines
+/// its motion; each point blends the motions of the nodes around it.
 struct BendPlaces {
-  /// None is within this distance of another, and each point within that of one: a share of how far they hear the
-  /// skin.
+  /// Spacing of the nodes, as a fraction of the reach of a node's patch. No node is nearer than
+  /// this to an earlier node, and every point is within this distance of a node.
   static constexpr double kApart = 0.3;
-  /// How far points hear a place, in such distances.
+  /// Radius of a node's influence on points, in multiples of that spacing.
   static constexpr double kHeard = 2;
 
-  /// What a point hears of a place.
+  /// The weight of one node for one point.
   struct Share {
     std::uint32_t place;
-    float weight;  ///< not of sum one
+    float weight;  ///< weights of a point do not sum to one
   };
   std::vector<FittedSkin::Patch> patches;
   Grouped<Share> shares;  ///< #points

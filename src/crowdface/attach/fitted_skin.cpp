@@ -17,13 +17,14 @@
 namespace crowdface {
 namespace {
 
-/// How far skin is heard at the skin itself, and how that grows with the distance from it.
+/// Reach of a point on the skin, in millimetres or in vertex spacings, whichever is larger; and the
+/// growth of the reach per unit of distance from the skin.
 constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
-/// At least this many vertices are within that share of the reach.
+/// At least this many vertices lie within the reach divided by kFewestReach.
 constexpr std::size_t kFewest = 12;
 constexpr double kFewestReach = 1.4;
-/// A level is used where the reach is so many of its spacings; from there on the next takes over, up
-/// to twice as many.
+/// A level is used alone where the reach is kSpacings times its spacing. From there to twice that
+/// reach, the patch blends into the next level.
 constexpr double kSpacings = 3;
 constexpr std::size_t kCoarsest = 150;
 
@@ -78,7 +79,8 @@ void FittedSkin::add_level(double spacing, std::vector<std::uint32_t> vertices,
   levels_.push_back({spacing, std::move(vertices), std::move(areas), std::move(grid)});
 }
 
-/// One vertex for each cell, the one nearest to the middle of its skin, with the area of all.
+/// Picks one vertex per cell, the vertex nearest to the cell's centre of area, and gives it the
+/// area of the whole cell.
 void FittedSkin::add_coarser(double spacing) {
   std::vector<InCell> cells;
   const Eigen::Vector3d low = row3(mesh_, skin_.front());

@@ -13,22 +13,25 @@
 
 namespace crowdface {
 
-/// Where a point lies against the skin.
+/// The place on the skin nearest to a point.
 struct SkinPlace {
-  std::uint32_t vertex = 0;                            ///< a corner of the nearest triangle
-  double height = 0;                                   ///< off the skin; negative: inside
-  Eigen::Vector3d outward = Eigen::Vector3d::Zero();   ///< unit, smooth over the skin
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the skin
+  std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
+  /// signed distance of the point from the skin; negative: inside
+  double height = 0;
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();   ///< unit normal, continuous over the skin
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest point on the skin
 };
 
-/// The skin of the mesh that attachments were fitted to, and how any face of its topology is asked
-/// about.
+/// The skin of the mesh to which attachments were fitted, with queries for any face of the same
+/// topology. Const members may be called from several threads.
 class FittedSkin {
  public:
-  /// \param topology  must outlive this object.
+  /// \param topology  Must outlive this object.
   /// \param mesh      #V by 3.
-  /// \param skin      its skin's vertices, ascending, at least three that are not on a line.
-  /// \param mm        how much of the mesh's unit a millimetre is.
+  /// \param skin      Vertices of the skin, ascending; at least three that are not collinear.
+  /// \param mm        Length of one millimetre in the mesh's unit.
+  ///
+  /// \throws BrokenPrecondition if sizes do not fit or the skin has no area.
   FittedSkin(const Topology& topology, Positions mesh, std::vector<std::uint32_t> skin, double mm);
   FittedSkin(const FittedSkin&) = delete;
   FittedSkin& operator=(const FittedSkin&) = delete;
@@ -38,35 +41,40 @@ class FittedSkin {
   const PointGrid& grid() const { return levels_.front().grid; }
   const std::vector<double>& areas() const { return areas_; }
   double mm() const { return mm_; }
-  /// How far vertices of the skin are apart.
+  /// Mean spacing of the skin's vertices: the square root of the area per vertex.
   double spacing() const { return levels_.front().spacing; }
 
-  /// A part of the skin, by vertices that stand for all of it.
+  /// A weighted sample of the skin around a point.
   struct Patch {
     std::vector<std::uint32_t> vertices;
     std::vector<double> weights;  ///< #vertices: area × nearness
     double reach = 0;
   };
-  /// The skin around a point, which counts less with its distance and from `reach` on not at all. The
-  /// reach is a few millimetres at the skin and grows with the distance from it; weights and reach
-  /// are continuous in the point, so that neighbours hear of almost the same skin.
+  /// Returns the skin around a point. Weights decrease with distance and are zero at `reach`. The
+  /// reach is a few millimetres at the skin and grows with the point's distance from the skin.
+  /// Weights and reach are continuous in the point, so neighbouring points get almost the same
+  /// patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
-  /// \param least  the reach at the skin, where vertices lie closely enough
+  /// \param least  Reach of a point on the skin, if the vertices there are dense enough.
   Patch patch_around(const Eigen::Vector3d& point, double least) const;
 
-  /// Unit normals of a face's vertices, #V by 3, that look off the skin.
+  /// Returns the outward unit normals of a face's vertices, #V by 3.
   Positions normals(const Positions& face) const;
-  /// \param start    a vertex of the skin near the point
-  /// \param normals  of the face, see above
+  /// Returns the place on a face's skin nearest to a point. The search walks over the mesh from
+  /// `start`.
+  ///
+  /// \param face     #V by 3.
+  /// \param normals  Normals of the face, from `normals`.
+  /// \param start    A vertex of the skin near the point.
   SkinPlace place_near(const Positions& face, const Positions& normals, std::uint32_t start,
                        const Eigen::Vector3d& point) const;
 
  private:
-  /// Vertices that stand for the skin in cells of one width.
+  /// A subset of the skin's vertices, one for each cell of a grid.
   struct Level {
     double spacing;
     std::vector<std::uint32_t> vertices;
-    std::vector<double> areas;  ///< #V
+    std::vector<double> areas;  ///< #V: area of the cell that each vertex represents
     PointGrid grid;
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
@@ -81,9 +89,9 @@ class FittedSkin {
   double mm_;
   FacesAround around_;
   NormalFans fans_;
-  double side_ = 1;  ///< −1: faces are wound so that their normals look inwards
+  double side_ = 1;  ///< −1 if the faces are wound so that their normals point inwards
   std::vector<double> areas_;
-  std::vector<Level> levels_;  ///< each of twice the spacing before it
+  std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level
 };
 
 }  // namespace crowdface

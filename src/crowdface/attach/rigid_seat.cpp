@@ -13,11 +13,11 @@
 namespace crowdface {
 namespace {
 
-/// How far the skin that carries reaches beyond the part nearest to it.
+/// The supporting skin is the skin within this distance of the attachment.
 constexpr double kSeatReachMm = 15;
 constexpr std::size_t kFewestOfSocket = 12;
 constexpr int kSeatRounds = 8;
-/// What a nudge by so much as a missing millimetre counts, against all that is missing.
+/// Cost of a motion by one millimetre, relative to a missing millimetre of distance.
 constexpr double kStillness = 0.02;
 
 }  // namespace
@@ -45,10 +45,11 @@ Positions RigidSeat::moved(const RigidMotion& motion) const {
   return result;
 }
 
-/// One step of least squares towards what is missing.
+/// One least-squares step that moves the attachment out of the skin.
 RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
                                  const std::vector<SkinGaps::Missing>& missing) const {
-  constexpr std::size_t kUnknowns = 7;  // shift, turn and growth, the last two times the radius
+  // translation, rotation, growth; the last two are scaled by the radius
+  constexpr std::size_t kUnknowns = 7;
   SmallProgram program(kUnknowns);
   const Eigen::Vector3d pivot = motion.apply(middle_);
   const double radius = motion.scale * radius_;

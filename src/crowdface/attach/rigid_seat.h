@@ -9,14 +9,20 @@
 
 namespace crowdface {
 
-/// Where something stiff sits on the skin. It moves by the best turn, shift and scale of the skin near
-/// it, and is then shifted, turned and scaled a little further, as far as that keeps it off the skin.
+/// Places a rigid attachment on a face. The attachment moves by the best rotation, translation and
+/// scale of the skin near it. A few more small motions then move it out of the skin as far as
+/// possible.
 class RigidSeat {
  public:
-  /// \param skin, points, gaps  must outlive this object; points #P by 3, beside the fitted mesh.
+  /// \param skin    Must outlive this object.
+  /// \param points  #P by 3, on the fitted mesh; must outlive this object.
+  /// \param gaps    Distances of the points from the skin; must outlive this object.
   RigidSeat(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps);
 
-  /// The points on a face. \param normals  of the face, from FittedSkin::normals
+  /// Returns the points on a face, #P by 3.
+  ///
+  /// \param face     #V by 3.
+  /// \param normals  Normals of the face, from FittedSkin::normals.
   Positions seat(const Positions& face, const Positions& normals) const;
 
  private:
@@ -29,7 +35,7 @@ class RigidSeat {
   const SkinGaps& gaps_;
   Socket socket_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
-  double radius_ = 1;  ///< root mean square about the middle
+  double radius_ = 1;  ///< root mean square distance of the points from `middle_`
 };
 
 }  // namespace crowdface

@@ -18,20 +18,21 @@
 namespace crowdface {
 namespace {
 
-/// How far skin is heard around a root, where its vertices lie closely enough.
+/// Reach of a patch around a root, if the skin's vertices are dense enough.
 constexpr double kPatchReachMm = 3;
-/// What is farther off the skin hears more of it.
+/// Points farther off the skin than this use a larger patch.
 constexpr double kOffMm = 10;
-/// How far along the skin, in a patch's reach, skin counts as near.
+/// Limit for distances along the surface, in multiples of a patch's reach.
 constexpr double kAlong = 1.5;
-/// Fewer vertices than this tell no turn: then the whole patch is heard.
+/// Fewer vertices do not determine a rotation; then the whole patch is used.
 constexpr std::size_t kFewestNear = 6;
 
-/// Other skin is as near as the nearest if it is by no more than this farther, and far along the skin from so
-/// many times that distance on.
+/// A point's nearest skin is ambiguous if a sphere around the point, kBetweenMm larger than the
+/// distance to the nearest skin, contains skin that is farther from the nearest skin, along the
+/// surface, than kFarther times the sphere's radius.
 constexpr double kBetweenMm = 2, kFarther = 4;
 
-/// Where points have their roots on the skin, each found from that of a neighbour.
+/// Finds the root of each point on the skin, each from the root of a neighbouring point.
 class Roots {
  public:
   Roots(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
@@ -59,7 +60,8 @@ class Roots {
 
  private:
   struct Open {
-    bool is_between;  ///< skin that is far from each other along it: it tells less than a neighbour
+    /// the nearest skin is ambiguous (see kBetweenMm), so a neighbour's root is more reliable
+    bool is_between;
     double distance;
     std::uint32_t point, vertex;
 
@@ -100,7 +102,8 @@ class Roots {
   std::vector<bool> is_found_;
 };
 
-/// By which points hear the skin: their roots, but of what is farther off.
+/// Returns the positions that select a point's patches: its root, or for a point farther than
+/// `off` from its root, the point moved towards the root by `off`.
 Positions anchors_of(const std::vector<SkinPlace>& roots, const Positions& points, double off) {
   Positions anchors(points.rows(), 3);
   for (std::size_t p = 0; p < roots.size(); ++p) {
@@ -146,7 +149,7 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   for (const auto& shares : of_point) places_.shares.add_group(shares);
 }
 
-/// Leaves out of a patch what is not near along the skin, unless too little were left.
+/// Removes vertices that are farther along the surface than `limit`, unless too few would remain.
 void ShapeBend::keep_near(const EdgeDistances& along, double limit, FittedSkin::Patch& patch) {
   FittedSkin::Patch near{{}, {}, patch.reach};
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) {

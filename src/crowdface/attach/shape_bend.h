@@ -9,23 +9,30 @@
 
 namespace crowdface {
 
-/// Moves what bends with the skin when a face's expression moves that: at places on the skin the best turn, shift
-/// and scale of the skin around, as SmoothBend, but closer, and of skin alone that is near along the surface. A
-/// moustache does not hear of the lower lip, and a lash goes with the lid that it grows on: where a point has its
-/// root is looked for from its neighbour's on, beginning where the mesh lies nearest to the skin.
+/// Moves a bending attachment when an expression moves the skin. Like SmoothBend, this class fits
+/// the rotation, translation and scale of patches of skin, but the patches are smaller and contain
+/// only skin that is near along the surface. So a moustache does not follow the lower lip, and a
+/// lash follows the lid it grows on.
+///
+/// Each point has a root on the skin. The search for roots walks over the attachment's mesh: it
+/// begins where the mesh is nearest to the skin, and finds each further root near the root of a
+/// neighbouring point.
 class ShapeBend {
  public:
-  /// \param skin       must outlive this object.
-  /// \param adjacency  of the skin's mesh.
-  /// \param points     #P by 3, beside the fitted mesh.
-  /// \param topology   of the points
+  /// \param skin       Must outlive this object.
+  /// \param adjacency  Adjacency of the skin's mesh.
+  /// \param topology   Topology of the attachment.
+  /// \param points     #P by 3, on the fitted mesh.
   ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
             const Positions& points);
 
-  /// \param face    #V by 3, at rest
-  /// \param worn    #P by 3, on that face
-  /// \param shape   of the face
-  /// \return        of those points that hear of skin that the shape moves
+  /// Returns how the attachment moves in an expression. Points that depend on no moved skin are
+  /// left out.
+  ///
+  /// \param face   #V by 3, at rest.
+  /// \param worn   #P by 3, the attachment on that face at rest.
+  /// \param shape  Displacements of the face.
+  /// \return       Displacements of the attachment's points.
   Displacements in_shape(const Positions& face, const Positions& worn,
                          const Displacements& shape) const;
 

@@ -11,13 +11,14 @@
 namespace crowdface {
 namespace {
 
-/// Farther off the skin nothing is asked of a vertex.
+/// Vertices farther from the skin than this are not constrained.
 constexpr double kFarMm = 25;
-/// What is at most so near to the skin keeps its gap; farther off less and less, up to the second.
+/// Vertices up to kCloseMm from the skin get exactly their original gap. The correction decreases
+/// linearly to zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
-/// What is farther off keeps this at least.
+/// Vertices farther off keep at least this distance.
 constexpr double kLeastMm = 2;
-/// How often what is pushed takes its neighbours along.
+/// Number of times that pushed vertices move their neighbours along.
 constexpr int kRounds = 8;
 constexpr std::uint32_t kGapsPerBlock = 512;
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -66,6 +67,7 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
   parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
     if (heights_[p] == kNowhere) return;
     const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
+    // Restore the original gap near the skin, and at least the minimum distance elsewhere.
     const double off = std::abs(heights_[p]) / skin_.mm();
     const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
     double move = held * (heights_[p] - place.height);
@@ -73,6 +75,8 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
     moves.row(p) = move * place.outward.transpose();
     outward.row(p) = place.outward.transpose();
   });
+  // Where the neighbours are pushed outwards farther on average than the vertex, the vertex gets
+  // their mean movement.
   for (int round = 0; round < kRounds; ++round) {
     const Positions before = moves;
     parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {

@@ -10,26 +10,35 @@
 
 namespace crowdface {
 
-/// How far each vertex of an attachment is off the skin it was fitted to.
+/// The distance of each vertex of an attachment from the skin it was fitted to.
 class SkinGaps {
  public:
-  /// \param skin     must outlive this object.
-  /// \param topology of the attachment.
-  /// \param points   #P by 3, beside the fitted mesh.
+  /// \param skin      Must outlive this object.
+  /// \param topology  Topology of the attachment.
+  /// \param points    #P by 3, on the fitted mesh.
   SkinGaps(const FittedSkin& skin, const Topology& topology, const Positions& points);
 
-  /// A vertex that is nearer to the skin than it may be.
+  /// A vertex that is too near to the skin, or inside.
   struct Missing {
     std::uint32_t vertex;
-    double height;            ///< what it lacks
-    Eigen::Vector3d outward;  ///< off the skin, unit
+    double height;            ///< distance by which the vertex must move outwards
+    Eigen::Vector3d outward;  ///< unit normal of the skin
   };
-  /// Vertices that were off the skin and are in it now, or much nearer to it than they were.
+  /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
+  /// skin than allowed: than their original distance, or than two millimetres if that is less.
+  ///
+  /// \param face     #V by 3.
+  /// \param normals  Normals of the face, from FittedSkin::normals.
+  /// \param points   #P by 3, on the face.
   std::vector<Missing> missing(const Positions& face, const Positions& normals,
                                const Positions& points) const;
 
-  /// Gives what lies on the skin the gap that it had, and pushes out what has come to lie in it or too
-  /// near to it. What is pushed takes its neighbours with it.
+  /// Moves points so that those close to the skin get their original gap, and no point that was
+  /// outside is inside or too near. Pushed points move their neighbours along.
+  ///
+  /// \param face     #V by 3.
+  /// \param normals  Normals of the face, from FittedSkin::normals.
+  /// \param points   #P by 3, on the face.
   void restore(const Positions& face, const Positions& normals, Positions& points) const;
 
   std::size_t memory_bytes() const;
@@ -38,8 +47,9 @@ class SkinGaps {
   double least_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;
-  std::vector<double> heights_;  ///< #P, of the gaps; far from the skin not known and infinite
-  std::vector<std::uint32_t> starts_;  ///< #P, vertices of the skin near them
+  /// #P: signed distances on the fitted mesh; infinite if the point is far from the skin
+  std::vector<double> heights_;
+  std::vector<std::uint32_t> starts_;  ///< #P: a vertex of the skin near each point
   Adjacency neighbours_;               ///< #P
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kPlacesPerBlock = 64;
 constexpr Index kPointsPerBlock = 1024;
 
-/// The points that are places.
+/// Chooses the nodes among the points, greedily in their order, and collects their patches.
 std::vector<std::uint32_t> find_places(const FittedSkin& skin, const Positions& points,
                                        const PointGrid& grid,
                                        std::vector<FittedSkin::Patch>& patches) {

@@ -6,17 +6,19 @@
 
 namespace crowdface {
 
-/// Moves points beside a skin smoothly with it: at places among the points the best turn, shift and
-/// scale of the skin around, and between them a mean of what these do (moving least squares, Schaefer
-/// et al. 2006, with similarities). Places are the denser the nearer the skin is. A face that is the
-/// fitted mesh, turned, moved and scaled, has them turned, moved and scaled, up to rounding.
+/// Moves points smoothly with the skin beside them (moving least squares, Schaefer et al. 2006,
+/// with similarities). At nodes among the points, the best rotation, translation and scale of the
+/// surrounding skin is fitted; each point gets a weighted mean of these motions. Nodes are denser
+/// near the skin. If the face is the fitted mesh, rotated, translated and scaled, the points
+/// undergo the same motion up to rounding.
 class SmoothBend {
  public:
-  /// \param skin    must outlive this object.
-  /// \param points  #P by 3, beside the fitted mesh; likewise.
+  /// \param skin    Must outlive this object.
+  /// \param points  #P by 3, on the fitted mesh; must outlive this object.
   SmoothBend(const FittedSkin& skin, const Positions& points);
 
-  /// \param face  #V by 3. \return #P by 3.
+  /// \param face  #V by 3.
+  /// \return      Points on the face, #P by 3.
   Positions bend(const Positions& face) const;
 
   std::size_t memory_bytes() const { return places_.memory_bytes(); }
