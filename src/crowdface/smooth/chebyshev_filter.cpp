@@ -10,15 +10,17 @@
 namespace crowdface {
 namespace {
 
-/// Rows of a tile, and steps it does before it looks at its neighbours again. Measured: a tile's
-/// two vectors and its part of the sums then stay in a core's own cache (docs/benchmarks.md).
+/// Rows per tile, and recurrence steps per round, after which tiles exchange their boundary rows.
+/// Chosen by measurement: a tile's two vectors and its part of the sums stay in a core's own cache
+/// (docs/benchmarks.md).
 constexpr Index kTileRows = 6144;
 constexpr int kStepsARound = 8;
 
 template <class T>
 using RowVector = std::vector<Row<T>>;
 
-/// Own rows of a tile that no iteration moves: those before the first run, as rows go by valence.
+/// Number of the tile's own rows whose vertices are fixed. Fixed vertices have valence 0 and rows
+/// are sorted by valence, so these rows come first.
 std::uint32_t resting_rows(const Tile& tile) {
   return tile.runs_to[0] == 0 ? tile.count : tile.runs[0].first;
 }
@@ -37,7 +39,7 @@ class Recurrence {
       terms_ = std::max(terms_, static_cast<Index>(series.size()));
       sums_.emplace_back(input.values.size());
     }
-    for (const Tile& tile : tiling.tiles) {  // what rests is the same in every T_k
+    for (const Tile& tile : tiling.tiles) {  // fixed rows have the same value in every T_k
       std::copy_n(now_.begin() + tile.first, resting_rows(tile), previous_.begin() + tile.first);
     }
     next_now_ = now_;
@@ -46,7 +48,7 @@ class Recurrence {
 
   Index terms() const { return terms_; }
 
-  /// On one tile, T_0: what every sum begins with.
+  /// Starts the sums of one tile with the term T_0.
   void begin(const Tile& tile) {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T a = static_cast<T>(input_.series[s][0]);
@@ -56,7 +58,7 @@ class Recurrence {
     }
   }
 
-  /// On one tile, from T_k on: up to kStepsARound terms more, in the order of k.
+  /// Runs up to kStepsARound steps on one tile, from T_k on, and adds the terms in the order of k.
   /// \param visit  called with each k and the tile's own rows of T_k(W) x.
   template <class Visit>
   void round(const Tile& tile, Index k, const Visit& visit) {
@@ -66,7 +68,7 @@ class Recurrence {
     const auto steps = static_cast<int>(std::min<Index>(kStepsARound, terms_ - 1 - k));
     for (int step = 0; step < steps; ++step) {
       const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
-      const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings still to be looked at
+      const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings needed by later steps
       recurrence_step<T>(tile.runs.data(), tile.runs_to[reach], tile.rings.data(), scale,
                          now.data(), previous.data());
       now.swap(previous);
@@ -83,6 +85,8 @@ class Recurrence {
     previous_.swap(next_previous_);
   }
 
+  /// Moves the sums out. Fixed rows are recomputed as x times the sum of the coefficients, which is
+  /// exact.
   std::vector<RowArray<T>> take_sums() {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T sum = static_cast<T>(sum_of(input_.series[s]));
@@ -105,7 +109,8 @@ class Recurrence {
   void add_term(const Tile& tile, Index k, const Row<T>* term) {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const double a = coefficient(input_.series[s], k);
-      if (a == 0) continue;  // half of a power's coefficients, and all beyond a short series
+      // Every second coefficient of an umbrella series, and all beyond a short series.
+      if (a == 0) continue;
       add_scaled<T>(static_cast<T>(a), term, tile.count, sums_[s].data() + tile.first);
     }
   }
@@ -117,7 +122,7 @@ class Recurrence {
   Index terms_ = 1;
 };
 
-/// Which probes a tile holds, and where.
+/// Finds the probes in each tile and copies their terms.
 class ProbeRows {
  public:
   ProbeRows(const Tiling& tiling, Probes& probes) : probes_(probes), of_tile_(tiling.tiles.size()) {

@@ -6,7 +6,7 @@
 namespace crowdface {
 namespace {
 
-/// Small terms first.
+/// Adds small terms first, for accuracy.
 double plain_sum(const ChebyshevSeries& series) {
   double sum = 0;
   for (auto a = series.rbegin(); a != series.rend(); ++a) sum += *a;
@@ -20,7 +20,8 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level, double tole
   const bool lazy = kind == OperatorKind::kLazy;
   const double l = static_cast<double>(level);
   // Umbrella: a_k = 2^{1−L} C(L, (L−k)/2) for k ≡ L (mod 2), so a_{k+2}/a_k = (L−k)/(L+k+2).
-  // Lazy: a_k = 2^{1−2L} C(2L, L−k), so a_{k+1}/a_k = (L−k)/(L+k+1). Both halved at k = 0.
+  // Lazy: a_k = 2^{1−2L} C(2L, L−k), so a_{k+1}/a_k = (L−k)/(L+k+1).
+  // In both series a_0 is halved.
   const std::uint64_t stride = lazy ? 1 : 2;
   const std::uint64_t start = lazy ? 0 : level % 2;
   ChebyshevSeries series(start, 0.0);
@@ -32,11 +33,12 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level, double tole
     const double kd = static_cast<double>(k);
     const double ratio = (l - kd) / (l + kd + static_cast<double>(stride));
     term *= ratio;
-    // The ratios fall, so what follows is less than a geometric series.
+    // The ratios decrease, so a geometric series bounds the remaining terms.
     if (term <= tolerance * sum * (1 - ratio)) break;
   }
   const double total = plain_sum(series);
-  for (double& a : series) a /= total;  // without that, rims would drift
+  // The sum must be exactly 1, or fixed boundaries would drift.
+  for (double& a : series) a /= total;
   return series;
 }
 

@@ -8,26 +8,27 @@
 
 namespace crowdface {
 
-/// Coefficients a_0 … a_K of a polynomial in the one-ring mean W: Σ_k a_k T_k(W).
+/// Coefficients a_0 … a_K of the polynomial Σ_k a_k T_k(W) in the one-ring mean W.
 using ChebyshevSeries = std::vector<double>;
 
-/// What a series may leave out: the dropped tail's share of its sum.
+/// Truncation tolerance: the discarded tail's share of the sum of all coefficients.
 inline constexpr double kSeriesTolerance = 1e-10;
 
-/// The series of `level` iterations: of x^L for the umbrella operator, of ((1 + x)/2)^L for the
-/// lazy one. About √(2 L ln(2/tolerance)) terms (lazy: 1/√2 of that); the coefficients are not
-/// negative and sum to one, so that constants and rims stay. Level 0 is exactly {1}. Source:
-/// Sachdeva & Vishnoi 2014, "Faster algorithms via approximation theory", thm 3.3; the terms by
-/// their ratio, so that no level overflows (docs/method.md).
+/// The Chebyshev series of L = `level` smoothing iterations: of x^L for the umbrella operator and
+/// of ((1 + x)/2)^L for the lazy operator. The umbrella series has about √(2 L ln(2/tolerance))
+/// terms, the lazy series 1/√2 of that. The coefficients are not negative and sum to one, so
+/// constant fields and fixed boundaries stay unchanged. Level 0 gives exactly {1}. Source: Sachdeva
+/// & Vishnoi 2014, "Faster algorithms via approximation theory", thm 3.3. The terms are computed
+/// from their ratios, so that no level overflows (docs/method.md).
 ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level,
                              double tolerance = kSeriesTolerance);
 
-/// The series of S_L − 1, the displacement by `level` iterations.
+/// The series of S_L − 1, the displacement after L = `level` iterations.
 ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level,
                                     double tolerance = kSeriesTolerance);
 
-/// What a series does to a value that no iteration moves: the sum of its coefficients, exactly one
-/// or zero where it is that but for rounding.
+/// The sum of the coefficients: the factor by which the series scales the value of a fixed vertex.
+/// Sums within rounding of 0 or 1 are returned as exactly 0 or 1.
 double sum_of(const ChebyshevSeries& series);
 
 }  // namespace crowdface

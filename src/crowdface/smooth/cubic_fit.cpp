@@ -23,8 +23,10 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
     const auto basis = cubic_basis(levels[static_cast<std::size_t>(l)], max_level);
     for (Index p = 0; p < CubicFit::kRank; ++p) design(l, p) = basis[static_cast<std::size_t>(p)];
   }
-  // Least squares is linear in the data: c_p = Σ_l P_pl (S_{L_l} x − x), P the pseudo-inverse. With
-  // fewer than four levels the smallest coefficients that pass through them.
+  // Least squares is linear in the data: c_p = Σ_l P_pl (S_{L_l} x − x), where P is the
+  // pseudo-inverse of the design matrix. With fewer than four levels P gives the smallest
+  // coefficients that interpolate them. The series of all levels are therefore combined into one
+  // series per field.
   const Eigen::MatrixXd fit =
       design.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(count, count));
   std::vector<ChebyshevSeries> combined(CubicFit::kRank);

@@ -9,23 +9,24 @@
 
 namespace crowdface {
 
-/// The paper's approximation of the levels (§5.1): for each coordinate a cubic in t = L/L_max,
-/// S_L x − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³, fitted by least squares to about 40 levels. Its error
-/// is millimetres where the head moves by centimetres (docs/method.md): kept for comparison.
+/// The paper's approximation of the levels (§5.1): each coordinate is a cubic in t = L/L_max, S_L
+/// x − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³, fitted by least squares to about 40 levels. Its error is
+/// millimetres where the head moves by centimetres (docs/method.md), so it is kept for comparison
+/// only.
 struct CubicFit {
   static constexpr int kRank = 4;
   std::uint64_t max_level = 1;
   LevelFields fields;  ///< c_0 … c_3
 };
 
-/// The fit uses the levels_dense_at_start of so many steps, as the paper has it.
+/// The fit samples levels_dense_at_start(max_level, kCubicFitSteps), as in the paper.
 inline constexpr int kCubicFitSteps = 40;
 
-/// Fits one head. The levels are combined while the recurrence runs; none is stored.
+/// Fits one head. The recurrence accumulates the fields directly; no level is stored.
 CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
                    std::uint64_t max_level);
 
-/// φ_0 … φ_3 at a level: 1, t, t², t³.
+/// The basis functions φ_0 … φ_3 at a level: 1, t, t², t³ with t = level/max_level.
 std::array<double, CubicFit::kRank> cubic_basis(std::uint64_t level, std::uint64_t max_level);
 
 }  // namespace crowdface

@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/smooth/field_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires foreach_target.h first, then the headers that are compiled once per target.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -33,14 +33,16 @@ void narrow(const float* from, std::size_t count, float scale, std::int16_t* to)
   for (; i < count; ++i) to[i] = static_cast<std::int16_t>(std::nearbyint(from[i] * scale));
 }
 
-/// Products and sums are rounded one by one: what a tile keeps must not depend on the instruction set.
+/// Multiplies and adds with separate rounding (no FMA), so that the number of fields kept does not
+/// depend on the instruction set. Each level adds fields from the last to the first until the error
+/// exceeds the limit; that field and all before it must be kept.
 MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
                         std::size_t stride, std::size_t levels, float most) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
   const auto limit = hn::Set(lanes, most);
   HWY_ALIGN float left[3 * kFieldTile];
-  std::vector<MissedLevel> worst(count + 1);  // with so many fields kept
+  std::vector<MissedLevel> worst(count + 1);  // worst[p]: the largest error with p fields kept
   std::size_t kept = 0;
   for (std::size_t level = 0; level < levels; ++level, functions += stride) {
     std::fill_n(left, 3 * kFieldTile, 0.0F);
@@ -76,7 +78,7 @@ void row_products(const float* columns, std::size_t count, std::size_t row, doub
   const hn::Rebind<float, decltype(lanes)> narrow_lanes;
   using V = hn::VFromD<decltype(lanes)>;
   const std::size_t width = hn::Lanes(lanes);
-  constexpr std::size_t kSums = 8;  // chains of additions that overlap
+  constexpr std::size_t kSums = 8;  // independent sums, to hide the latency of additions
   for (std::size_t begin = 0; begin < kPatchVertices; begin += kSums * width) {
     V sums[kSums];
     for (V& sum : sums) sum = hn::Zero(lanes);

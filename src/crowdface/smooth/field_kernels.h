@@ -6,27 +6,30 @@
 
 namespace crowdface {
 
-/// to[i] = from[i]·scale, rounded to the nearest whole number, halves to even.
-/// \param from  times scale from −32768 to 32767
+/// to[i] = from[i]·scale, rounded to the nearest integer, ties to even.
+/// \param from  `count` values; from[i]·scale must lie between −32768 and 32767.
 void narrow(const float* from, std::size_t count, float scale, std::int16_t* to);
 
-/// What the first few fields of some vertices leave out of a level.
+/// The truncation error when only the first `kept` fields of a tile are used.
 struct MissedLevel {
-  std::size_t kept = 0;   ///< fields
-  float squared = 0;      ///< the largest squared distance missed
-  std::size_t level = 0;  ///< where
+  std::size_t kept = 0;   ///< number of fields kept
+  float squared = 0;      ///< the largest squared error distance of any vertex and level
+  std::size_t level = 0;  ///< index of the level with the largest error
 };
 
-/// The fewest first fields with which no vertex of a tile misses any level Σ_p functions[level][p]·fields[p] by more than the
-/// root of `most`.
-/// \param fields     `count` by 3 by kFieldTile
-/// \param functions  `levels` rows of `count`, `stride` apart
+/// Finds the smallest number of leading fields such that dropping the others changes no vertex of a
+/// tile, at any level, by more than √`most`. The displacement at a level is Σ_p
+/// functions[level][p]·fields[p].
+/// \param fields     `count` by 3 by kFieldTile.
+/// \param functions  `levels` rows of `count` values; the rows start `stride` floats apart.
+/// \param most       the largest squared distance allowed.
 MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
                         std::size_t stride, std::size_t levels, float most);
 
-/// products[i] = Σ_c columns[c][i]·columns[c][row] in double precision, in the order of c with one rounding a term.
-/// \param columns   `count` by kPatchVertices
-/// \param products  kPatchVertices
+/// products[i] = Σ_c columns[c][i]·columns[c][row] in double precision, added in the order of c by
+/// fused multiply-add (one rounding per term).
+/// \param columns   `count` by kPatchVertices.
+/// \param products  kPatchVertices values.
 void row_products(const float* columns, std::size_t count, std::size_t row, double* products);
 
 }  // namespace crowdface

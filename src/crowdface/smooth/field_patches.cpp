@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::size_t kPatchesATask = 16;
 
-/// w_p with |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any vectors e_p: peaks of φ_p, times what
-/// Cauchy and Schwarz ask for.
+/// Weights w_p such that |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any error
+/// vectors e_p: the largest |φ_p| over the levels, times the factor from the Cauchy–Schwarz
+/// inequality.
 std::vector<double> error_weights(const HeadLevels& head, std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;
   functions.reserve(levels.size());
@@ -40,17 +41,18 @@ std::vector<double> error_weights(const HeadLevels& head, std::span<const std::u
   return weights;
 }
 
-/// Patches that follow each other, as they are made.
+/// The data of a sequence of patches under construction; see PatchLists.
 struct MadePatches {
   std::vector<std::uint32_t> skeletons, counts;
   std::vector<float> steps, weights;
   std::vector<std::int16_t> numbers;
 };
 
-/// Chooses skeletons. For one thread.
+/// Chooses the skeletons of patches. Each thread needs its own instance.
 class PatchMaker {
  public:
-  /// \param heads, weights  must outlive it.
+  /// \param heads, weights  must outlive this object.
+  /// \param weights         of each head, from error_weights.
   PatchMaker(std::span<const HeadLevels> heads, const std::vector<std::vector<double>>& weights,
              double tolerance)
       : heads_(heads), error_weights_(weights), tolerance_(tolerance) {}
@@ -79,7 +81,8 @@ class PatchMaker {
     return fields;
   }
 
-  /// All fields' coordinates in columns, each as heavy as an error of it: 3·#fields by kPatchVertices.
+  /// Fills columns_ with the coordinates of all fields, each scaled by its error weight: 3·#fields
+  /// by kPatchVertices.
   void fill_columns(std::span<const std::uint32_t> vertices, std::size_t fields) {
     columns_.assign(3 * fields * kPatchVertices, 0.0F);
     float* first = columns_.data();
@@ -99,12 +102,13 @@ class PatchMaker {
     }
   }
 
-  /// Cholesky's decomposition of the columns' Gram matrix, the vertex that misses most first (pivoted, and computed
-  /// only as far as needed): what is left of the diagonal is what each vertex misses.
+  /// Chooses the skeleton by a pivoted Cholesky factorization of the Gram matrix of the vertices.
+  /// The pivot is the vertex with the largest error; the remaining diagonal holds the squared error
+  /// of each vertex. Stops when all errors are within the tolerance.
   void choose_skeleton(std::span<const std::uint32_t> vertices, std::size_t fields) {
     skeleton_.clear();
     factor_.clear();
-    // More than so many would cost more than all vertices.
+    // A larger skeleton would take more memory than storing all vertices.
     const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
     fill_columns(vertices, fields);
     OfVertices left{};
@@ -133,11 +137,13 @@ class PatchMaker {
       skeleton_.push_back(pivot);
       for (const std::size_t chosen : skeleton_) left[chosen] = 0;
     }
+    // The patch does not compress: keep all vertices.
     skeleton_.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) skeleton_[i] = i;
   }
 
-  /// Of each vertex, the weights of the skeleton that give its row of the factor.
+  /// Appends the interpolation weights, #skeleton by kPatchVertices: back substitution of each
+  /// vertex's row of the factor with the rows of the skeleton.
   void add_weights(std::vector<float>& to) const {
     const std::size_t size = skeleton_.size();
     std::vector<OfVertices> weights(size);
@@ -157,6 +163,7 @@ class PatchMaker {
     }
   }
 
+  /// Quantizes the fields at the skeleton.
   void add_numbers(std::span<const std::uint32_t> vertices, MadePatches& made) {
     const std::size_t size = skeleton_.size(), values = FieldPatch::values_of(size);
     for (std::size_t h = 0; h < heads_.size(); ++h) {
@@ -190,13 +197,13 @@ class PatchMaker {
   std::vector<std::size_t> skeleton_;
 };
 
-/// Lists that own what they are.
+/// The memory behind the spans of PatchLists.
 struct OwnedPatches {
   std::vector<std::uint32_t> vertices;
   MadePatches made;
 };
 
-/// One list of all parts, which are emptied.
+/// Concatenates one list of all parts and clears it in the parts.
 template <class T>
 std::vector<T> join(std::vector<MadePatches>& parts, std::vector<T> MadePatches::*list) {
   std::size_t count = 0;
@@ -215,7 +222,7 @@ bool is_step(float step) {
   return step == 0 || (std::isfinite(step) && std::frexp(step, &exponent) == 0.5F);
 }
 
-/// Whether each of the numbers below `count` is there once, ascending within patches.
+/// Whether `vertices` contains each number below `count` exactly once, ascending within each patch.
 bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
   if (vertices.size() != count) return false;
   std::vector<bool> seen(count);
@@ -283,7 +290,8 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
 std::vector<std::uint32_t> patch_order(const Positions& positions, double near) {
   constexpr std::uint32_t kLongest = 32;
   const auto vertices = static_cast<std::uint32_t>(positions.rows());
-  std::vector<std::uint32_t> firsts;  // of the stretches, and the number of vertices
+  // The first vertex of each run; finally, the number of vertices.
+  std::vector<std::uint32_t> firsts;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const bool goes_on = !firsts.empty() && v - firsts.back() < kLongest &&
                          (positions.row(v) - positions.row(v - 1)).norm() <= near;

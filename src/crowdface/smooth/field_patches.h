@@ -14,57 +14,65 @@
 
 namespace crowdface {
 
-/// The levels of a head as fields: S̃_L x = x + Σ_p φ_p(L)·c_p, fitted once (LevelBasis, or the
-/// paper's CubicFit).
+/// The fitted levels of one head: S̃_L x = x + Σ_p φ_p(L)·c_p, with vector fields c_p and level
+/// functions φ_p. LevelBasis or the paper's CubicFit provides them.
 struct HeadLevels {
   LevelFields fields;                                                 ///< c_p
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
 };
 
-/// All heads' fields at some neighbouring vertices.
+/// The fields of all heads at one patch: a group of nearby vertices.
 struct FieldPatch {
-  std::span<const std::uint32_t> vertices;  ///< ascending
-  std::span<const std::uint32_t> counts;  ///< #heads: how many of a head's first fields stand here
-  std::size_t fields = 0;                 ///< of all heads
-  std::size_t skeleton = 0;               ///< vertices that fields are told at
-  const float* steps = nullptr;           ///< #fields: powers of two, or zero
-  /// #fields by values(): x of all vertices of the skeleton, y, z, zeros; whole numbers of steps.
+  std::span<const std::uint32_t> vertices;  ///< vertices of the mesh, ascending
+  /// #heads: how many leading fields of each head the patch stores.
+  std::span<const std::uint32_t> counts;
+  std::size_t fields = 0;        ///< number of fields of all heads, the sum of `counts`
+  std::size_t skeleton = 0;      ///< number of skeleton vertices, at which fields are stored
+  const float* steps = nullptr;  ///< #fields quantization steps: powers of two, or zero
+  /// #fields by values(), in quantization steps: x of all skeleton vertices, then y, then z, then
+  /// zero padding.
   const std::int16_t* numbers = nullptr;
-  /// #skeleton by kPatchVertices: a field at a vertex is the sum of the skeleton's, each times its weight there.
-  /// None if the skeleton is all vertices, in their order.
+  /// #skeleton by kPatchVertices: the value of a field at vertex v is Σ_s weights[s][v]·(value at
+  /// skeleton vertex s). Null if the skeleton is all vertices, in their order.
   const float* weights = nullptr;
 
+  /// Whether the skeleton is the whole patch, so that no interpolation is needed.
   bool is_whole() const { return skeleton == vertices.size(); }
+  /// Numbers stored per field, padded to a multiple of kPatchStep.
   std::size_t values() const { return values_of(skeleton); }
   static std::size_t values_of(std::size_t skeleton) {
     return (3 * skeleton + kPatchStep - 1) / kPatchStep * kPatchStep;
   }
 };
 
-/// Patches of a mesh of so many vertices.
+/// The number of patches of a mesh with this many vertices.
 inline std::size_t patch_count(std::size_t vertices) {
   return (vertices + kPatchVertices - 1) / kPatchVertices;
 }
 
-/// What patches are made of, one after the other.
+/// The data of all patches, concatenated.
 struct PatchLists {
-  std::span<const std::uint32_t> vertices;   ///< #V, each once
-  std::span<const std::uint32_t> skeletons;  ///< #patches: vertices of each
-  std::span<const std::uint32_t> counts;     ///< #patches by #heads
+  std::span<const std::uint32_t> vertices;   ///< #V: vertices patch by patch, each vertex once
+  std::span<const std::uint32_t> skeletons;  ///< #patches: number of skeleton vertices of each
+  std::span<const std::uint32_t> counts;     ///< #patches by #heads: see FieldPatch::counts
   std::span<const float> steps, weights;
   std::span<const std::int16_t> numbers;
-  std::shared_ptr<const void> owner;  ///< of all of them
+  std::shared_ptr<const void> owner;  ///< keeps all lists alive
 };
 
-/// Fields of several heads, on patches of the surface. Heads of one topology are alike where they are smooth: what all
-/// fields have at a few vertices of a patch, its skeleton, tells what they have at the others, as weighted sums with the
-/// same weights for all of them. This is an interpolative decomposition (Cheng, Gimbutas, Martinsson & Rokhlin 2005) of
-/// the matrix of the patch's vertices by all fields' coordinates. So blending adds up all heads' fields at the
-/// skeleton only. A patch whose vertices are not alike keeps them all.
+/// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all
+/// heads are strongly correlated: their values at a few vertices, the skeleton, determine the
+/// values at the other vertices by weighted sums, with the same weights for all heads. This is an
+/// interpolative decomposition (Cheng, Gimbutas, Martinsson & Rokhlin 2005) of the matrix of the
+/// patch's vertices by the coordinates of all fields. Blending therefore sums the fields at the
+/// skeleton only. A patch that does not compress stores all its vertices.
 class FieldPatches {
  public:
   FieldPatches() = default;
-  /// \return nothing unless these are lists that `interpolate_fields` could make of heads with so many fields.
+  /// Validates and wraps the lists.
+  /// \param ranks  #heads: number of fields of each head.
+  /// \return       nothing if `interpolate_fields` could not have made these lists for heads with
+  ///               these numbers of fields.
   static std::optional<FieldPatches> of(PatchLists lists, Index vertex_count,
                                         std::span<const Index> ranks);
 
@@ -83,19 +91,24 @@ class FieldPatches {
   std::vector<Place> places_;
 };
 
-/// All vertices in an order for patches, along a curve through space (hilbert_order): but stretches of some that follow
-/// each other in the mesh, and are near each other, stay together, so that faces are written in longer pieces.
-/// \param positions  #V by 3, any head of the topology
-/// \param near       in the positions' unit
+/// A vertex order for cutting patches: along a space-filling curve (hilbert_order). Runs of up to
+/// 32 vertices with consecutive numbers and small distances stay together, so that blended faces
+/// are written in longer contiguous pieces.
+/// \param positions  #V by 3, any head of the topology.
+/// \param near       largest distance between consecutive vertices of a run, in the unit of the
+///                   positions.
 std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
 
-/// \param heads      at least one, of the same mesh
-/// \param levels     that errors are bounded at
-/// \param order      #V: all vertices, those that follow each other near each other (patch_order)
-/// \param tolerance  no vertex misses any of the levels of any head by more (without rounding: numbers are rounded once
-///                   more to the steps of the patch, none of which exceeds the largest of its vertices' tiles), in the
-///                   positions' unit.
-/// \param progress   told of patches as they are done, by any thread; what it throws ends the work
+/// Compresses the fields of all heads patch by patch.
+/// \param heads      at least one head; all of the same mesh.
+/// \param levels     levels at which the error is bounded.
+/// \param order      #V: all vertices, consecutive vertices close to each other (patch_order).
+/// \param tolerance  largest error of any vertex of any head at any of the levels, in the unit of
+///                   the positions, before rounding. The values are also rounded once more, to the
+///                   patch's quantization steps; no such step exceeds the largest step of the tiles
+///                   of the patch's vertices.
+/// \param progress   called by any thread with the number of patches it has finished; an exception
+///                   thrown by it stops the work.
 FieldPatches interpolate_fields(
     std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
     std::span<const std::uint32_t> order, double tolerance,

@@ -5,14 +5,15 @@
 
 namespace crowdface {
 
-/// Vertices whose numbers of all fields stand together, so that blending them reads one piece of memory
-/// a head.
+/// Vertices per tile. A tile stores all its fields contiguously, so that blending reads one block
+/// of memory per head.
 inline constexpr std::size_t kFieldTile = 64;
 inline constexpr std::size_t kTileValues = 3 * kFieldTile;
 
-/// Vertices of a patch of all heads' fields (FieldPatches), but of the last.
+/// Vertices per patch (FieldPatches); the last patch may have fewer.
 inline constexpr std::size_t kPatchVertices = 128;
-/// Values of a field stand in rows of a multiple of this: whole vectors of any instruction set.
+/// Each field's row of values is padded to a multiple of this: whole vectors on any instruction
+/// set.
 inline constexpr std::size_t kPatchStep = 16;
 
 }  // namespace crowdface

@@ -8,10 +8,10 @@
 
 namespace crowdface {
 
-/// `values` after `level` applications of the operator, one after the other (Eq. 1): the definition
-/// that the filter is held against. Costs `level` products.
+/// Applies the operator to `values` `level` times, one after the other (Eq. 1). This is the
+/// definition; tests compare the fast filter with it. Costs `level` products with the operator.
 /// \param values  #V by C.
-/// \throws BrokenPrecondition if the row count is not the operator's.
+/// \throws BrokenPrecondition if `values` does not have one row per vertex of the operator.
 Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::uint64_t level);
 
 }  // namespace crowdface

@@ -15,16 +15,15 @@ namespace {
 
 using FieldRows = RowArray<float>;
 
-/// A level's displacement may miss this share of the head's size to the end of its series: some
-/// 10⁻⁴ mm.
+/// Truncation tolerance of the series of the nodes, relative to the head's size: about 10⁻⁴ mm.
 constexpr double kFieldSeriesTolerance = 1e-6;
-/// Vertices at which the filter itself is kept, to hold the basis against.
+/// Number of vertices at which the exact filter is recorded, to measure the error of the basis.
 constexpr std::size_t kProbes = 1024;
-/// Vertices that choose the principal directions.
+/// Number of vertices from which the principal directions are computed.
 constexpr std::size_t kSampleRows = 4096;
 constexpr Index kTilesATask = 64;
 
-/// Every n-th of `count` rows, `most` at most.
+/// Every n-th of `count` rows, with the smallest n that gives at most `most` rows.
 std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   const std::size_t stride = (count + most - 1) / most;
   std::vector<std::uint32_t> rows;
@@ -32,8 +31,9 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   return rows;
 }
 
-/// The rows that choose the directions: some evenly spread, and from each stretch the one that
-/// moves most in the first iteration, since that is where few fields fit worst.
+/// Samples the rows from which the directions are computed. Half of them are evenly spaced; the
+/// others are the row of each block that moves most in the first iteration, because a few fields
+/// fit worst there.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {
@@ -59,10 +59,10 @@ NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacemen
   return sample;
 }
 
-/// Chooses for tiles of vertices how many fields they keep, and keeps them.
+/// Chooses the number of fields that each tile of vertices keeps, and quantizes them.
 class TileFitter {
  public:
-  /// \param tolerance  what fields that are left out or rounded may miss
+  /// \param tolerance  bound of the truncation error plus the rounding error.
   TileFitter(const ChebyshevFilter& filter, const std::vector<FieldRows>& displacements,
              const Directions& directions, double tolerance)
       : filter_(filter),
@@ -86,11 +86,11 @@ class TileFitter {
     }
   }
 
-  /// Of some tiles: what they keep, and the most that any vertex misses of any level.
+  /// The fields that some tiles keep, and the largest error of any of their vertices at any level.
   struct Fitted {
     FieldTiles fields;
     double missed = 0;
-    std::size_t level = 0;  ///< among the tested ones
+    std::size_t level = 0;  ///< index among the tested levels
   };
   Fitted fit(Index first_tile, Index end_tile) const {
     Fitted fitted;
@@ -100,7 +100,8 @@ class TileFitter {
       const auto of_field = [&](std::size_t p) {
         return std::span(std::as_const(by_vertex)).subspan(p * kTileValues, kTileValues);
       };
-      // What the last fields add at most, one by one, is so little that they are left out unseen.
+      // Skip trailing fields whose summed upper bounds are negligible, without evaluating their
+      // error at each level.
       std::size_t looked_at = count_;
       double unseen = 0;
       for (; looked_at > 0; --looked_at) {
@@ -108,11 +109,13 @@ class TileFitter {
         if (unseen + more > kUnseenShare * tolerance_) break;
         unseen += more;
       }
-      std::vector<double> rounded = {0};  // away, by the first so many fields
+      // rounded[p]: bound of the rounding error of the first p fields.
+      std::vector<double> rounded = {0};
       for (std::size_t p = 0; p < looked_at; ++p) {
         const double half_a_step = 0.5 * static_cast<double>(step_of(of_field(p)));
         rounded.push_back(rounded.back() + peaks_[p] * std::sqrt(3.0) * half_a_step);
       }
+      // Keep the fewest of the remaining fields that meet the tolerance.
       const double most =
           std::min(tolerance_ - rounded.back(), kLeftOutShare * tolerance_) - unseen;
       const MissedLevel left_out =
@@ -131,9 +134,11 @@ class TileFitter {
   }
 
  private:
-  /// Vertices beside each other that leave out different fields would show a crease. With an eighth normals are as near to
-  /// the exact ones as with one number of fields for all (docs/method.md).
+  /// The truncation error may use this share of the tolerance. Adjacent tiles keep different
+  /// fields, and a larger share would show a crease between them. With 1/8, normals are as close to
+  /// the exact normals as when all tiles keep the same fields (docs/method.md).
   static constexpr double kLeftOutShare = 0.125;
+  /// The share of the tolerance for trailing fields that are skipped without evaluation.
   static constexpr double kUnseenShare = 0.01;
 
   static double longest(std::span<const float> vectors) {
@@ -145,7 +150,9 @@ class TileFitter {
     return std::sqrt(static_cast<double>(most));
   }
 
-  /// c_p at the tile's vertices for all p: #p by 3 by kFieldTile, and #p by kFieldTile by 3; zero past the last.
+  /// Computes c_p at the tile's vertices for all p; zero beyond the last vertex.
+  /// \param by_coordinate  receives #fields by 3 by kFieldTile.
+  /// \param by_vertex      receives #fields by kFieldTile by 3.
   void combine(Index tile, std::vector<float>& by_coordinate, std::vector<float>& by_vertex) const {
     const std::size_t begin = static_cast<std::size_t>(tile) * kFieldTile;
     const std::size_t count =
@@ -177,14 +184,14 @@ class TileFitter {
   const ChebyshevFilter& filter_;
   const std::vector<FieldRows>& displacements_;
   const Directions& directions_;
-  std::size_t count_;  ///< of directions, which are as many as nodes
+  std::size_t count_;  ///< number of directions, equal to the number of nodes
   double tolerance_;
   std::vector<float> functions_;  ///< #levels by #directions
-  std::vector<double> peaks_;     ///< of |φ_p| over the levels
+  std::vector<double> peaks_;     ///< largest |φ_p| over the tested levels
   std::vector<float> combining_;
 };
 
-/// The filter's own displacements at the probes, #levels by 3·#probes.
+/// The exact displacements at the probes, #levels by 3·#probes.
 Columns exact_displacements(const Probes& probes, OperatorKind kind,
                             const std::vector<std::uint64_t>& levels) {
   Columns exact = Columns::Zero(static_cast<Index>(levels.size()), probes.values.cols());
@@ -203,7 +210,9 @@ struct ProbeError {
   double max = 0, rms = 0;
 };
 
-/// How far Σ_p functions(l, p) fields_p is from the filter at the probes.
+/// Largest and root-mean-square distance between Σ_p functions(l, p) fields_p and the exact filter
+/// at the probes.
+/// \param field_at  field_at(probe, p, coordinate): the value of a field.
 template <class FieldAt>
 ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
                        const FieldAt& field_at) {
@@ -242,7 +251,7 @@ std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::Matrix
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions) {
   FilterInput<float> input;
-  // Displacements do not depend on where the head stands, but rounding does.
+  // Displacements are translation invariant, but single-precision rounding is not: centre the head.
   const Eigen::RowVector3d middle =
       0.5 * (positions.colwise().minCoeff() + positions.colwise().maxCoeff());
   input.values = filter.rows_of<float>(positions.rowwise() - middle);

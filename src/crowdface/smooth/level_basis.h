@@ -10,15 +10,15 @@
 
 namespace crowdface {
 
-/// How far a basis is from the exact filter, in the positions' unit.
+/// Distances between a basis and the exact filter, in the unit of the positions.
 struct BasisError {
-  double max = 0;           ///< over all vertices and tested levels
+  double max = 0;           ///< bound over all vertices and tested levels
   double rms = 0;           ///< over the probes and tested levels
-  std::uint64_t level = 0;  ///< where the maximum is
+  std::uint64_t level = 0;  ///< level of the maximum
 };
 
-/// All levels of one head in a few fields: S_L x ≈ x + Σ_p φ_p(L) c_p(x). Level 0 is the head
-/// itself.
+/// All levels of one head as a few vector fields: S_L x ≈ x + Σ_p φ_p(L) c_p(x). Level 0 is the
+/// head itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;
   Eigen::MatrixXd mixing;  ///< #nodes by rank: φ_p(L) = Σ_n w_n(L) mixing(n, p)
@@ -28,27 +28,31 @@ struct LevelBasis {
   Index rank() const { return mixing.cols(); }
 };
 
-/// φ_p(L) of a basis whose mixing this is.
+/// φ_p(L) for all p, of a basis with this `mixing` matrix.
 std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
                                     std::uint64_t level);
 
-/// What one pass of the filter says about a head.
+/// The result of one filter pass over a head.
 struct NodeFields {
-  std::vector<RowArray<float>> displacements;  ///< S_{N_n} x − x for each node, in the
-                                               ///< filter's order of rows
-  Probes probes;                               ///< the filter itself at some vertices
+  /// S_{N_n} x − x for each node, in the filter's row order.
+  std::vector<RowArray<float>> displacements;
+  Probes probes;  ///< the exact filter at some vertices
 };
 
-/// All levels of the nodes in one pass, in single precision.
+/// Filters one head to the levels of all nodes in one pass, in single precision.
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions);
 
-/// Fits one head: finds the directions in which its own vertices move most (principal_directions),
-/// and keeps of each tile of vertices as few as keep the error under the tolerance, and under an eighth of it what
-/// is left out. The error is measured: what a tile leaves out at every vertex and every tested level, and on top of it what
-/// the nodes leave out, at the probes against the filter itself, and what 16 bits may round away.
-/// \param tolerance  in the positions' unit, > 0.
-/// \throws InvalidInput if no number of fields reaches the tolerance: the message says what was reached.
+/// Fits one head. The principal directions of the head's own displacements (principal_directions)
+/// are the fields. Each tile of vertices keeps the fewest leading fields whose truncation error is
+/// below tolerance/8 and whose total error is below the tolerance. The reported error is measured,
+/// not estimated. It adds the truncation error at every vertex and every tested level, the error of
+/// the nodes against the exact filter at the probes, and the largest rounding error of the 16-bit
+/// values.
+/// \param fields     result of filter_nodes for this head.
+/// \param tolerance  in the unit of the positions, > 0.
+/// \throws InvalidInput if no number of fields reaches the tolerance; the message states the error
+///         reached.
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& fields, double tolerance);
 

@@ -12,29 +12,31 @@
 
 namespace crowdface {
 
-/// A tile's fields of one head.
+/// The fields of one head at one tile of vertices.
 struct TileFields {
   std::size_t count = 0;
   const float* steps = nullptr;
-  const std::int16_t* numbers = nullptr;  ///< #count by kTileValues
+  const std::int16_t* numbers = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
-/// Fields c_0 … c_{R−1} of one head, #V by 3 each. A tile of vertices has the first of them, as many as it needs;
-/// the others are zero there. Values are whole numbers of 16 bits times a step of their tile and field: a power of two, so
-/// that a product with it is exact, or zero. A value is off by half its step at most.
+/// The vector fields c_0 … c_{R−1} of one head, each #V by 3, quantized to 16 bits. Each tile of
+/// vertices stores only its leading fields, as many as it needs; its other fields are zero. A value
+/// is a 16-bit integer times the quantization step of its tile and field. A step is zero or a power
+/// of two, so that multiplying by it is exact. The rounding error is at most half a step.
 struct LevelFields {
   Index vertex_count = 0;
   Index rank = 0;  ///< R
-  /// #tiles + 1: of all tiles' fields, one tile after the other, which is a tile's first.
+  /// #tiles + 1: index of each tile's first field in the concatenated fields of all tiles.
   std::span<const std::uint32_t> first;
-  std::span<const float> steps;           ///< of all tiles' fields, in the positions' unit
-  std::span<const std::int16_t> numbers;  ///< of each kFieldTile by 3; past the last vertex zero
-  std::shared_ptr<const void> owner;      ///< of all three
+  std::span<const float> steps;  ///< one per stored field, in the unit of the positions
+  /// kFieldTile by 3 per stored field; zero beyond the last vertex.
+  std::span<const std::int16_t> numbers;
+  std::shared_ptr<const void> owner;  ///< keeps the three lists alive
 
   static std::size_t tile_count(std::size_t vertices) {
     return (vertices + kFieldTile - 1) / kFieldTile;
   }
-  /// Of the tile that a vertex stands in.
+  /// The fields of the tile that contains a vertex.
   TileFields at(std::size_t vertex) const {
     const std::size_t tile = vertex / kFieldTile, begin = first[tile];
     return {first[tile + 1] - begin, steps.data() + begin, numbers.data() + begin * kTileValues};
@@ -42,26 +44,31 @@ struct LevelFields {
   double value(Index field, Index vertex, Index coordinate) const;
 };
 
-/// Fields of tiles that follow each other.
+/// The fields of a sequence of tiles.
 struct FieldTiles {
-  std::vector<std::uint32_t> counts;  ///< of each tile
+  std::vector<std::uint32_t> counts;  ///< number of fields of each tile
   std::vector<float> steps;
   std::vector<std::int16_t> numbers;
 
-  /// \param values  `count` by kTileValues, finite
+  /// \param values  the first `count` fields by kTileValues, finite; more values are ignored.
   void add(std::span<const float> values, std::size_t count);
 };
 
-/// The least power of two that values can be told in with 16 bits; zero if there is none worth telling.
+/// The smallest power-of-two quantization step with which the values fit into 16 bits; zero if all
+/// values are below 10⁻³⁰ in magnitude.
 float step_of(std::span<const float> values);
 
-/// Values as whole numbers, as many. \return their step.
+/// Quantizes the values.
+/// \param numbers  receives values.size() numbers.
+/// \return         the quantization step (step_of).
 float in_16_bits(std::span<const float> values, std::int16_t* numbers);
 
-/// \param tiles  together all of the mesh, in order
+/// Concatenates tiles.
+/// \param tiles  all tiles of the mesh, in order.
 LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles);
 
-/// \param fields  #R by #V by 3, finite; every tile has them all.
+/// Quantizes whole fields; every tile keeps all of them.
+/// \param fields  #R by #V by 3, finite.
 LevelFields in_16_bits(std::span<const float> fields, Index vertex_count);
 
 }  // namespace crowdface

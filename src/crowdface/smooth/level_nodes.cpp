@@ -13,10 +13,10 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMostNodes = 48;
-/// The share of negative eigenvalues: what a mesh's own pattern, the checkerboard, has of a shape.
+/// Weight of negative eigenvalues: the amplitude of checkerboard modes in a face's shape.
 constexpr double kNegativeWeight = 1e-2;
 
-/// By squaring: std::pow differs between C libraries.
+/// Exponentiation by squaring, because std::pow differs between C libraries.
 double power(double base, std::uint64_t exponent) {
   double result = 1;
   for (; exponent > 0; exponent >>= 1, base *= base) {
@@ -25,8 +25,8 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// Levels that may become nodes: all of a short range, otherwise dense at the start in both
-/// parities.
+/// Levels that may become nodes. For small max_level, all levels; otherwise levels that are dense
+/// near 0, each with its successor, so that both parities occur.
 std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
   constexpr std::uint64_t kAll = 1024;
   constexpr int kSteps = 768;
@@ -53,8 +53,9 @@ std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
 LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed)
     : max_level_(max_level) {
   require(max_level > 0, "nodes of levels need a largest level of at least 1");
-  // s = 1 − |λ| falls from 1 in equal ratios to where no level up to L_max sees it any more. The
-  // amplitude of a face's shape grows with the wavelength, of which s is the inverse square.
+  // Build the grid: s = 1 − |λ| falls geometrically from 1 until s is too small to matter at any
+  // level up to L_max. The amplitude of a face's shape grows with the wavelength, which is
+  // proportional to 1/√s.
   constexpr double kRatio = 1.1;
   const double least = 0.3 / static_cast<double>(max_level);
   for (double s = 1; s > least; s /= kRatio) {
@@ -80,12 +81,14 @@ LevelNodes::Spectrum LevelNodes::displacement(std::uint64_t level) const {
 }
 
 void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, double missed) {
-  std::vector<Spectrum> left;  // what the nodes so far do not represent
+  // Residual of each candidate after projection onto the nodes chosen so far.
+  std::vector<Spectrum> left;
   left.reserve(candidates.size());
   for (const std::uint64_t level : candidates) left.push_back(displacement(level));
   const double enough = missed * missed * fixed_dot(left.back(), left.back());
   std::vector<std::uint64_t> chosen;
   while (chosen.size() < std::min(kMostNodes, candidates.size())) {
+    // The next node is the candidate with the largest residual.
     std::size_t worst = 0;
     double most = -1;
     for (std::size_t i = 0; i < left.size(); ++i) {
@@ -93,6 +96,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
       if (length > most) most = length, worst = i;
     }
     if (most <= enough) break;
+    // Remove the node's direction from all residuals.
     Spectrum direction = left[worst];
     orthonormalize(
         direction, directions_.size(), [&](std::size_t m) { return std::span(directions_[m]); },
@@ -124,8 +128,8 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
     result[static_cast<std::size_t>(node - levels_.begin())] = 1;
     return result;
   }
-  // Least squares over the grid: the level's share of each direction, then back through the
-  // triangle that leads from directions to nodes.
+  // Least squares over the grid: project the level onto the directions, then solve the triangular
+  // system for the weights of the nodes.
   const Spectrum wanted = displacement(level);
   std::vector<double> share;
   share.reserve(directions_.size());

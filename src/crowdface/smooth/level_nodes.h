@@ -8,16 +8,18 @@
 
 namespace crowdface {
 
-/// A few levels from which all others follow: S_L x − x ≈ Σ_p w_p(L) (S_{N_p} x − x) for every x,
-/// with nodes N_p and weights w_p that depend on the operator's spectrum and L_max alone. Each
-/// eigenvector of the operator with eigenvalue λ is displaced by λ^L − 1; the nodes are chosen
-/// greedily, and the weights by least squares, over a grid of λ in the operator's range (umbrella:
-/// [−1, 1], so that the checkerboard near −1 counts and both parities are represented; lazy:
-/// [0, 1]), dense towards ±1 and weighted by how much of a face's shape lies there (docs/method.md).
+/// A few levels, the nodes N_p, from which all other levels are interpolated: S_L x − x ≈ Σ_p
+/// w_p(L) (S_{N_p} x − x) for every x. The nodes and weights depend only on the operator kind and
+/// L_max, not on the mesh: an eigenvector of the operator with eigenvalue λ is displaced by
+/// λ^L − 1. The nodes are chosen greedily and the weights by least squares over a grid of λ in the
+/// operator's spectrum. The spectrum is [−1, 1] for the umbrella operator (eigenvalues near −1, the
+/// checkerboard modes, make even and odd levels differ) and [0, 1] for the lazy operator. The grid
+/// is dense towards ±1, and each λ is weighted by the typical amplitude of that mode in a face
+/// (docs/method.md).
 class LevelNodes {
  public:
   /// \param max_level  L_max, at least 1.
-  /// \param missed     nodes are added until what they miss of any level is below this share of
+  /// \param missed     stop adding nodes when the residual of every level is below this fraction of
   ///                   the displacement at L_max.
   LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed = 2e-4);
 
@@ -25,7 +27,7 @@ class LevelNodes {
   /// N_p, ascending, from 1 to L_max.
   const std::vector<std::uint64_t>& levels() const { return levels_; }
 
-  /// w_p(L): exactly a unit vector at a node, exactly zero at L = 0.
+  /// w_p(L) for all p: exactly a unit vector if L is a node, exactly zero if L = 0.
   /// \throws BrokenPrecondition if level > max_level().
   std::vector<double> weights(std::uint64_t level) const;
 
@@ -37,9 +39,10 @@ class LevelNodes {
   std::uint64_t max_level_;
   std::vector<double> eigenvalues_, grid_weights_;
   std::vector<std::uint64_t> levels_;
-  std::vector<Spectrum> directions_;           ///< orthonormal, in the order of choice
-  std::vector<std::size_t> choice_;            ///< which of levels_ was chosen first, second, …
-  std::vector<std::vector<double>> triangle_;  ///< node p = Σ_q triangle_[p][q] direction q
+  std::vector<Spectrum> directions_;  ///< orthonormal, in the order of choice
+  std::vector<std::size_t> choice_;   ///< indices into levels_ in the order of choice
+  /// p-th chosen node = Σ_q triangle_[p][q] directions_[q].
+  std::vector<std::vector<double>> triangle_;
 };
 
 }  // namespace crowdface

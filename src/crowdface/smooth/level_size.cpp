@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// σ² gained by one iteration, in squared edge lengths.
+/// Variance σ² that one iteration adds, in squared edge lengths.
 double variance_per_iteration(OperatorKind kind) {
   return kind == OperatorKind::kLazy ? 0.25 : 0.5;
 }

@@ -25,7 +25,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return result;
 }
 
-/// The upper triangle T with functions = Q·T, Q orthonormal.
+/// The upper triangular T of the QR factorization functions = Q·T.
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd functions) {
   const Index count = functions.cols();
   const auto column = [&](Index n) {
@@ -41,7 +41,7 @@ Eigen::MatrixXd triangle_of(Eigen::MatrixXd functions) {
   return triangle;
 }
 
-/// x such that triangle · x = b.
+/// Solves triangle · x = b by back substitution.
 Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd b) {
   for (Index j = 0; j < b.cols(); ++j) {
     for (Index i = triangle.rows(); i-- > 0;) {
@@ -52,7 +52,8 @@ Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd 
   return b;
 }
 
-/// Σ over vertices and coordinates of the products of the nodes' displacements, #nodes by #nodes.
+/// Sums over vertices and coordinates of products of the displacements at two nodes, #nodes by
+/// #nodes.
 Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
   Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.nodes, sample.nodes);
   const double* vertex = sample.values.data();
@@ -71,11 +72,11 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
   return moments;
 }
 
-/// Principal directions where a distance at level l counts `importance(l)`.
+/// The principal directions with errors at level l weighted by `importance(l)`.
 Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd& importance,
                                const Eigen::MatrixXd& moments) {
-  // Let the weighted functions be Q·T. With Z = T·C, C the displacements at the nodes, the
-  // trajectories are Q·Z; their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ,
+  // Let Q·T be the weighted functions and C the displacements at the nodes. With Z = T·C the
+  // trajectories are Q·Z. Their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ,
   // and Q·Z = (Q·U)·(Uᵀ·T·C).
   const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.weights);
   const Eigen::MatrixXd u = symmetric_eigen(product(product(t, moments), t.transpose())).vectors;
@@ -86,11 +87,12 @@ Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd
   return directions;
 }
 
-/// Vertices that are looked at together, so that the loops over them become vector instructions.
+/// Vertices that are processed together, so that the compiler vectorizes the loops over them.
 constexpr Index kLanes = 16;
 using Lanes = std::array<float, kLanes>;
 
-/// c_p of up to kLanes vertices from `begin` on (zero beyond `end`): 3·#nodes by lanes.
+/// Computes c_p for all p at up to kLanes vertices from `begin` on; zero from `end` on.
+/// \param fields  receives 3·#nodes by kLanes.
 void combine_fields(const Directions& directions, const NodeDisplacements& sample, Index begin,
                     Index end, std::vector<Lanes>& fields) {
   const Index nodes = sample.nodes;
@@ -112,11 +114,11 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
   }
 }
 
-/// The largest distance missed at the sample, for each tested level and each number of directions
-/// kept: #levels by #nodes + 1. In single precision, ample for choosing.
+/// The largest error at the sample, for each tested level and each number of directions kept:
+/// #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
 Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sample) {
   const Index nodes = sample.nodes, levels = directions.functions.rows();
-  // A level's functions stand together.
+  // Transposed, so that the functions of one level are contiguous.
   const Eigen::MatrixXf functions = directions.functions.transpose().cast<float>();
   Eigen::MatrixXf most = Eigen::MatrixXf::Zero(nodes + 1, levels);
   std::mutex mutex;
@@ -144,7 +146,7 @@ Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sa
         }
       }
     }
-    const std::lock_guard lock(mutex);  // the order of maxima does not matter
+    const std::lock_guard lock(mutex);  // maxima may be merged in any order
     for (Index l = 0; l < levels; ++l) {
       for (Index p = 0; p < nodes; ++p) {
         for (const float value : mine[static_cast<std::size_t>(l * nodes + p)]) {
@@ -156,7 +158,7 @@ Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sa
   return most.cast<double>().cwiseSqrt().transpose();
 }
 
-/// The least rank whose distances are all within the tolerance.
+/// The lowest rank whose largest error is at most the tolerance.
 Index least_rank(const Eigen::MatrixXd& missed, double tolerance) {
   Index rank = 0;
   while (rank + 1 < missed.cols() && missed.col(rank).maxCoeff() > tolerance) ++rank;
@@ -188,8 +190,8 @@ TestedLevels test_levels(const LevelNodes& nodes) {
 
 Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
                                 double tolerance) {
-  constexpr int kRounds = 5;       // measured: further ones gain no rank (docs/method.md)
-  constexpr double kFloor = 0.02;  // so that no level is forgotten
+  constexpr int kRounds = 5;       // more rounds do not lower the rank (docs/method.md)
+  constexpr double kFloor = 0.02;  // keeps the importance of every level above zero
   const Eigen::MatrixXd moments = second_moments(sample);
   Eigen::VectorXd importance = Eigen::VectorXd::Ones(tested.weights.rows());
   Directions best;
@@ -200,7 +202,7 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
     const Eigen::MatrixXd distances = directions.missed;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;
-    const auto wanted = distances.col(best.rank - 1);  // what one direction less would miss
+    const auto wanted = distances.col(best.rank - 1);  // errors with one direction fewer
     for (Index l = 0; l < importance.size(); ++l) {
       importance(l) *= std::sqrt(wanted(l) / wanted.maxCoeff() + kFloor);
     }

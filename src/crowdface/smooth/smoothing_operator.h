@@ -7,19 +7,19 @@
 
 namespace crowdface {
 
-/// What happens to vertices on an open boundary (an edge with one face).
+/// How smoothing treats vertices on an open boundary (an edge with one face).
 enum class Boundary {
-  kFixed,  ///< they stay where they are, so that rims keep their shape
-  kFree,   ///< they are averaged like all others
+  kFixed,  ///< boundary vertices do not move, so that rims keep their shape
+  kFree,   ///< boundary vertices are averaged like all others
 };
 
 enum class OperatorKind {
-  kUmbrella,  ///< Eq. 1: the mean of the edge-neighbours, W
-  kLazy,      ///< (x + W x)/2, which lets no checkerboard survive on quads
+  kUmbrella,  ///< W, the mean of the edge neighbours (Eq. 1)
+  kLazy,      ///< (x + W x)/2, which removes checkerboard modes on quad meshes
 };
 
-/// The linear map that one smoothing iteration applies to positions (Eq. 1), in the form that the
-/// products use: neighbours of the vertices that move, none for those that stay.
+/// The linear map of one smoothing iteration (Eq. 1), stored as neighbour lists. Fixed vertices
+/// have an empty list.
 class SmoothingOperator {
  public:
   SmoothingOperator(const Adjacency& adjacency, Boundary boundary, OperatorKind kind);
@@ -27,12 +27,12 @@ class SmoothingOperator {
   Index vertex_count() const { return static_cast<Index>(neighbours_.group_count()); }
   OperatorKind kind() const { return kind_; }
 
-  /// Neighbours of vertex i, ascending; empty if it does not move.
+  /// Neighbours of vertex i, ascending; empty if vertex i is fixed.
   std::span<const std::uint32_t> neighbours(Index i) const { return neighbours_.of(i); }
 
  private:
   OperatorKind kind_;
-  Grouped<std::uint32_t> neighbours_;  ///< of each vertex
+  Grouped<std::uint32_t> neighbours_;  ///< one group per vertex
 };
 
 }  // namespace crowdface

@@ -15,7 +15,7 @@ struct Rotation {
   double cosine = 1, sine = 0;
 };
 
-/// The rotation that makes the element (p, q) of the matrix zero.
+/// The Jacobi rotation that zeroes the elements (p, q) and (q, p).
 Rotation zeroing(const Eigen::MatrixXd& a, Index p, Index q) {
   if (a(p, q) == 0) return {};
   const double tau = (a(q, q) - a(p, p)) / (2 * a(p, q));
@@ -54,7 +54,7 @@ SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix) {
   const Index size = matrix.rows();
   Eigen::MatrixXd vectors = Eigen::MatrixXd::Identity(size, size);
   const double small = 1e-16 * std::max(matrix.cwiseAbs().maxCoeff(), 1e-300);
-  constexpr int kMostSweeps = 60;  // a handful is enough: the convergence is quadratic
+  constexpr int kMostSweeps = 60;  // few sweeps suffice: convergence is quadratic
   for (int sweep = 0; sweep < kMostSweeps && off_diagonal(matrix) > small; ++sweep) {
     for (Index p = 0; p < size; ++p) {
       for (Index q = p + 1; q < size; ++q) {

@@ -5,14 +5,15 @@
 
 namespace crowdface {
 
-/// Eigenvalues, largest first, and the eigenvectors that go with them, as columns.
+/// Eigenvalues, largest first, and the corresponding eigenvectors as columns.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
 
-/// Of a small symmetric matrix, by Jacobi's rotations (Golub & Van Loan 2013, §8.5): slower than a
-/// library's, but with the same bits on every machine, since what a mesh is made of hangs on them.
+/// Eigendecomposition of a small symmetric matrix by Jacobi rotations (Golub & Van Loan 2013,
+/// §8.5). Slower than a library routine, but bit-identical on every machine; the bits of generated
+/// meshes depend on it.
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix);
 
 }  // namespace crowdface

@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/smooth/tile_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires foreach_target.h first, then the headers that are compiled once per target.
 #include "crowdface/core/fused_lanes-inl.h"
 
 #include "hwy/highway.h"
@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One run whose rows have `kValence` neighbours (0: as many as the run says).
+/// One recurrence step on one run.
+/// \param kValence  number of neighbours of each row, known at compile time; 0: use run.valence.
 template <std::uint32_t kValence, class T>
 void step_run(const ValenceRun& run, const std::uint32_t* ring, T scale, const Row<T>* now,
               Row<T>* previous) {
@@ -53,7 +54,7 @@ void step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* ri
 
 template <class T>
 void add_scaled_rows(T factor, const Row<T>* values, std::size_t count, Row<T>* sums) {
-  const hn::CappedTag<T, 8> lanes;  // one or two rows at a time
+  const hn::CappedTag<T, 8> lanes;  // two rows per iteration
   const auto a = hn::Set(lanes, factor);
   const T* value = values->value;
   T* sum = sums->value;
@@ -74,7 +75,7 @@ void add_scaled_rows(T factor, const Row<T>* values, std::size_t count, Row<T>* 
   }
 }
 
-/// The values of rows one after the other, four a row.
+/// The values of consecutive rows as one array, four values per row.
 inline const float* values_of(const Row<float>* rows) {
   return reinterpret_cast<const float*>(rows);
 }
@@ -82,8 +83,8 @@ inline float* values_of(Row<float>* rows) {
   return reinterpret_cast<float*>(rows);
 }
 
-/// Values [begin, begin + lanes) of `kOutputs` combinations from the first on: several at a time, so
-/// that their chains of additions overlap.
+/// Computes values [begin, begin + #lanes) of outputs first, …, first + kOutputs − 1. Several
+/// outputs at a time hide the latency of additions.
 template <std::size_t kOutputs, class Lanes>
 void combine_some(Lanes lanes, const Row<float>* const* inputs, std::size_t input_count,
                   const float* factors, std::size_t output_count, std::size_t first,
@@ -128,7 +129,7 @@ void combine(const Row<float>* const* inputs, std::size_t input_count, const flo
   }
 }
 
-// Highway's table of targets takes plain functions.
+// Highway's dispatch table needs non-template functions.
 void step_float(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
                 float scale, const Row<float>* now, Row<float>* previous) {
   step(runs, run_count, rings, scale, now, previous);

@@ -9,14 +9,14 @@
 
 namespace crowdface {
 
-/// x, y, z and a zero: what the vector instructions take at a time.
+/// Three values and one of padding, so that a row fills vector registers.
 template <class T>
 struct alignas(4 * sizeof(T)) Row {
   T value[4];
 };
 
-/// Rows whose memory is not initialised, so that the threads that compute them are the first to touch
-/// it.
+/// An array of rows with uninitialised memory, so that each page is first touched by the thread
+/// that computes its rows.
 template <class T>
 class RowArray {
  public:
@@ -34,20 +34,21 @@ class RowArray {
   std::size_t size_ = 0;
 };
 
-/// One step of the recurrence on the rows of the runs, in place:
-/// previous ← scale·(mean of the neighbours in now) − previous. With scale 2 that is
-/// T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 the first step W x.
-/// Neighbours are added in their order, so that the bits depend on nothing but the values.
+/// One step of the Chebyshev recurrence, in place, on the rows covered by the runs:
+/// previous ← scale·(mean of the neighbours in `now`) − previous. With scale 2 this is T_{k+1}(W)
+/// x = 2 W T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 it is the first step, W x.
+/// Neighbours are added in list order, so that the result's bits depend only on the values.
 template <class T>
 void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
                      T scale, const Row<T>* now, Row<T>* previous);
 
-/// sums[i] += factor·values[i], each with one rounding.
+/// sums[i] += factor·values[i] by fused multiply-add.
 template <class T>
 void add_scaled(T factor, const Row<T>* values, std::size_t count, Row<T>* sums);
 
-/// Linear combinations, row by row: outputs[o][i] = Σ_n factors[n·output_count + o]·inputs[n][i],
-/// added in the order of n, each term with one rounding.
+/// Linear combinations of rows: outputs[o][i] = Σ_n factors[n·output_count + o]·inputs[n][i], added
+/// in the order of n by fused multiply-add.
+/// \param count  rows of each input and output.
 void combine_rows(const Row<float>* const* inputs, std::size_t input_count, const float* factors,
                   std::size_t output_count, std::size_t count, Row<float>* const* outputs);
 

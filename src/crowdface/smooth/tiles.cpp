@@ -11,8 +11,9 @@
 namespace crowdface {
 namespace {
 
-/// The place of a cell of a 2²¹-fold grid along the Hilbert curve: cells close on the curve are
-/// close in space. Source: Skilling 2004, "Programming the Hilbert curve".
+/// The index along the Hilbert curve of a cell of a grid with 2²¹ cells per axis. Cells that are
+/// close along the curve are close in space. Source: Skilling 2004, "Programming the Hilbert
+/// curve".
 std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
   constexpr int kBits = 21;
   for (std::uint32_t bit = 1U << (kBits - 1); bit > 1; bit >>= 1) {  // undo excess work
@@ -41,7 +42,7 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
 }
 
 /// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), so that the neighbours of
-/// consecutive rows stand in a few short stretches, and then by valence.
+/// consecutive rows lie in few short ranges of rows, and then stably by valence.
 void order_within(const Tile& tile, const SmoothingOperator& smoothing,
                   const std::vector<std::uint32_t>& tile_of, std::uint32_t tile_index,
                   std::vector<bool>& seen, std::vector<std::uint32_t>& order) {
@@ -65,7 +66,7 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
   std::ranges::copy(queue, order.begin() + tile.first);
 }
 
-/// Collects a tile's halo ring by ring and writes its neighbours in local rows.
+/// Collects a tile's halo ring by ring and writes its neighbour lists as local rows.
 class TileBuilder {
  public:
   TileBuilder(const SmoothingOperator& smoothing, Tiling& tiling)
@@ -196,7 +197,7 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
   for (std::size_t r = 0; r < tiling.order.size(); ++r) {
     tiling.row[tiling.order[r]] = static_cast<std::uint32_t>(r);
   }
-  constexpr Index kTilesATask = 32;  // each task needs an array of all vertices
+  constexpr Index kTilesATask = 32;  // large tasks, because each allocates an array of #V
   parallel_blocks(tile_count, kTilesATask, [&](Index begin, Index end) {
     TileBuilder builder(smoothing, tiling);
     for (Index t = begin; t < end; ++t) builder.build(tiling.tiles[static_cast<std::size_t>(t)]);

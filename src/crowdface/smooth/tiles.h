@@ -9,47 +9,49 @@
 
 namespace crowdface {
 
-/// Rows of a tile that have the same valence and stand one after the other.
+/// Consecutive rows of a tile whose vertices have the same valence.
 struct ValenceRun {
-  std::uint32_t first = 0;    ///< local row
-  std::uint32_t count = 0;    ///< rows
-  std::uint32_t valence = 0;  ///< neighbours of each, at least 1
-  std::uint32_t ring = 0;     ///< where their neighbours begin in `Tile::rings`
+  std::uint32_t first = 0;    ///< first local row
+  std::uint32_t count = 0;    ///< number of rows
+  std::uint32_t valence = 0;  ///< number of neighbours of each vertex, at least 1
+  std::uint32_t ring = 0;     ///< index of the first neighbour in `Tile::rings`
 };
 
-/// A patch of the mesh that several steps of a recurrence can be computed on without looking
-/// outside, and so in the processor's cache: its own rows and the rings around them. Local rows are
-/// the own ones first, then ring 1 (their neighbours outside), ring 2, … After a step the outermost
-/// ring is out of date, so that with n rings n steps are right on the own rows.
+/// A part of the mesh on which several steps of the recurrence run without data from other tiles,
+/// and so within one core's cache. A tile holds its own rows and a halo of neighbour rings. Local
+/// rows are numbered own rows first, then ring 1 (their neighbours outside the tile), ring 2, …
+/// Each step invalidates the outermost valid ring, so with n rings the own rows are correct after n
+/// steps.
 struct Tile {
-  std::uint32_t first = 0;          ///< the first of its own rows in the tiling's order
-  std::uint32_t count = 0;          ///< own rows
-  std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of local rows count, count + 1, …
-  std::vector<ValenceRun> runs;     ///< of the rows that move: own, ring 1, ring 2, …
-  std::vector<std::uint32_t> runs_to;  ///< runs_to[r]: how many runs cover the rings up to r
-  std::vector<std::uint32_t> rings;    ///< neighbours (local rows), in the operator's order
+  std::uint32_t first = 0;          ///< first own row, in the tiling's order
+  std::uint32_t count = 0;          ///< number of own rows
+  std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of the local rows count, count + 1, …
+  std::vector<ValenceRun> runs;     ///< runs of the rows that move: own rows, ring 1, ring 2, …
+  /// runs_to[r]: number of leading runs that cover the rings up to r.
+  std::vector<std::uint32_t> runs_to;
+  std::vector<std::uint32_t> rings;  ///< neighbour lists (local rows), each in the operator's order
 
   std::uint32_t local_count() const { return count + static_cast<std::uint32_t>(halo.size()); }
 };
 
-/// A mesh cut into tiles. Its order of rows runs tile by tile; what is computed on it does not
-/// depend on the cut, only how fast.
+/// A mesh cut into tiles. Rows are ordered tile by tile. The cut affects the speed of computations,
+/// not their results.
 struct Tiling {
-  std::vector<std::uint32_t> order;  ///< #V: the vertex that stands in a row
-  std::vector<std::uint32_t> row;    ///< #V: the row a vertex stands in
+  std::vector<std::uint32_t> order;  ///< #V: the vertex of each row
+  std::vector<std::uint32_t> row;    ///< #V: the row of each vertex
   std::vector<Tile> tiles;
   int ring_count = 0;
 };
 
-/// All vertices along a space-filling curve through the head (Hilbert 1891), so that neighbours in the order are mostly
-/// neighbours in space; equal places by index.
+/// All vertices ordered along a space-filling curve (Hilbert 1891), so that neighbours in the order
+/// are mostly neighbours in space. Vertices in the same grid cell are ordered by index.
 std::vector<std::uint32_t> hilbert_order(const Positions& positions);
 
-/// Cuts by halving the longest side of the vertices' box again and again, which makes compact
+/// Cuts the mesh into tiles of equal size along the order of hilbert_order, which makes compact
 /// patches of a surface.
 /// \param positions   #V by 3, any head of the topology.
-/// \param tile_rows   the most own rows of a tile.
-/// \param ring_count  steps that a tile can do on its own.
+/// \param tile_rows   largest number of own rows of a tile.
+/// \param ring_count  number of recurrence steps that a tile can run on its own.
 Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& positions,
                       Index tile_rows, int ring_count);
 
