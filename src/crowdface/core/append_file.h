@@ -9,11 +9,11 @@
 
 namespace crowdface {
 
-/// A file that only grows. What `append` has returned from survives a power cut; what it was at when
-/// the process died may be there in part. Any thread may append.
+/// A file that is only appended to. Bytes survive a power cut once `append` has returned. A write
+/// in progress when the process dies may be left incomplete. Thread-safe.
 class AppendFile {
  public:
-  /// Creates the file if it is not there. \throws CannotCreate.
+  /// Creates the file if it does not exist. \throws CannotCreate.
   explicit AppendFile(const std::filesystem::path& path);
 
   /// \throws IoError.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For what speaks to the operating system.
+// POSIX file descriptors, for code that makes system calls.
 #pragma once
 
 #include <cerrno>
@@ -16,18 +16,18 @@
 
 namespace crowdface {
 
-/// Why the last system call failed.
+/// The message of `errno`: why the last system call failed.
 inline std::string reason() {
   return std::generic_category().message(errno);
 }
 
-/// \throws Failure "FILE: WHAT: why the last system call failed".
+/// \throws Failure with the message "FILE: WHAT: REASON", where REASON explains `errno`.
 template <class Failure>
 [[noreturn]] void throw_with_reason(const std::filesystem::path& file, std::string_view what) {
   throw Failure(concat(file.string(), ": ", what, ": ", reason()));
 }
 
-/// A file descriptor that closes itself.
+/// A file descriptor that is closed on destruction.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -43,14 +43,16 @@ class Descriptor {
   int get() const { return fd_; }
   bool valid() const { return fd_ >= 0; }
 
-  /// Closes and tells whether that worked: on some file systems a write fails only here.
+  /// Closes the descriptor. On some file systems a failed write is reported only here.
+  /// \return whether closing succeeded.
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
  private:
   int fd_;
 };
 
-/// Whether the path, links followed, leads to the very file that is open: that may have been removed or renamed.
+/// Whether `path`, with links followed, leads to the open file `file`. False after the file was
+/// removed, renamed or replaced.
 inline bool still_names(const std::filesystem::path& path, const Descriptor& file) {
   struct stat by_name {
   }, by_descriptor{};
@@ -58,18 +60,21 @@ inline bool still_names(const std::filesystem::path& path, const Descriptor& fil
          by_name.st_ino == by_descriptor.st_ino && by_name.st_dev == by_descriptor.st_dev;
 }
 
-/// A file that can be read, and how large it is.
+/// A file opened for reading, with its size in bytes.
 struct OpenedFile {
   Descriptor descriptor;
   std::size_t size;
 };
-/// \throws MissingInput if there is no such regular file; IoError if the machine is to blame.
+/// \throws MissingInput if `path` is not a regular file or cannot be opened; IoError if the cause
+/// is the machine (disk error, out of memory, too many open files).
 OpenedFile open_for_reading(const std::filesystem::path& path);
-/// Reads `size` bytes, or as many as the file has. \return how many. \param path  for the message. \throws IoError
+/// Reads `size` bytes, or fewer if the file ends earlier.
+/// \param path  named in the error message.
+/// \return      number of bytes read. \throws IoError.
 std::size_t read_up_to(const Descriptor& file, char* to, std::size_t size,
                        const std::filesystem::path& path);
 
-/// Writes all of it, however many calls that takes. \return whether it worked.
+/// Writes all bytes, with as many system calls as needed. \return whether it succeeded.
 inline bool write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd, bytes.data(), bytes.size());
@@ -82,7 +87,8 @@ inline bool write_all(int fd, std::string_view bytes) {
   return true;
 }
 
-/// Has the file's bytes on the disk. \return whether it worked; what has no disk (a pipe) is fine.
+/// Flushes the file to disk (fsync). Files that have no disk, such as pipes, count as a success.
+/// \return whether it succeeded.
 inline bool sync(int fd) {
   while (::fsync(fd) != 0) {
     if (errno == EINTR) continue;

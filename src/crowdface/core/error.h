@@ -7,21 +7,21 @@
 
 namespace crowdface {
 
-/// Exit codes of the program, after BSD sysexits where those fit.
+/// Exit codes of the program. They follow BSD sysexits where sysexits has a matching code.
 enum class ExitCode : int {
   kDone = 0,
-  kUnsatisfiable = 3,  ///< the constraints cannot be met
-  kUsage = 64,         ///< command line or config is wrong
-  kBadData = 65,       ///< an input file holds something unusable
+  kUnsatisfiable = 3,  ///< the constraints of a plan cannot be met
+  kUsage = 64,         ///< the command line or config is wrong
+  kBadData = 65,       ///< the content of an input file cannot be used
   kMissingInput = 66,  ///< an input file is missing or cannot be read
-  kBug = 70,           ///< our own mistake
+  kBug = 70,           ///< a bug in crowdface
   kCannotCreate = 73,  ///< an output file or folder cannot be created
-  kIoError = 74,       ///< a read or write failed half-way
+  kIoError = 74,       ///< a read or write failed after it had begun
   kInterrupted = 75,   ///< stopped by a signal; run again to resume
 };
 
-/// Base of every exception that crowdface throws. The message names the file, what was expected and what
-/// was found; `main` turns it into the exit code.
+/// Base of all exceptions that crowdface throws. The message names the file, the expected content
+/// and the content found. `main` returns `code()` as the exit code.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -31,13 +31,14 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// Base of the errors that inputs, the machine or the user cause: all but BrokenPrecondition (core/require.h).
-/// The library itself catches these alone, so that it never hides a bug.
+/// Base of the errors that inputs, the machine or the user cause: all errors except
+/// BrokenPrecondition (core/require.h). The library itself catches only RecoverableError, so that
+/// it never hides a bug.
 struct RecoverableError : Error {
   using Error::Error;
 };
 
-/// An error with a code of its own, so that callers can catch it alone.
+/// One class per exit code, so that callers can catch each kind of error separately.
 template <ExitCode kCode>
 struct ErrorOf : RecoverableError {
   explicit ErrorOf(const std::string& message) : RecoverableError(kCode, message) {}
@@ -47,7 +48,7 @@ struct ErrorOf : RecoverableError {
 using UsageError = ErrorOf<ExitCode::kUsage>;
 /// Unusable input data.
 using InvalidInput = ErrorOf<ExitCode::kBadData>;
-/// \throws InvalidInput "FILE: WHAT".
+/// \throws InvalidInput with the message "FILE: WHAT".
 [[noreturn]] inline void refuse_file(const std::filesystem::path& file, const std::string& what) {
   throw InvalidInput(file.string() + ": " + what);
 }

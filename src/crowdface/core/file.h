@@ -13,87 +13,95 @@
 
 namespace crowdface {
 
-/// Whether something, a folder, a regular file bears this name, links followed; no where that cannot be told.
+/// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false on error.
 bool is_there(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);
-/// What cannot be removed stays.
+/// Removes a file or an empty folder. Does nothing if that fails.
 void remove_if_there(const std::filesystem::path& path);
 
-/// The whole file. \throws MissingInput if it cannot be opened, IoError if reading fails half-way.
+/// Returns the whole file. \throws MissingInput if the file cannot be opened; IoError if reading
+/// fails half-way.
 std::string read_file(const std::filesystem::path& path);
 
-/// What a file holds, without its bytes.
+/// Size and hash of a file's content.
 struct FileDigest {
   std::uint64_t bytes = 0;
-  Digest digest;  ///< hash_bytes of the whole
+  Digest digest;  ///< hash_bytes of the whole file
   bool operator==(const FileDigest&) const = default;
 };
 
-/// Reads a file piece by piece. \throws MissingInput, IoError like read_file.
+/// Reads the file in pieces. \throws MissingInput, IoError like read_file.
 FileDigest hash_file(const std::filesystem::path& path);
-/// Whether the file holds just that; a file that cannot be read does not.
+/// Whether the file has this size and hash. False if the file cannot be read.
 bool holds(const std::filesystem::path& path, const FileDigest& content);
 
-/// From now on a MappedFile maps its file and no longer copies it, and a handler of SIGBUS sees to files that
-/// somebody cuts while they are mapped. For programs, at their start: the handler belongs to the whole process.
+/// After this call, each new MappedFile maps its file instead of copying it, and a SIGBUS handler
+/// deals with files that are truncated while mapped. Call it at program start: the handler applies
+/// to the whole process. A SIGBUS handler that is already installed stays in place.
 void watch_mapped_files();
 
-/// What the handler does when somebody cuts a mapped file.
+/// What happens when a mapped file is truncated.
 enum class WhenCut {
-  kEnd,  ///< it ends the process with code 74 and a message that names the file
-  kFill  ///< what is gone reads as zeros, and `was_cut` tells
+  kEnd,  ///< the process ends with exit code 74 and a message that names the file
+  kFill  ///< the missing pages read as zeros, and `was_cut` returns true
 };
 
-/// A file's bytes, read-only, for as long as the object or a copy of it lives. After watch_mapped_files() the pages
-/// belong to the system, so that large inputs cost no memory of ours. Before, they are a copy, because nobody
-/// could catch the signal that a cut file raises.
+/// Read-only view of a file's bytes, valid while the object or a copy of it lives. After
+/// watch_mapped_files() the file is memory-mapped, so the kernel can drop and reload its pages and
+/// large inputs do not count as memory of this process. Before, the bytes are copied, because
+/// without the SIGBUS handler a truncated file would kill the process.
 class MappedFile {
  public:
   MappedFile() = default;
-  /// \throws MissingInput if the file cannot be opened or is no regular file; IoError, also if somebody cuts the
-  ///         file while it is copied.
+  /// \throws MissingInput if the file cannot be opened or is not a regular file; IoError on a read
+  /// error, or if the file is truncated while it is copied.
   explicit MappedFile(const std::filesystem::path& path, WhenCut when_cut = WhenCut::kEnd);
-  /// Puts bytes into a file without a name, which goes with the process however that ends, and maps it: from
-  /// then on they lie on the disk, and in memory as far as the system has room.
-  /// \param folder  where; it is made if it is not there. \throws CannotCreate, IoError.
+  /// Writes the bytes to an unnamed temporary file and maps that file. The bytes then lie on disk
+  /// and are cached in memory as far as there is room. The file vanishes when the process ends,
+  /// even if the process is killed.
+  /// \param folder  folder of the temporary file; created if missing. \throws CannotCreate,
+  ///                IoError.
   static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
-  /// A text in memory that takes the place of a file.
+  /// Wraps a text in memory, for code that expects a file.
   static MappedFile of_text(std::string text);
   std::string_view bytes() const;
-  /// Whether the file has become shorter: then some of the bytes may be zeros that it never held.
+  /// With kFill: whether the file has been truncated, so that some bytes may be zeros that it never
+  /// held. Without kFill always false.
   bool was_cut() const;
 
  private:
   struct Mapping;
-  std::shared_ptr<const Mapping> mapping_;   ///< none of an empty file
-  std::shared_ptr<const std::string> text_;  ///< instead of a mapping
+  std::shared_ptr<const Mapping> mapping_;   ///< null if the file is empty
+  std::shared_ptr<const std::string> text_;  ///< set by of_text, instead of `mapping_`
 };
 
-/// Writes a file so that it is either whole under its final name or not there at all: temporary
-/// file in the same folder (locked while it is written, see remove_leftovers), fsync, checked close,
-/// rename, fsync of the folder. The pieces are written one after the other. Every file that
-/// crowdface leaves behind, but for the log, is written here.
-/// \throws CannotCreate, IoError; the temporary file is removed.
+/// Writes a file atomically: afterwards the complete file has its final name, or the name is
+/// unchanged. Steps: write a temporary file in the same folder (locked until it is renamed, see
+/// remove_leftovers), fsync, close with error check, rename, fsync the folder. The file is the
+/// concatenation of `pieces`. All output files except the log are written this way.
+/// \throws CannotCreate, IoError; the temporary file is then removed.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// A file that is to be written, one piece after the other.
+/// A file to write, as the concatenation of its pieces.
 struct FileToWrite {
   std::filesystem::path path;
   std::vector<std::string_view> pieces;
 };
-/// Writes each as `write_file` does, but waits for the disk once and not file by file: all are written before the
-/// first is synced and named, and each folder is synced once. Some of them may be there if this throws.
-/// \throws CannotCreate, IoError; their temporary files are removed.
+/// Like `write_file` for each file, but faster: all files are written before the first is synced
+/// and renamed, and each folder is synced once. If an exception is thrown, some of the files may be
+/// complete.
+/// \throws CannotCreate, IoError; the remaining temporary files are then removed.
 void write_files(std::span<const FileToWrite> files);
 
-/// Removes the temporary files that killed runs left in this folder (not in those below it), and
-/// none that is still being written, here or on another machine. A folder that is not there has
-/// none. \return how many. \throws IoError if the folder cannot be read.
+/// Removes the temporary files that killed runs left in this folder, but not in its subfolders.
+/// Files still being written, by this or another machine, are kept. Does nothing if the folder does
+/// not exist.
+/// \return number of files removed. \throws IoError if the folder cannot be read.
 std::size_t remove_leftovers(const std::filesystem::path& folder);
 
-/// Creates a folder and its parents; the empty path is the working directory. \throws CannotCreate.
+/// Creates a folder and its parents. Does nothing for the empty path. \throws CannotCreate.
 void make_directories(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -29,7 +29,8 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
   bool told = false;
   for (;;) {
     if (::flock(file_.get(), operation) == 0) {
-      if (still_names(path, file_)) return;  // else who held it last has removed it
+      if (still_names(path, file_))
+        return;  // otherwise the previous holder removed this file: open a new one
       file_ = open_lock_file(path);
       continue;
     }
@@ -44,7 +45,8 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
 }
 
 FileLock::~FileLock() {
-  // Only who has it alone removes it; others find out by `still_names` that it is gone.
+  // Only a process that holds the lock exclusively removes the file. Waiting processes notice with
+  // `still_names`.
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(path_.c_str());
 }
 

@@ -8,22 +8,24 @@
 
 namespace crowdface {
 
-/// Who may hold a lock at the same time.
+/// Whether several processes may hold the lock at the same time.
 enum class LockKind {
-  kShared,     ///< others that share
-  kExclusive,  ///< nobody else
+  kShared,     ///< other shared locks are allowed
+  kExclusive,  ///< no other lock is allowed
 };
 
-/// Keeps others out for as long as it lives, on all machines that share the file system. The lock
-/// belongs to the open file, not to the file's existence: one that a killed process left is no lock.
+/// A lock between processes (flock), also across machines that share a file system. Held while the
+/// object lives. The kernel releases the lock when the process dies, so a lock file that a killed
+/// process left behind locks nothing.
 class FileLock {
  public:
   /// Waits until the lock is free.
-  /// \param path     an empty file, created if it is not there, in a folder that is.
-  /// \param waiting  called once if it has to wait; may be empty.
-  /// \throws CannotCreate if the file cannot be made; IoError if it cannot be locked; Interrupted.
+  /// \param path     an empty file, created if it does not exist; its folder must exist.
+  /// \param waiting  called once if the lock is not free; may be empty.
+  /// \throws CannotCreate if the file cannot be created; IoError if it cannot be locked;
+  ///         Interrupted if a signal arrives while waiting.
   FileLock(const std::filesystem::path& path, LockKind kind, const std::function<void()>& waiting);
-  /// Removes the file, if nobody else holds a lock on it.
+  /// Removes the lock file unless another process holds a lock on it.
   ~FileLock();
 
  private:

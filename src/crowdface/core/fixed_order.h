@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums in one order, so that their bits are the same with every compiler and instruction set: the
-// order of a library's products follows the machine it is compiled for.
+// Linear algebra that sums in a fixed order, so that results are the same bit for bit with every
+// compiler and instruction set. A library's products are summed in an order that depends on the
+// machine.
 #pragma once
 
 #include <cmath>
@@ -9,24 +10,25 @@
 
 namespace crowdface {
 
-/// Σ a_i b_i, ascending. \param b  at least as long as a.
+/// Σ a_i b_i, summed in ascending order of i. \param b  at least as long as a.
 inline double fixed_dot(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
-/// to − factor·from, in place.
+/// to ← to − factor·from.
 inline void subtract_scaled(double factor, std::span<const double> from, std::span<double> to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] -= factor * from[i];
 }
 
-/// Takes out of a vector what lies along orthonormal ones and makes it of unit length (Gram and
-/// Schmidt, twice for rounding).
-/// \param count      of the orthonormal vectors.
-/// \param direction  direction(m): number m of them, as long as the vector.
-/// \param share      share(m, part): called with what was taken out along it, twice.
-/// \return           the length of what was left.
+/// Subtracts from `vector` its components along orthonormal directions and scales it to unit length
+/// (Gram–Schmidt, two passes against rounding errors).
+/// \param count      number of orthonormal directions.
+/// \param direction  direction(m) returns direction m, as long as `vector`.
+/// \param share      share(m, part) receives the component along direction m that each pass
+///                   removes.
+/// \return           length of the remainder before scaling.
 template <class Direction, class Share>
 double orthonormalize(std::span<double> vector, std::size_t count, const Direction& direction,
                       const Share& share) {
@@ -42,8 +44,8 @@ double orthonormalize(std::span<double> vector, std::size_t count, const Directi
   return length;
 }
 
-/// Lower L with L Lᵀ = a, for the first n rows of a positive definite matrix (Cholesky); what stands
-/// above the diagonal is neither read nor written.
+/// Cholesky factor: lower triangular L with L Lᵀ = a, for the leading n by n block of a positive
+/// definite matrix. Entries above the diagonal are neither read nor changed.
 /// \tparam Matrix  rows of contiguous doubles.
 template <class Matrix>
 Matrix cholesky(Matrix a, std::size_t n) {
@@ -56,7 +58,7 @@ Matrix cholesky(Matrix a, std::size_t n) {
   return a;
 }
 
-/// L⁻¹ b, for the first n rows.
+/// L⁻¹ b by forward substitution, for the first n rows.
 template <class Matrix, class Vector>
 Vector solve_lower(const Matrix& lower, Vector b, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {

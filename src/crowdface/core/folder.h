@@ -10,37 +10,39 @@
 
 namespace crowdface {
 
-/// What stands in a folder, in the order of the names; nothing if there is no such folder.
-/// \param error  set if there is none or it may not be read.
-/// \throws IoError unless all of it could be read; without `error` if it may not be read, too.
+/// The entries of a folder, sorted by path; empty if the folder does not exist.
+/// \param error  if given, set when the folder does not exist or access is denied.
+/// \throws IoError if the folder cannot be read completely. Denied access throws only without
+///         `error`.
 std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder,
                                                std::error_code* error = nullptr);
 
-/// What of it is wanted. \throws IoError like list_folder.
+/// The entries of a folder for which `is_wanted` is true. \throws IoError like list_folder.
 std::vector<std::filesystem::path> list_files(
     const std::filesystem::path& folder,
     const std::function<bool(const std::filesystem::path&)>& is_wanted,
     std::error_code* error = nullptr);
 
-/// Of list_files: whether a path has this ending.
+/// Predicate for list_files: the path's extension is `ending`, such as ".obj".
 inline auto has_ending(const char* ending) {
   return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
 }
 
-/// A folder and all folders below it, parents first; links are not followed.
+/// A folder and all its subfolders, parents first. Symbolic links are not followed.
 /// \throws IoError like list_folder.
 std::vector<std::filesystem::path> folders_from(const std::filesystem::path& root);
 
-/// Whether a path, all links followed, leads to a place below a folder or to the folder itself. What
-/// is not there lies where it would be made; of what cannot be told the answer is no.
+/// Whether `path` is `folder` or lies inside it, after all links are resolved. The path need not
+/// exist. Returns false if one of the paths cannot be resolved.
 bool leads_below(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-/// A folder that is known again however often its name is given to another.
+/// Keeps a directory open, so that a removal, rename or replacement of the directory can be
+/// detected.
 class HeldFolder {
  public:
-  /// \throws CannotCreate if it cannot be opened.
+  /// \throws CannotCreate if the folder cannot be opened.
   explicit HeldFolder(const std::filesystem::path& folder);
-  /// \throws IoError if it was removed or moved away, or another bears its name.
+  /// \throws IoError if the path no longer leads to the open directory.
   void require_same() const;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector operations whose bits are the same on every instruction set. Included by kernels that are
-// compiled once for each, after hwy/foreach_target.h (no include guard but Highway's own).
+// Vector operations with the same result bits on every instruction set. Kernels include this file
+// after hwy/foreach_target.h, which compiles them once per instruction set; hence Highway's include
+// guard.
 #if defined(CROWDFACE_FUSED_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CROWDFACE_FUSED_LANES_INL_H_
 #undef CROWDFACE_FUSED_LANES_INL_H_
@@ -16,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 
 #if !HWY_NATIVE_FMA
-/// std::fma in every lane, for targets without the instruction.
+/// std::fma in every lane, for targets without a fused multiply-add instruction.
 template <class V>
 V fused_lane_by_lane(V a, V b, V c) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -34,8 +35,8 @@ V fused_lane_by_lane(V a, V b, V c) {
 }
 #endif
 
-/// a·b + c in every lane, rounded once. Highway's own MulAdd rounds twice on targets without the
-/// instruction.
+/// a·b + c in every lane, rounded once. (Highway's MulAdd rounds twice on targets without a fused
+/// multiply-add instruction.)
 template <class V>
 HWY_INLINE V fused(V a, V b, V c) {
 #if HWY_NATIVE_FMA

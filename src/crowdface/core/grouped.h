@@ -9,11 +9,11 @@
 
 namespace crowdface {
 
-/// Items in numbered groups, those of a group one after the other.
+/// Items in numbered groups, stored contiguously by group (compressed rows).
 template <class T>
 struct Grouped {
-  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1
-  std::vector<T> items;                      ///< of group g: [offsets[g], offsets[g + 1])
+  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 positions in `items`
+  std::vector<T> items;                      ///< group g is [offsets[g], offsets[g + 1])
 
   std::size_t group_count() const { return offsets.size() - 1; }
   template <std::integral Number>
@@ -36,8 +36,9 @@ struct Grouped {
   }
 };
 
-/// Sorts items into groups, in which they keep their order.
-/// \param visit  visit(put) calls put(group, item) for each item; it is called twice.
+/// Builds the groups by a counting sort. Items keep their order within a group.
+/// \param visit  visit(put) calls put(group, item) for each item. Called twice; both calls must
+///               visit the same items in the same order.
 template <class T, class Visit>
 Grouped<T> grouped(std::size_t groups, const Visit& visit) {
   Grouped<T> result{.offsets = std::vector<std::uint32_t>(groups + 1, 0), .items = {}};

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A 128-bit XXH3 digest. Not for security: it tells changed content, not an adversary.
+/// A 128-bit XXH3 digest. It detects changed content but is not cryptographically secure.
 struct Digest {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
@@ -20,12 +20,13 @@ struct Digest {
   std::string hex() const;
 };
 
-/// What `hex` wrote, or nothing.
+/// Parses the output of `Digest::hex`; nothing if the text has another form.
 std::optional<Digest> parse_digest(std::string_view hex);
 
 Digest hash_bytes(std::string_view bytes);
 
-/// Builds a digest from parts; each text is preceded by its length, so parts cannot run together.
+/// Hashes a sequence of values. Each text is preceded by its length, so that different splits of
+/// the same text give different digests.
 class Hasher {
  public:
   Hasher();
@@ -34,7 +35,7 @@ class Hasher {
   Hasher& operator=(const Hasher&) = delete;
 
   Hasher& add(std::string_view text);
-  /// Bytes as they are, no length before them: pieces of one text give its `hash_bytes`.
+  /// Hashes the bytes without their length. Adding a text in pieces gives its `hash_bytes`.
   Hasher& add_raw(std::string_view bytes);
   Hasher& add(double value);
   Hasher& add(const Digest& digest);
@@ -42,7 +43,7 @@ class Hasher {
   Hasher& add(T value) {
     return add_integer(static_cast<std::uint64_t>(value));
   }
-  /// Raw bytes of an array of numbers, preceded by their count.
+  /// Hashes the number of values, then their bytes.
   template <class T>
   Hasher& add_array(std::span<const T> values) {
     add_integer(values.size());

@@ -7,30 +7,31 @@
 
 namespace crowdface {
 
-/// How large an input may be. What is larger is refused before memory is taken for it, so that a
-/// hostile or mistaken file costs a message and not the machine.
+/// Maximum sizes of inputs. A larger input is rejected before its memory is allocated, so that a
+/// hostile or broken file causes an error message instead of exhausting the machine.
 struct InputLimits {
-  std::uint64_t vertices = 1ULL << 26U;      ///< of a mesh
-  std::uint64_t faces = 1ULL << 26U;         ///< of a mesh
+  std::uint64_t vertices = 1ULL << 26U;      ///< per mesh
+  std::uint64_t faces = 1ULL << 26U;         ///< per mesh
   std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask or texture
-  std::uint64_t image_bytes = 1ULL << 32U;   ///< of memory, for the pixels of all images together
-  std::uint64_t textures = 1000;             ///< that a head's material files name
-  std::uint64_t yaml_bytes = 1ULL << 20U;    ///< of a config or review file
-  std::uint64_t yaml_depth = 64;             ///< lists and mappings within each other
+  std::uint64_t image_bytes = 1ULL << 32U;   ///< memory for the pixels of all images together
+  std::uint64_t textures = 1000;             ///< textures in the material files of one head
+  std::uint64_t yaml_bytes = 1ULL << 20U;    ///< size of a config or review file
+  std::uint64_t yaml_depth = 64;             ///< nesting depth of lists and mappings
 };
 
-/// Those in force.
+/// The limits in force.
 const InputLimits& input_limits();
 
-/// Sets one of them by its field's name, "vertices=2000000". At start, before any thread.
-/// \throws UsageError if there is no such limit or the number is none from 1 to 2^31 (of bytes of
-///         memory: 2^50).
+/// Sets one limit by its field name, such as "vertices=2000000". Call it at program start, before
+/// any thread starts.
+/// \throws UsageError if there is no such limit, or if the number is not between 1 and 2^31
+///         (image_bytes: 2^50).
 void set_input_limit(std::string_view assignment);
 
-/// From now on images take no more memory than this, whatever was set before. At start.
+/// Lowers the limit `image_bytes` to `bytes` if it is larger. Call it at program start.
 void limit_image_memory(std::uint64_t bytes);
 
-/// "vertices (67108864), faces (…), …", for help texts.
+/// Names and default values for help texts: "vertices (67108864), faces (…), …".
 std::string describe_input_limits();
 
 }  // namespace crowdface

@@ -13,7 +13,7 @@ struct Known {
   std::string_view name;
   std::int64_t target;
 };
-constexpr std::int64_t kPortable = 0;  // what is left when no target is chosen
+constexpr std::int64_t kPortable = 0;  // used when no other target is chosen
 constexpr Known kKnown[] = {{"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"portable", kPortable}};
 
 bool is_here(const Known& known) {
@@ -32,7 +32,7 @@ std::vector<std::string> instruction_sets() {
 
 void use_instruction_set(std::string_view name) {
   for (const Known& known : kKnown) {
-    // The kernels choose the best of the bits that are set, and fall back to the portable one.
+    // Highway chooses the best target among these bits, and the portable one if there is none.
     if (known.name == name && is_here(known)) return hwy::GetChosenTarget().Update(known.target);
   }
   throw UsageError(concat("expected an instruction set of this machine (", join(instruction_sets()),

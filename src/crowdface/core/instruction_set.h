@@ -7,12 +7,13 @@
 
 namespace crowdface {
 
-/// The instruction sets that the vector kernels have code for and that this processor has, best
-/// first: of "avx512", "avx2" and "portable". All give the same bits.
+/// The instruction sets for which the kernels have code and which this processor supports, best
+/// first: a subset of "avx512", "avx2", "portable". All give the same bits.
 std::vector<std::string> instruction_sets();
 
-/// Makes the kernels use this one from now on; for tests, and to find out what is to blame.
-/// \throws UsageError if it is none of `instruction_sets`.
+/// Makes the kernels use this instruction set from now on. Meant for tests and for tracking down
+/// errors.
+/// \throws UsageError if `name` is not one of `instruction_sets()`.
 void use_instruction_set(std::string_view name);
 
 }  // namespace crowdface

@@ -9,13 +9,13 @@
 namespace crowdface {
 namespace {
 
-// Set by a handler, which may do so without a lock, and read by all threads.
+// Written by the signal handler and read by all threads. Lock-free, as a signal handler requires.
 std::atomic<int> signal_seen = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void remember_signal(int signal) {
   signal_seen = signal;
-  // A user who asks twice means it.
+  // A second signal ends the program.
   std::signal(signal, SIG_DFL);
 }
 
@@ -24,7 +24,7 @@ extern "C" void remember_signal(int signal) {
 void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction action {};
-    // Whoever started us wants it ignored: nohup, or a shell script that ends before we do.
+    // The parent process wants this signal ignored, as nohup does.
     if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = remember_signal;

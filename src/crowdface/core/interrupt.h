@@ -3,14 +3,16 @@
 
 namespace crowdface {
 
-/// From now on SIGINT, SIGTERM, SIGHUP and SIGXCPU are remembered instead of ending the program; a
-/// second one ends it at once. One that is ignored (SIGHUP under nohup) stays so.
+/// After this call, the first SIGINT, SIGTERM, SIGHUP or SIGXCPU only sets the flag that
+/// `interrupted` returns; a second one ends the program. Signals that are ignored (SIGHUP under
+/// nohup) stay ignored.
 void catch_interrupts();
 
-/// Whether such a signal has come.
+/// Whether one of these signals has arrived.
 bool interrupted();
 
-/// \throws Interrupted if such a signal has come. Long loops call it between pieces of work.
+/// \throws Interrupted if one of these signals has arrived. Long loops call it between units of
+/// work.
 void throw_if_interrupted();
 
 }  // namespace crowdface

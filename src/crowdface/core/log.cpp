@@ -42,7 +42,8 @@ struct Sinks {
     if (!failure) failure = what;
   }
 
-  /// What spdlog does to a file by itself throws; the logger's own calls end in the handler above.
+  /// Runs calls on a sink itself, which throw. (Errors in calls on the logger go to the error
+  /// handler above.)
   template <class Work>
   void guarded(const Work& work) {
     try {

@@ -11,27 +11,26 @@ namespace crowdface {
 
 enum class LogLevel { kQuiet, kNormal, kVerbose };
 
-/// What reaches standard error; a log file always gets everything.
+/// Sets what goes to standard error. Log files always receive all lines.
 void set_log_level(LogLevel level);
 LogLevel log_level();
-/// Also writes everything to this file (appended), beside those added before. \throws CannotCreate.
+/// Also appends all lines to this file, in addition to earlier log files. \throws CannotCreate.
 void add_log_file(const std::filesystem::path& path);
-/// Stops writing to the file that was added last.
+/// Stops writing to the log file added last.
 void close_log_file() noexcept;
-/// What has kept a log file from being written whole so far (its last lines are written first),
-/// naming it; nothing if nothing has. Logging itself never throws: work goes on, and whoever started
-/// it asks in the end.
+/// Flushes the log files and returns the first error in writing one of them, which names the file;
+/// nothing if all lines were written. Logging itself never throws, so that work continues; the
+/// caller checks for an error at the end.
 std::optional<std::string> log_failure();
 
-/// Remembers, for as long as it lives, the last thousand lines, for a log file that cannot be opened
-/// yet.
+/// Keeps the last 1000 lines while it lives, for a log file that cannot be opened yet.
 class LogMemory {
  public:
   LogMemory();
   ~LogMemory();
   LogMemory(const LogMemory&) = delete;
   LogMemory& operator=(const LogMemory&) = delete;
-  /// Writes what is remembered to the file that was added last.
+  /// Writes the kept lines to the log file added last.
   void replay() const;
 
  private:
@@ -39,7 +38,7 @@ class LogMemory {
   std::unique_ptr<Lines> lines_;
 };
 
-/// One line each, or several; what no terminal should be given is escaped (see printable).
+/// Log one or more lines. Control characters and the like are escaped (see `printable`).
 void log_debug(std::string_view text);
 void log_info(std::string_view text);
 void log_warning(std::string_view text);

@@ -8,12 +8,14 @@
 
 namespace crowdface {
 
-/// Values that are made when they are first asked for, by any thread. No lock is held meanwhile, as what
-/// makes one may run parallel loops: two threads may make the same one, and the first is kept.
+/// Values computed on first request and kept. Thread-safe. No lock is held during the computation,
+/// because it may run parallel loops. Two threads may therefore compute the same value; the first
+/// result is kept.
 template <class Key, class Value>
 class MadeOnce {
  public:
-  /// \param make  gives the value; it stays where it is as long as this object.
+  /// \param make  returns a std::unique_ptr to the value.
+  /// \return     a reference that stays valid as long as this object.
   template <class Make>
   const Value& get(const Key& key, const Make& make) {
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of file.h that maps. When a page of a mapping is gone with the end of its file, the system
-// sends SIGBUS, whose handler, where a program has asked for one, looks up here what to do.
+// MappedFile (declared in file.h). If a file is truncated while mapped, access to a missing page
+// raises SIGBUS. The handler finds the mapping in a table and does what `WhenCut` says.
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A mapping, as the handler sees it.
+/// One entry of the handler's table of mappings.
 struct Watch {
   std::atomic<bool> taken = false;
   std::atomic<char*> begin = nullptr;
@@ -36,10 +36,11 @@ struct Watch {
   std::array<char, 512> message = {};
 };
 
-std::array<Watch, 4096> watches;  // more mappings than open files; those beyond are not watched
+// More entries than a process has open files. Further mappings are not watched.
+std::array<Watch, 4096> watches;
 std::atomic<bool> watching = false;
 
-// Only what a signal handler may call. (mmap is a plain system call on Linux.)
+// Calls only functions that are safe in a signal handler. (On Linux, mmap is a plain system call.)
 void on_bus_error(int signal, siginfo_t* info, void*) {
   auto* at = static_cast<char*>(info->si_addr);
   for (Watch& watch : watches) {
@@ -59,7 +60,8 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     }
     break;
   }
-  std::signal(signal, SIG_DFL);  // none of ours: it comes again
+  // Not one of our mappings: let the access fault again and end the process.
+  std::signal(signal, SIG_DFL);
 }
 
 constexpr std::string_view kWasCut = ": was cut while it was being read";
@@ -85,7 +87,7 @@ Descriptor nameless_file(const fs::path& folder) {
   make_directories(folder);
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (file.valid()) return file;
-  // Not every file system makes files without a name.
+  // Some file systems do not support O_TMPFILE.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
   file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
   if (!file.valid()) throw_with_reason<CannotCreate>(folder, "no file can be made there");
@@ -106,7 +108,7 @@ void watch_mapped_files() {
 }
 
 struct MappedFile::Mapping {
-  /// Room for a copy.
+  /// Anonymous memory for a copy of the file.
   explicit Mapping(std::size_t length, const fs::path& name)
       : data(::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)),
         size(length) {
@@ -129,7 +131,7 @@ struct MappedFile::Mapping {
   void* data;
   std::size_t size;
   int watch = -1;
-  Descriptor kept{-1};  ///< with kFill
+  Descriptor kept{-1};  ///< the open file, with kFill only
 };
 
 MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {

@@ -15,16 +15,17 @@
 namespace crowdface {
 namespace {
 
-/// A control group's limit; nothing if there is none.
+/// The memory limit of one control group, in bytes; nothing if there is none.
 std::optional<std::uint64_t> group_limit(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string text;
   if (!(stream >> text)) return std::nullopt;
-  return parse_unsigned(text);  // "max" is no number: no limit
+  return parse_unsigned(text);  // "max" is not a number: no limit
 }
 
-/// Lowers `least` to the least limit of a group and of all groups that it lies in.
-/// \param mount  the folder of the outermost group. \param file  the limit's name in each folder.
+/// Lowers `least` to the least limit of a control group and all its parent groups.
+/// \param mount  folder of the outermost group.
+/// \param file   name of the limit's file in each group's folder.
 void lower_to_groups(std::optional<std::uint64_t>& least, const std::filesystem::path& mount,
                      const std::filesystem::path& group, const char* file) {
   std::filesystem::path folder = mount;
@@ -34,7 +35,7 @@ void lower_to_groups(std::optional<std::uint64_t>& least, const std::filesystem:
   };
   lower();
   for (const std::filesystem::path& part : group.relative_path()) {
-    if (part == "..") return;  // above what this namespace shows
+    if (part == "..") return;  // outside this control group namespace
     folder /= part;
     lower();
   }
@@ -64,11 +65,11 @@ std::optional<std::uint64_t> memory_limit_of_groups(const std::filesystem::path&
       lower_to_groups(least, root / "memory", group, "memory.limit_in_bytes");
     }
   };
-  lower("", "");  // also where the system names no groups
+  lower("", "");  // for systems that do not list the groups
   lower("memory", "");
   std::ifstream lines(groups);
   for (std::string line; std::getline(lines, line);) {
-    // "4:memory:/group"; version 2 names no controllers: "0::/group".
+    // Version 1: "4:memory:/group". Version 2 lists no controllers: "0::/group".
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == line.npos) continue;
     lower(line.substr(first + 1, second - first - 1), line.substr(second + 1));
@@ -87,7 +88,7 @@ bool memory_ran_out() {
 std::uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux reports KiB
 }
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {

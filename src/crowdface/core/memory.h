@@ -9,24 +9,27 @@
 
 namespace crowdface {
 
-/// Bytes of memory that this process may use: the machine's, or the least limit of its control groups (version 2,
-/// or the controller `memory` of version 1) and of all groups that these lie in, if that is less.
+/// Bytes of memory that this process may use: the machine's physical memory or the limit of its
+/// control groups, whichever is less.
 std::uint64_t machine_memory();
-/// The least of those limits; nothing if there is none.
-/// \param groups  the file that names the groups of the process. \param root  where the groups are mounted.
+/// The least memory limit, in bytes, of the control groups of this process and of all their parent
+/// groups (version 2, or the controller `memory` of version 1); nothing if there is no limit.
+/// \param groups  the file that names the control groups of the process.
+/// \param root    where the control groups are mounted.
 std::optional<std::uint64_t> memory_limit_of_groups(
     const std::filesystem::path& groups = "/proc/self/cgroup",
     const std::filesystem::path& root = "/sys/fs/cgroup");
 
-/// The most memory this process has held so far, in bytes.
+/// Peak resident memory of this process so far, in bytes.
 std::uint64_t peak_memory();
 
-/// From now on `memory_ran_out` knows of every `new` that failed, whoever called it: libraries catch
-/// what it throws and go on with less than they should have made. For programs, at their start.
+/// After this call `memory_ran_out` tells whether any `new` has failed. Libraries may catch
+/// std::bad_alloc and continue with incomplete results, so the program has to ask. Call it at
+/// program start.
 void watch_for_lack_of_memory();
 bool memory_ran_out();
 
-/// "4 GiB", "512 MiB", "3 GB" as bytes; nothing if it is no such size.
+/// Parses "4 GiB", "512 MiB" or "3 GB" as bytes; nothing if the text is not a size with a unit.
 std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
 /// "3.2 GiB", "47 MiB", "98 KiB", "512 bytes".

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Device and number: one file has the same whatever it is called.
+/// Device and inode number identify a file independently of its path.
 using FileId = std::pair<dev_t, ino_t>;
 
 std::optional<FileId> id_of(const fs::path& path) {

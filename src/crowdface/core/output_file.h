@@ -6,13 +6,14 @@
 
 namespace crowdface {
 
-/// The file that a user's path names, to be called before the work whose result goes there: links
-/// are followed, so that the file they lead to is replaced, not the link.
-/// \throws CannotCreate unless its folder is there and may be written to, and nothing but a regular
-/// file bears its name: no folder, no device, no pipe, no link that leads nowhere.
+/// Checks a path that a user has named for output, before the work starts. Symbolic links are
+/// followed, so that their target is replaced and not the link.
+/// \return the file to write.
+/// \throws CannotCreate if the folder does not exist or is not writable, or if the path exists and
+///         is not a regular file (a folder, device or pipe).
 std::filesystem::path output_file(const std::filesystem::path& path);
 
-/// \throws UsageError if an output is one of the inputs, under whatever name.
+/// \throws UsageError if an output is the same file as an input, even under another name.
 void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
                           const std::vector<std::filesystem::path>& outputs);
 

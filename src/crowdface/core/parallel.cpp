@@ -24,8 +24,8 @@
 namespace crowdface {
 namespace {
 
-/// Where threads of a library leave work that others of its threads take up. Debian's TBB and Embree
-/// are built without ThreadSanitizer, which has to be told of it; other builds do nothing here.
+/// Tells ThreadSanitizer that one thread hands work to another. Debian builds TBB and Embree
+/// without ThreadSanitizer, so it does not see their synchronisation. Does nothing in other builds.
 class HandOver {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -44,16 +44,16 @@ class HandOver {
 #endif
 };
 
-/// What the items of a loop share: they happen after what stands before the loop and before what
-/// follows it, but stay unordered among themselves, so that a race between two of them is reported.
-/// The first exception of an item is kept until the loop is over; items not begun by then are left
-/// out. An exception that TBB sees would cancel loops inside other items, ours as well as Embree's,
-/// and these would return half done as if all were well.
+/// Runs the items of a loop. For ThreadSanitizer, items happen after the code before the loop and
+/// before the code after it, but are unordered among themselves, so that races between items are
+/// reported. The first exception is kept until the loop ends, and items that have not started by
+/// then are skipped. TBB must not see exceptions: it would cancel loops nested in other items,
+/// including Embree's, and these would return incomplete results without an error.
 class LoopItems {
  public:
   ~LoopItems() { after_.take(); }
 
-  /// Once before the loop; of tasks that are added one by one, before each.
+  /// Call before the loop; with tasks that are added one by one, before each task.
   void begin() { before_.give(); }
 
   template <class Body>
@@ -69,7 +69,7 @@ class LoopItems {
     after_.give();
   }
 
-  /// After the loop. \throws the first exception of an item.
+  /// Call after the loop. \throws the first exception of an item.
   void end() {
     after_.take();
     if (error_) std::rethrow_exception(error_);
@@ -86,7 +86,7 @@ class LoopItems {
 struct ThreadLimit::Control {
   explicit Control(std::size_t threads)
       : limit(tbb::global_control::max_allowed_parallelism, threads) {}
-  tbb::global_control limit;  // copying one would end the limit with the copy
+  tbb::global_control limit;  // not copied: destroying a copy would end the limit
 };
 
 ThreadLimit::ThreadLimit(int threads) {
@@ -108,7 +108,7 @@ void detail::run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   if (blocks == 1) return body(0, count);
   LoopItems items;
   items.begin();
-  // Isolated: a thread that waits for this loop must not begin another heavy item of an outer one.
+  // Isolated: a thread that waits for this loop must not start another heavy item of an outer loop.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
       items.run([&] {
@@ -137,7 +137,9 @@ void detail::run_items(std::ptrdiff_t count, const std::function<void(std::ptrdi
 }
 
 struct BackgroundTasks::Group {
-  std::deque<std::function<void()>> pending;  // handed over by our own means, not by TBB's
+  // The closures. Kept here and not in TBB's tasks, so that ThreadSanitizer sees how threads
+  // receive them.
+  std::deque<std::function<void()>> pending;
   tbb::task_group tasks;
   LoopItems items;
 };

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// While it lives, parallel loops use at most `threads` threads (0: all the machine has).
+/// While the object lives, parallel loops use at most `threads` threads (0: no limit).
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -22,7 +22,7 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
-/// Threads parallel loops use at present.
+/// Number of threads that parallel loops currently use.
 int thread_count();
 
 namespace detail {
@@ -31,9 +31,10 @@ void run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
 void run_items(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body);
 }  // namespace detail
 
-/// Calls `body(begin, end)` for the fixed blocks [0, block), [block, 2·block), … of [0, count), in
-/// any order on any thread. The blocks do not depend on the thread count, so that a body that
-/// writes only its own block gives the same bits on any machine. An exception ends the loop.
+/// Calls `body(begin, end)` for the blocks [0, block), [block, 2·block), … of [0, count), in any
+/// order and on any thread. The blocks do not depend on the thread count, so a body that writes
+/// only its own block gives the same bits on every machine. After an exception, blocks that have
+/// not started are skipped and the first exception is rethrown.
 template <std::integral Count, class Body>
 void parallel_blocks(Count count, std::type_identity_t<Count> block, const Body& body) {
   detail::run_blocks(static_cast<std::ptrdiff_t>(count), static_cast<std::ptrdiff_t>(block),
@@ -42,13 +43,13 @@ void parallel_blocks(Count count, std::type_identity_t<Count> block, const Body&
                      });
 }
 
-/// Calls `body(i)` for each i in [0, count), one task each: for few, heavy items.
+/// Calls `body(i)` for each i in [0, count), one task per i. For a few heavy items.
 template <std::integral Count, class Body>
 void parallel_for_each(Count count, const Body& body) {
   detail::run_items(static_cast<std::ptrdiff_t>(count),
                     [&](std::ptrdiff_t i) { body(static_cast<Count>(i)); });
 }
-/// The same, one task for each of the blocks of `parallel_blocks`: for many, light items.
+/// The same with one task per block, as in `parallel_blocks`. For many light items.
 template <std::integral Count, class Body>
 void parallel_for_each(Count count, std::type_identity_t<Count> block, const Body& body) {
   parallel_blocks(count, block, [&](Count begin, Count end) {
@@ -56,18 +57,18 @@ void parallel_for_each(Count count, std::type_identity_t<Count> block, const Bod
   });
 }
 
-/// Work that is done beside what the caller does next, by threads that have nothing else to do, or
-/// while somebody waits for it.
+/// Tasks that run in parallel to the caller. Idle threads run them, and so does the thread that
+/// calls `wait`.
 class BackgroundTasks {
  public:
   BackgroundTasks();
-  ~BackgroundTasks();  ///< waits, and drops any exception
+  ~BackgroundTasks();  ///< waits for all tasks; drops exceptions
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 
   void run(std::function<void()> task);
-  /// Returns when all tasks are done. \throws the first exception of one; tasks that had not begun
-  /// by then are left out.
+  /// Returns when all tasks are done. \throws the first exception of a task; tasks that had not
+  /// started by then are skipped.
   void wait();
 
  private:
@@ -75,11 +76,12 @@ class BackgroundTasks {
   std::unique_ptr<Group> group_;
 };
 
-/// Sum of `term(begin, end)` over the fixed blocks of [0, count), added in block order.
+/// Sum of `term(begin, end)` over the blocks of [0, count), in block order. The result does not
+/// depend on the thread count.
 double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,
                     const std::function<double(std::ptrdiff_t, std::ptrdiff_t)>& term);
 
-/// Σ a_i b_i, each of those blocks in ascending order.
+/// Σ a_i b_i: each block is summed in ascending order, then the blocks are added in block order.
 double parallel_dot(const double* a, const double* b, std::ptrdiff_t count, std::ptrdiff_t block);
 
 }  // namespace crowdface

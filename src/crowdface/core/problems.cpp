@@ -9,7 +9,7 @@
 namespace crowdface {
 
 void Problems::add(ExitCode kind, std::string message) {
-  // The same problem met on two paths is told once.
+  // The same error can be found in two ways.
   if (contains(messages_, message)) return;
   messages_.push_back(std::move(message));
   kinds_.push_back(kind);

@@ -8,20 +8,22 @@
 
 namespace crowdface {
 
-/// Collects everything that is wrong with an input, so that a user sees all of it at once.
+/// Collects all errors of an input, so that the user sees them at once.
 class Problems {
  public:
-  /// Adds one problem; `message` is one line (or more), naming file, place, expected and found.
+  /// Adds an error. Repeated messages are dropped. \param message  one or more lines that name the
+  /// file, the place, what was expected and what was found.
   void add(ExitCode kind, std::string message);
   void add(const Error& error) { add(error.code(), error.what()); }
   bool empty() const { return messages_.empty(); }
   std::size_t size() const { return messages_.size(); }
   const std::vector<std::string>& messages() const { return messages_; }
 
-  /// The code of the most basic problem: 64 before 66 before 65 before any other.
+  /// The exit code of the most basic error: 64 before 66 before 65 before any other; 0 if there is
+  /// none.
   ExitCode code() const;
 
-  /// Throws one Error with every message, a line each, if there is any problem.
+  /// \throws RecoverableError with all messages, one per line, if there are any.
   void throw_if_any() const;
 
  private:

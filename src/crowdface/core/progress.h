@@ -9,14 +9,15 @@
 
 namespace crowdface {
 
-/// Shows how far a stage is: done/total, rate, time left. On a terminal one line that renews
-/// itself, elsewhere a log line every ten seconds. Silent when the log is quiet. Any thread may
-/// step it.
+/// Shows the progress of a stage: done/total, rate, time left. A terminal shows one line that is
+/// updated in place; otherwise a line is logged every ten seconds. Silent if the log level is
+/// kQuiet. `step` is thread-safe.
 class Progress {
  public:
-  /// \param stage  what is being done, such as "reading heads".
+  /// \param stage  name of the stage, such as "reading heads".
+  /// \param total  number of steps.
   Progress(std::string stage, std::size_t total);
-  /// Says how long the stage took.
+  /// Logs how long the stage took, if all steps are done.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What looks at files and reads them, of file.h, text_pieces.h and descriptor.h.
+// File tests and reading, declared in file.h, text_pieces.h and descriptor.h.
 #include <algorithm>
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \return 0 at the end of the file.
+/// Reads once. \return number of bytes; 0 at the end of the file.
 std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
                       const fs::path& path) {
   for (;;) {
@@ -50,11 +50,11 @@ void remove_if_there(const fs::path& path) {
 
 OpenedFile open_for_reading(const fs::path& path) {
   int fd = -1;
-  do {  // a pipe, which would be waited for, is told below
+  do {  // O_NONBLOCK: open() would wait for the writer of a pipe; the check below rejects pipes
     fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (fd < 0 && errno == EINTR);
   if (fd < 0) {
-    // Not the file's fault, but the machine's: the disk, or too many open files.
+    // These errors are caused by the machine (disk, memory, too many open files), not by the file.
     for (const int failure : {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, ESTALE}) {
       if (errno == failure) throw_with_reason<IoError>(path, "cannot be opened");
     }

@@ -6,12 +6,13 @@
 
 namespace crowdface {
 
-/// A function was called against its stated precondition: our own mistake, never a user's data (70).
+/// A caller broke a documented precondition: a bug in crowdface, not a mistake of the user. Exit
+/// code 70.
 struct BrokenPrecondition : Error {
   explicit BrokenPrecondition(const std::string& message) : Error(ExitCode::kBug, message) {}
 };
 
-/// Throws BrokenPrecondition with a message of these parts unless the condition holds.
+/// Throws BrokenPrecondition unless `condition` holds. \param parts  concatenated to the message.
 template <class... Parts>
 void require(bool condition, const Parts&... parts) {
   if (!condition) [[unlikely]] {

@@ -3,32 +3,38 @@
 
 namespace crowdface {
 
-// Whoever changes an algorithm so that bytes change raises the constant beside them and makes tests/golden
-// anew. What an older version made then counts as not done.
+// Version numbers of algorithms. When the output bytes of an algorithm change, raise its constant
+// and regenerate tests/golden. Results of an older version then count as not done.
 
-inline constexpr int kBlendVersion =
-    7;  ///< positions of a face's skin; in `settings` of every recipe
-inline constexpr int kPartsVersion =
-    5;  ///< where parts come to lie; in `settings` of heads with parts
-inline constexpr int kMirrorVersion =
-    1;  ///< the other side of each vertex; in `settings` where faces may be mirrored
-/// Entries of the cache, and so the faces made of them.
+/// Skin positions of a face; in the `settings` of every recipe.
+inline constexpr int kBlendVersion = 7;
+/// Placement of parts; in the `settings` of heads with parts.
+inline constexpr int kPartsVersion = 5;
+/// Mirror vertex of each vertex; in the `settings` where faces may be mirrored.
+inline constexpr int kMirrorVersion = 1;
+/// Cache entries of heads, and the faces made from them.
 inline constexpr int kPrepareVersion = 6;
-inline constexpr int kPatchVersion =
-    1;  ///< all heads' fields on patches, and the faces made of them
-/// Where casting finds faces to lie, and so the plans made there.
+/// Patch fields of all heads, and the faces made from them.
+inline constexpr int kPatchVersion = 1;
+/// Face positions in the sampling space, and the plans made there.
 inline constexpr int kFaceSpaceVersion = 1;
-/// What the cache keeps besides: neighbours, masks at vertices, samples and their cells, the other side.
+/// Further cache entries: neighbours, masks at vertices, samples and their cells, mirror vertices.
 inline constexpr int kSharedVersion = 1;
-/// A picture, what is found about a skin, or a mesh file of the same positions.
+/// Pictures, measurements of a skin, and mesh files of unchanged positions.
 inline constexpr int kFaceFilesVersion = 22;
-inline constexpr int kShapesVersion =
-    9;  ///< shapes carried to a face of the same positions, and shown
-inline constexpr int kPointsVersion = 1;       ///< points that follow a face of the same positions
-inline constexpr int kRigVersion = 1;          ///< joints that follow, and what is bound to them
-inline constexpr int kAttachmentsVersion = 5;  ///< attachments of a face of the same positions
-inline constexpr int kLevelsVersion = 1;       ///< levels of detail of the same heads
-inline constexpr int kTextureVersion = 3;      ///< textures of faces' own
-inline constexpr int kSheetVersion = 17;  ///< contact sheets and the gallery, of the same pictures
+/// Shapes transferred to a face of unchanged positions, and their pictures.
+inline constexpr int kShapesVersion = 9;
+/// Points that follow a face of unchanged positions.
+inline constexpr int kPointsVersion = 1;
+/// Joints that follow the face, and the skin weights bound to them.
+inline constexpr int kRigVersion = 1;
+/// Attachments of a face of unchanged positions.
+inline constexpr int kAttachmentsVersion = 5;
+/// Levels of detail of unchanged heads.
+inline constexpr int kLevelsVersion = 1;
+/// Blended textures of faces.
+inline constexpr int kTextureVersion = 3;
+/// Contact sheets and galleries of unchanged pictures.
+inline constexpr int kSheetVersion = 17;
 
 }  // namespace crowdface

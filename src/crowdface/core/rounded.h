@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// As numbers stand in plans and reports: to a ten-thousandth.
+/// Rounds to four decimals, as plans and reports do.
 inline double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
 }

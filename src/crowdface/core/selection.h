@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// Not more than `most` of some things, evenly chosen, in their order.
+/// At most `most` items, evenly spaced, in their original order.
 template <class Items>
 std::vector<std::ranges::range_value_t<Items>> some_of(const Items& all, std::size_t most) {
   const std::size_t count = std::min(all.size(), most);
@@ -17,7 +17,7 @@ std::vector<std::ranges::range_value_t<Items>> some_of(const Items& all, std::si
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
 }
-/// The value that `rank` others stand before in ascending order. \param rank  < values.size().
+/// The value at position `rank` (from 0) in ascending order. \param rank  < values.size().
 inline double value_of_rank(std::vector<double> values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), at, values.end());

@@ -5,13 +5,14 @@
 
 namespace crowdface {
 
-/// 0 up to `from`, 1 from `to` on, in between the cubic 3t² − 2t³: a soft edge without libm.
+/// 0 for x ≤ from, 1 for x ≥ to, and 3t² − 2t³ in between, with t = (x − from) / (to − from). Needs
+/// no libm.
 inline double smooth_step(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-/// 1 at 0, 0 at 1, level at both (Tukey's biweight). \param x  0 … 1
+/// Tukey's biweight (1 − x²)²: 1 at x = 0, 0 at x = 1, slope 0 at both. \param x  in [0, 1].
 inline double biweight(double x) {
   const double rest = 1 - x * x;
   return rest * rest;

@@ -23,8 +23,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// The power of ten of a number's first digit that is not zero: 2 for "123", -3 for "0.001",
-/// 998 for "0.1e999". (from_chars tells neither of too large and too small which it was.)
+/// The decimal exponent of the first nonzero digit: 2 for "123", -3 for "0.001", 998 for "0.1e999".
+/// Needed because from_chars reports overflow and underflow with the same error.
 long long decimal_exponent(std::string_view number) {
   if (number.starts_with('-')) number.remove_prefix(1);
   const std::size_t e = number.find_first_of("eE");
@@ -43,13 +43,13 @@ long long decimal_exponent(std::string_view number) {
   return leading + std::clamp(exponent, -kHuge, kHuge);
 }
 
-/// A character, or a byte that begins none.
+/// The UTF-8 character at `at`, or one byte if the bytes there are invalid.
 std::string_view character_at(std::string_view text, std::size_t at) {
   return text.substr(at, std::max<std::size_t>(utf8_length(text.substr(at)), 1));
 }
 
-/// Control characters (C0, DEL, C1), separators of lines, marks of direction, and bytes that are no
-/// UTF-8: what a terminal would obey, or show in another order.
+/// Whether a terminal would obey the character or reorder text: control characters (C0, DEL, C1),
+/// line separators, marks of text direction, and bytes that are not valid UTF-8.
 bool is_unprintable(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   const auto within = [](unsigned value, unsigned low, unsigned high) {
@@ -64,7 +64,7 @@ bool is_unprintable(std::string_view character) {
          (byte(1) == 0x81 && within(byte(2), 0xA6, 0xA9));  // U+200E, U+2028…, U+2066…
 }
 
-/// Adds a character, or its bytes in hexadecimal if no terminal should be given it.
+/// Appends a character, or its bytes as hexadecimal escapes if it is unprintable.
 void append_printable(std::string_view character, std::string& out) {
   if (!is_unprintable(character)) {
     out += character;
@@ -81,14 +81,15 @@ std::optional<double> parse_double(std::string_view text) {
     if (text.starts_with('-')) return std::nullopt;
   }
   if (text.empty()) return std::nullopt;
-  // from_chars would take "nan" and "inf"; a number starts with a digit, a point or a minus.
+  // Rejects "nan" and "inf", which from_chars accepts: a number starts with a digit, point or
+  // minus.
   const char first = text.front() == '-' && text.size() > 1 ? text[1] : text.front();
   if (!(first >= '0' && first <= '9') && first != '.') return std::nullopt;
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small to represent reads as zero; too large is no number.
+    // Underflow gives 0; overflow is an error.
     return decimal_exponent(text) < 0 ? std::optional<double>(0.0) : std::nullopt;
   }
   if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;

@@ -11,34 +11,36 @@
 
 namespace crowdface {
 
-/// The whole of `text` as a finite decimal number, or nothing. Never depends on the locale; a
-/// leading '+' is allowed, white space, hexadecimal, "nan" and "inf" are not.
+/// Parses the whole of `text` as a finite decimal number; nothing if that fails. Independent of the
+/// locale. A leading '+' is allowed; white space, hexadecimal, "nan" and "inf" are not.
 std::optional<double> parse_double(std::string_view text);
 
-/// The whole of `text` as an unsigned decimal integer, or nothing (sign, overflow, leftovers).
+/// Parses the whole of `text` as an unsigned decimal integer; nothing on a sign, overflow or
+/// trailing characters.
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);
 
-/// Shortest decimal text that reads back as exactly this number.
+/// The shortest decimal text that reads back as exactly `value`.
 std::string format_number(double value);
-/// Fixed notation with this many decimals.
+/// Fixed-point notation with `decimals` digits after the point.
 std::string format_fixed(double value, int decimals);
 
-/// At least this many digits, zeros in front: "0007".
+/// Pads with zeros to at least `digits` digits: "0007".
 std::string zero_padded(std::uint64_t number, std::size_t digits);
 
-/// The last of a number's hexadecimal digits, zeros in front: "00ff".
+/// The last `digits` hexadecimal digits, padded with zeros: "00ff".
 std::string hex(std::uint64_t number, std::size_t digits);
 
-/// A to Z made small, everything else as it is.
+/// Converts A–Z to lower case; other characters stay.
 std::string lower_case(std::string_view text);
 
-/// `text` as a terminal may be given it: bytes of control characters but for the line's end, of marks
-/// that turn the direction of writing, and of what is no UTF-8 become numbers in hexadecimal.
+/// Makes `text` safe for a terminal. Control characters other than line ends, line separators,
+/// marks of text direction and invalid UTF-8 become hexadecimal escapes.
 std::string printable(std::string_view text);
 
-/// `text` between double quotes, printable, line ends and quotes escaped too; long text is shortened.
+/// `text` in double quotes, printable. Line ends, quotes and backslashes are escaped too. Only the
+/// first 80 bytes are kept.
 std::string quoted(std::string_view text);
-/// The same; without it, std::quoted would be chosen for strings.
+/// Overloads: without them, overload resolution would choose std::quoted for these types.
 inline std::string quoted(const std::string& text) {
   return quoted(std::string_view(text));
 }
@@ -47,40 +49,41 @@ inline std::string quoted(const char* text) {
 }
 
 inline constexpr std::size_t kLongestName = 64;
-inline constexpr std::size_t kLongestId = 2 * kLongestName + 22;  ///< CROWD_FAMILY_NUMBER
-/// Whether it is a name that can be a file's on any system: at most `longest` letters (a–z), digits,
-/// '_', '-' and '.', not starting with '.', and not empty; nor __proto__, by which a script's objects
-/// keep what is none of theirs.
+inline constexpr std::size_t kLongestId = 2 * kLongestName + 22;  ///< form: CROWD_FAMILY_NUMBER
+/// Whether `text` can be a file name on any system: 1 to `longest` letters (A–Z, a–z), digits, '_',
+/// '-' and '.', not starting with '.'. "__proto__" is refused because in JavaScript it would set an
+/// object's prototype.
 bool is_name(std::string_view text, std::size_t longest = kLongestName);
 
-/// The candidate nearest to `word` by edit distance if it is near enough to be what was meant.
+/// The candidate with the least edit distance to `word`; nothing if none is close enough to be a
+/// typo.
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
 
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
-/// Whether a byte is the second or a later one of a UTF-8 character.
+/// Whether a byte is a continuation byte of UTF-8.
 inline bool is_utf8_continuation(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-/// Bytes of the UTF-8 character that `text`, not empty, starts with; 0 if it is none (RFC 3629: no
-/// overlong forms, no surrogates, nothing above U+10FFFF).
+/// Number of bytes of the UTF-8 character at the start of `text`; 0 if the bytes are invalid (RFC
+/// 3629: no overlong forms, no surrogates, nothing above U+10FFFF). \param text  not empty.
 std::size_t utf8_length(std::string_view text);
 
-/// Whether all of `text` is UTF-8. (A file's name may hold any bytes.)
+/// Whether all of `text` is valid UTF-8. (File names may hold any bytes.)
 bool is_utf8(std::string_view text);
 
-/// What stands between separators, be it nothing; of a text without one, all of it.
+/// The parts between separators, including empty parts. A text without a separator is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);
-/// The lines of a text without their ends.
+/// The lines of a text, without '\n'.
 std::vector<std::string_view> split_lines(std::string_view text);
 
-/// What stands between blanks, tabs and returns.
+/// The words of a text, separated by blanks, tabs and carriage returns.
 std::vector<std::string> words_of(std::string_view text);
 
-/// "a, b, c".
+/// Joins words: "a, b, c".
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 namespace detail {
@@ -101,7 +104,8 @@ void append(std::string& out, T value) {
 }
 }  // namespace detail
 
-/// All parts one after the other; numbers in shortest, locale-free form.
+/// Concatenates strings, characters and numbers. Numbers take the shortest form, independent of the
+/// locale.
 template <class... Parts>
 std::string concat(const Parts&... parts) {
   std::string out;

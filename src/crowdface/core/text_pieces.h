@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts that are made, written and read piece by piece: those of a large crowd need not be in memory.
+// Texts made, written and read in pieces, because the texts of a large crowd may not fit in memory.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,24 @@
 namespace crowdface {
 
 using TakePiece = std::function<void(std::string_view)>;
-/// A text: gives its pieces one after the other, the same text each time. What it is made of must
-/// outlive it.
+/// A function that passes the pieces of a text to `take`, the same text at every call. Everything
+/// the function refers to must outlive it.
 using TextPieces = std::function<void(const TakePiece& take)>;
 
-/// The texts of items 0 … count − 1 one after the other, made by several threads. \throws Interrupted
-/// where they are taken.
+/// The concatenated texts of items 0 … count − 1. Several threads call `item`. The returned
+/// function throws Interrupted after a signal.
 TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_t)> item);
 
 std::string joined(const TextPieces& text);
-/// What a file of it holds.
+/// Size and hash of the text.
 FileDigest digest_of(const TextPieces& text);
-/// Like `write_file` of the whole. \return what the file holds.
+/// Like `write_file` of the whole text. \return size and hash of the file.
 FileDigest write_file(const std::filesystem::path& path, const TextPieces& text);
 
-/// Reads a file from its beginning to its end. \throws MissingInput, IoError like read_file.
+/// Reads a file in pieces, from start to end. \throws MissingInput, IoError like read_file.
 void read_pieces(const std::filesystem::path& path, const TakePiece& take);
-/// Calls `use` with each line, without its end, and whether it had one: a last one may not.
+/// Calls `use` for each line, without its '\n'. \param use  `ended` is false for a last line that
+/// lacks its '\n'.
 void read_lines(const std::filesystem::path& path,
                 const std::function<void(std::string_view line, bool ended)>& use);
 

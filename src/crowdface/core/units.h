@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// What one unit of a mesh file is: a length.
+/// The length of one unit of a mesh file.
 struct LengthUnit {
   double mm = 10;
   bool operator==(const LengthUnit&) const = default;
@@ -19,22 +19,23 @@ inline constexpr LengthUnit LengthUnit::kCentimetre{10};
 inline constexpr LengthUnit LengthUnit::kMetre{1000};
 inline constexpr LengthUnit LengthUnit::kInch{25.4};
 
-/// Those that have a name.
+/// The units that have a name.
 inline constexpr std::array kLengthUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
                                             LengthUnit::kMetre, LengthUnit::kInch};
 
 inline double mm_per(LengthUnit unit) {
   return unit.mm;
 }
-/// "mm", "cm", "m" or "in"; of others a length, "2438.4 mm".
+/// "mm", "cm", "m" or "in"; for any other unit its length, such as "2438.4 mm".
 std::string name_of(LengthUnit unit);
-/// The unit of that name, or a length with its unit, such as "243.84 cm"; nothing if it is neither.
+/// Parses the name of a unit or a length with a unit, such as "243.84 cm"; nothing if the text is
+/// neither, or the length is outside 1e-6 mm … 1e9 mm.
 std::optional<LengthUnit> parse_length_unit(std::string_view text);
-/// Of mm, cm and m the unit in which `length` is nearest to `typical_mm`, as a ratio.
+/// The unit (mm, cm or m) in which `length` is nearest to `typical_mm`, measured as a ratio.
 LengthUnit nearest_unit(double length, double typical_mm);
-/// The unit in which `length` is `typical_mm`, to two digits.
+/// The unit that makes `length` equal to `typical_mm`, rounded to two significant digits.
 LengthUnit fitting_unit(double length, double typical_mm);
-/// A length with its unit, such as "8 mm" or "1.5cm", in millimetres; nothing if it is not one.
+/// Parses a length with its unit, such as "8 mm" or "1.5cm"; in millimetres, or nothing.
 std::optional<double> parse_length_mm(std::string_view text);
 
 /// A signed coordinate axis, such as +Y.
@@ -43,9 +44,9 @@ struct Axis {
   int sign = 1;   ///< +1 or −1
   bool operator==(const Axis&) const = default;
 };
-/// "+X", "-Z", "y"; nothing if it is not an axis.
+/// Parses "+X", "-Z" or "y"; nothing if the text is not an axis.
 std::optional<Axis> parse_axis(std::string_view text);
-/// "+Y".
+/// Sign and letter: "+Y".
 std::string name_of(Axis axis);
 
 }  // namespace crowdface

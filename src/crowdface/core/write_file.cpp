@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What writes of file.h and text_pieces.h.
+// Writing of files, declared in file.h and text_pieces.h.
 #include <atomic>
 #include <list>
 #include <set>
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporaryStart = ".crowdface-", kTemporaryEnd = ".tmp";
 
-/// A name of its own for this process; short, so that it fits wherever the final name does.
+/// A name that is unique in this process. Short, so that it is valid wherever the final name is.
 std::string temporary_name() {
   static std::atomic<unsigned> serial{0};
   return concat(kTemporaryStart, ::getpid(), '-', serial++, kTemporaryEnd);
@@ -36,14 +36,15 @@ bool is_temporary(const fs::path& path) {
 
 enum class Claim { kOurs, kTaken, kImpossible };
 
-/// Locks a file for as long as it is open, anywhere. Not every file system can.
+/// Locks an open file until it is closed, also against other machines. kImpossible if the file
+/// system does not support locks.
 Claim claim(int fd) {
   if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return Claim::kOurs;
   return errno == EWOULDBLOCK || errno == EINTR ? Claim::kTaken : Claim::kImpossible;
 }
 
-/// A temporary file beside its target. It stays locked until it bears its final name: whoever
-/// removes leftovers can tell it from that of a killed run, whatever machine that ran on.
+/// A temporary file beside its target. It stays locked until it is renamed, so that
+/// remove_leftovers, on any machine, can distinguish it from a file that a killed run left behind.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
@@ -57,7 +58,7 @@ class TemporaryFile {
       path_ = target;
       path_.replace_filename(temporary_name());
       file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-      if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or another machine's
+      if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or a file of another machine
       if (!file_.valid()) throw_with_reason<CannotCreate>(target, "cannot be created");
       if (still_there()) return;
     }
@@ -69,7 +70,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// The disk begins with what is written while the rest is: `finish` then has less to wait for.
+  /// Writes, and starts writing back to disk every 8 MiB, so that `finish` waits for less.
   void write(std::string_view bytes) {
     while (!bytes.empty()) {
       const std::string_view some = bytes.substr(0, kAtATime);
@@ -80,25 +81,25 @@ class TemporaryFile {
     }
   }
 
-  /// Does not wait for the disk; whether it worked shows in `finish`.
+  /// Asynchronous; `finish` reports errors.
   void start_writing_back() {
     ::sync_file_range(file_.get(), static_cast<off_t>(on_their_way_), 0, SYNC_FILE_RANGE_WRITE);
     on_their_way_ = written_;
   }
 
-  /// Nothing of it is in doubt any more when this returns.
+  /// Syncs the file and renames it to its target.
   void finish() {
     if (!sync(file_.get())) fail("writing to disk");
-    // What is large and was just written is not what the system should keep in memory.
+    // Large new files should not displace other data from the page cache.
     if (written_ >= kAtATime) ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
-    const Descriptor lock(::dup(file_.get()));  // keeps the lock beyond the close
+    const Descriptor lock(::dup(file_.get()));  // keeps the lock after the file is closed
     if (!file_.close()) fail("closing");
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail("renaming into place");
     path_.clear();
   }
 
  private:
-  /// Between its creation and its lock somebody may have taken it for a leftover.
+  /// Locks the file. False if remove_leftovers has locked or removed it before.
   bool still_there() const {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
@@ -118,17 +119,18 @@ class TemporaryFile {
   fs::path path_;
   Descriptor file_{-1};
   std::size_t written_ = 0;
-  std::size_t on_their_way_ = 0;  ///< to the disk
+  std::size_t on_their_way_ = 0;  ///< bytes for which writing back to disk has started
 };
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The new name must outlive a power cut, and a rename lives in the folder.
+/// Makes a rename survive a power cut: the new name is stored in the folder.
 void sync_directory(const fs::path& directory) {
   const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!descriptor.valid() && errno == EACCES) return;  // may be written to, but not read
+  if (!descriptor.valid() && errno == EACCES)
+    return;  // writable but not readable: cannot be synced
   if (!descriptor.valid() || !sync(descriptor.get())) {
     throw_with_reason<IoError>(directory, "cannot be synchronised");
   }
