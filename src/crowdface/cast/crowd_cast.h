@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crowdface/cast/cast_face.h"
-#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/constraints.h"
 #include "crowdface/cast/face_space.h"
 #include "crowdface/cast/families.h"
 

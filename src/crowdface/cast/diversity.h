@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
-#include <numeric>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <Eigen/Core>
 
 namespace crowdface {
 
@@ -55,55 +47,6 @@ struct BelievabilityOptions {
   double max_gap_mm = 0.5;  ///< how much farther lips may part than any head's, see SkinContacts
   /// Skin that may show its back beyond the target's, see skin_check.h.
   double max_exposed_mm2 = 3;
-};
-
-/// Why a candidate was thrown away.
-enum class Reason {
-  kMinDistance,         ///< too near to another face of the crowd
-  kMinDistanceToFaces,  ///< too near to an input head
-  kMaxWeight,           ///< one head has too much weight
-  kImplausible,         ///< farther from the heads' mean than believable
-  kFlipped,             ///< a part of the skin turned inside out or collapsed
-  kStretched,           ///< a part of the skin stretched too far
-  kIntersecting,        ///< the skin passes through itself where the target's does not
-  kGap,                 ///< skin that nearly touches in the heads parts farther than in any
-  kExposed,             ///< skin shows its back where it passes through other skin
-  kFamily,              ///< among another family, or too far from its own
-  kRejected,            ///< too like the face that a review rejected
-};
-constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;
-/// The config key that asks for it, where there is one.
-inline std::string_view name_of(Reason reason) {
-  constexpr std::string_view kNames[kReasonCount] = {"min_distance",
-                                                     "min_distance_to_faces",
-                                                     "max_weight",
-                                                     "max_deviation",
-                                                     "max_flipped",
-                                                     "max_stretch",
-                                                     "max_intersecting",
-                                                     "max_gap",
-                                                     "max_exposed",
-                                                     "family",
-                                                     "min_distance_to_rejected"};
-  return kNames[static_cast<std::size_t>(reason)];
-}
-
-/// How many candidates were thrown away, by reason.
-struct Rejections {
-  std::array<std::uint64_t, kReasonCount> count = {};
-  void add(Reason reason, std::uint64_t times = 1) {
-    count[static_cast<std::size_t>(reason)] += times;
-  }
-  void add(const Rejections& other) {
-    for (std::size_t r = 0; r < kReasonCount; ++r) count[r] += other.count[r];
-  }
-  std::uint64_t total() const {
-    return std::accumulate(count.begin(), count.end(), std::uint64_t{0});
-  }
-  /// The reason with most rejections, of equals the first.
-  Reason most_frequent() const {
-    return static_cast<Reason>(std::ranges::max_element(count) - count.begin());
-  }
 };
 
 }  // namespace crowdface

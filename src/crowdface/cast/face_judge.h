@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/constraints.h"
 #include "crowdface/cast/face_point_index.h"
 #include "crowdface/cast/plausibility.h"
 #include "crowdface/cast/proxy_skin.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "crowdface/cast/constraints.h"
 #include "crowdface/cast/crowd_so_far.h"
-#include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_judge.h"
 
 namespace crowdface {

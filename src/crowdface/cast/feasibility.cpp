@@ -26,37 +26,32 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   Remedy remedy;
   remedy.binding = shortfall.rejections.most_frequent();
   Casting easier = casting;
-  double* distance = nullptr;
   if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;
   easier.reviews.clear();
   easier.count = std::min(casting.count, kMostTried);
   remedy.tried = easier.count;
-  if (remedy.binding == Reason::kMinDistance) {
-    distance = &easier.diversity.min_distance_mm;
-  } else if (remedy.binding == Reason::kMinDistanceToFaces) {
-    distance = &easier.diversity.min_distance_to_faces_mm;
-  } else {
-    return remedy;
-  }
+  const Constraint& constraint = constraint_of(remedy.binding);
+  if (!constraint.is_distance()) return remedy;
+  double& distance = easier.diversity.*constraint.diversity;
   // Faces fill a space of about five dimensions, so that many more fit at a little less distance.
-  double works = 0, fails = *distance;
+  double works = 0, fails = distance;
   double next = fails * std::pow((static_cast<double>(shortfall.reached) + 0.5) /
                                      (static_cast<double>(easier.count) + 1),
                                  0.2);
   next = std::min(next, fails);
   for (std::uint64_t draws = 0; draws < kMostDraws || works == 0;) {
-    *distance = whole_hundredths(next);
-    if (*distance <= works) break;
+    distance = whole_hundredths(next);
+    if (distance <= works) break;
     const FaceJudge judge(space, easier.diversity, believability, skin);
     const CrowdCast cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() +
              cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidates_for(1));
     if (tried) tried();
     if (cast.shortfall) {
-      fails = *distance;
+      fails = distance;
       next = works > 0 ? std::sqrt(works * fails) : 0.7 * fails;
     } else {
-      works = *distance;
+      works = distance;
       remedy.largest_mm = works;
       next = std::sqrt(works * fails);
     }

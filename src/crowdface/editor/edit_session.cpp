@@ -2,7 +2,6 @@
 #include "crowdface/editor/edit_session.h"
 
 #include <algorithm>
-#include <array>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
@@ -26,38 +25,7 @@ Config with_fitted_levels(Config config) {
 }
 
 std::string sentence(Reason reason, const Config& config) {
-  struct Limit {
-    Reason reason;
-    std::string_view sentence;
-    double value;
-    std::string_view unit = {};
-  };
-  const BelievabilityOptions& limits = config.believability;
-  const std::array all = {
-      Limit{Reason::kMaxWeight,
-            "one head has more weight in a region than diversity.max_weight allows",
-            config.diversity.max_weight},
-      Limit{Reason::kMinDistanceToFaces, "nearer to a head than diversity.min_distance_to_faces",
-            config.diversity.min_distance_to_faces_mm, " mm"},
-      Limit{Reason::kImplausible, "farther from the heads' mean than believability.max_deviation",
-            limits.max_deviation},
-      Limit{Reason::kStretched, "skin is stretched more than believability.max_stretch",
-            limits.max_stretch},
-      Limit{Reason::kFlipped, "more of the skin is turned over than believability.max_flipped",
-            limits.max_flipped},
-      Limit{Reason::kIntersecting,
-            "more of the skin passes through other skin than believability.max_intersecting",
-            limits.max_intersecting},
-      Limit{Reason::kExposed,
-            "skin that passes through other skin shows more of its back than "
-            "believability.max_exposed",
-            limits.max_exposed_mm2, " mm²"},
-      Limit{Reason::kGap,
-            "lips, or other skin that nearly touches, part by more than believability.max_gap",
-            limits.max_gap_mm, " mm"}};
-  const auto found = std::ranges::find(all, reason, &Limit::reason);
-  if (found == all.end()) return concat("believability.", name_of(reason));
-  return concat(found->sentence, " (", found->value, found->unit, ")");
+  return describe_broken(reason, config.diversity, config.believability);
 }
 
 /// The faces in the job's output folder, if it holds a plan that was cast of these heads, masks and

@@ -4,18 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/capacity_forecast.h"
 #include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
-#include "crowdface/core/error.h"
-#include "crowdface/core/log.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
-#include "crowdface/core/text.h"
 #include "crowdface/heads/kept_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
+#include "crowdface/run/shortfall.h"
 
 namespace crowdface {
 namespace {
@@ -99,143 +96,6 @@ std::vector<FamilyReport> report_families(const Config& config, const CrowdCast&
     reports.push_back(std::move(report));
   }
   return reports;
-}
-
-std::string asked_of(const Config& config, Reason reason) {
-  const DiversityOptions& diversity = config.diversity;
-  switch (reason) {
-    case Reason::kMinDistance:
-      return concat("diversity.min_distance, ", diversity.min_distance_mm, " mm");
-    case Reason::kMinDistanceToFaces:
-      return concat("diversity.min_distance_to_faces, ", diversity.min_distance_to_faces_mm, " mm");
-    case Reason::kRejected:
-      return "a distance from the faces that reviews rejected (diversity.min_distance_to_rejected)";
-    case Reason::kMaxWeight:
-      return concat("diversity.max_weight, ", diversity.max_weight);
-    case Reason::kImplausible:
-      return concat("believability.max_deviation, ", config.believability.max_deviation);
-    case Reason::kFamily:
-      return "what keeps families together";
-    case Reason::kGap:
-    case Reason::kExposed:
-    case Reason::kStretched:
-    case Reason::kFlipped:
-    case Reason::kIntersecting:
-      break;
-  }
-  return concat("believability.", name_of(reason));
-}
-
-/// Tells the user early, and once, that a crowd may not get full.
-class ScarcityWarning {
- public:
-  explicit ScarcityWarning(const Casting& casting) : casting_(casting) {}
-
-  void face_joined(const Rejections& thrown) {
-    ++cast_;
-    if (foreseen_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
-    forecast_.add(thrown.count[static_cast<std::size_t>(Reason::kMinDistance)],
-                  static_cast<std::uint64_t>(casting_.diversity.candidates_for(cast_)));
-    const auto faces = forecast_.faces();
-    const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
-    if (faces && *faces < static_cast<double>(casting_.count)) {
-      foreseen_ = true;
-      log_warning(concat("roughly ", about(*faces),
-                         " faces, a third to three times as many, can be ",
-                         casting_.diversity.min_distance_mm, " mm apart, not ", casting_.count,
-                         ": a smaller diversity.min_distance fits more (crowdface plan --estimate "
-                         "tells which)"));
-    } else if (!scarce_ && thrown.total() >= attempts / 5) {
-      scarce_ = true;
-      log_info(concat("faces are getting scarce: number ", cast_, " of ", casting_.count, " took ",
-                      thrown.total(),
-                      " candidates; the crowd may need a smaller "
-                      "diversity.min_distance"));
-    }
-  }
-
- private:
-  /// With one digit that counts: 3,480 is about 3,000.
-  static std::uint64_t about(double count) {
-    const double unit = std::pow(10, std::floor(std::log10(count)));
-    return static_cast<std::uint64_t>(std::round(count / unit) * unit);
-  }
-
-  const Casting& casting_;
-  CapacityForecast forecast_;
-  std::uint64_t cast_ = 0;
-  bool foreseen_ = false;
-  bool scarce_ = false;
-};
-
-/// What a user can change, most promising first.
-std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
-  std::vector<std::string> advice;
-  if (remedy.largest_mm) {
-    const bool all = remedy.tried == config.crowd.count;
-    advice.push_back(concat("the largest ", name_of(remedy.binding), " with which ",
-                            all ? "all " : "the first ", remedy.tried, " were cast in a trial: ",
-                            *remedy.largest_mm, " mm", all ? "" : "; so many more need less"));
-  }
-  if (remedy.binding == Reason::kMinDistance) {
-    if (config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
-      advice.emplace_back("mode: spread fits more faces at the same distance");
-    } else {
-      advice.emplace_back("a larger pool");
-    }
-    advice.emplace_back("more heads, or regions blended apart");
-    advice.emplace_back("a wider range of smoothness, or a smaller pull");
-  } else if (remedy.binding == Reason::kMinDistanceToFaces ||
-             remedy.binding == Reason::kMaxWeight) {
-    advice.emplace_back("a larger pull or distribution: uniform, which mix more heads into a face");
-    advice.emplace_back("another range of smoothness");
-  } else if (remedy.binding == Reason::kRejected) {
-    advice.emplace_back("a smaller min_distance_to_rejected");
-  } else if (remedy.binding == Reason::kFamily) {
-    advice.emplace_back(
-        "another max_distance or min_distance of the family, fewer members or families");
-    advice.emplace_back("more heads, so that families have more room between them");
-    if (std::any_of(config.families.begin(), config.families.end(), [](const auto& family) {
-          return family.age.low != 0 || family.age.high != 0;
-        })) {
-      advice.emplace_back("a smaller range of age");
-    }
-  } else {
-    advice.emplace_back("extrapolation nearer to 1");
-    advice.emplace_back("a larger limit under believability");
-  }
-  return advice;
-}
-
-[[noreturn]] void tell_shortfall(const Config& config, const Remedy& remedy,
-                                 const Shortfall& shortfall) {
-  const std::uint64_t thrown = shortfall.rejections.total();
-  const std::uint64_t by_main =
-      shortfall.rejections.count[static_cast<std::size_t>(remedy.binding)];
-  std::string message = concat(config.file.string(), ": ");
-  if (!shortfall.family.empty()) {
-    message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
-                      "within max_distance of a founder, min_distance apart and nearer to each ",
-                      "other than to everyone else (most candidates failed by ",
-                      asked_of(config, remedy.binding), ")");
-  } else if (!shortfall.reviewed.empty()) {
-    message += concat(shortfall.reviewed, ", which the review rejects, cannot be drawn anew: ",
-                      asked_of(config, remedy.binding), ", cannot be kept");
-  } else {
-    message += concat(
-        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
-        ", cannot be kept; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
-  }
-  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
-    message += concat(" (for the next one ", by_main, " of ", thrown,
-                      " candidates were thrown away for that)");
-  }
-  if (shortfall.kind >= 0) {
-    const auto kind = static_cast<std::size_t>(shortfall.kind);
-    message += concat("; the next one is of the group ", config.groups[kind].name);
-  }
-  for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
-  throw Unsatisfiable(message);
 }
 
 /// What the plan has of each face with four decimals has no more here: whoever takes the plan tells the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/constraints.h"
 
 #include <set>
 #include <string>
@@ -26,6 +26,21 @@ TEST(Rejections, EveryReasonIsCountedApart) {
   }
   EXPECT_EQ(names.size(), kReasonCount);
   EXPECT_EQ(all.total(), 3 * kReasonCount);
+}
+
+TEST(Constraints, MessagesNameTheKeyAndItsLimit) {
+  DiversityOptions diversity;
+  diversity.min_distance_mm = 1.25;
+  BelievabilityOptions believability;
+  believability.max_exposed_mm2 = 4.5;
+  EXPECT_EQ(describe(Reason::kMinDistance, diversity, believability),
+            "diversity.min_distance, 1.25 mm");
+  EXPECT_EQ(describe_broken(Reason::kExposed, diversity, believability),
+            "skin that passes through other skin shows more of its back than "
+            "believability.max_exposed (4.5 mm²)");
+  for (std::size_t r = 0; r < kReasonCount; ++r) {
+    EXPECT_FALSE(constraint_of(static_cast<Reason>(r)).advice.empty()) << r;
+  }
 }
 
 }  // namespace

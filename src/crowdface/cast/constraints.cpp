@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/constraints.h"
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Advice = std::string_view;
+
+constexpr Advice kRoom[] = {"more heads, or regions blended apart",
+                            "a wider range of smoothness, or a smaller pull"};
+constexpr Advice kMixture[] = {
+    "a larger pull or distribution: uniform, which mix more heads into a face",
+    "another range of smoothness"};
+constexpr Advice kShape[] = {"extrapolation nearer to 1", "a larger limit under believability"};
+constexpr Advice kFamilies[] = {
+    "another max_distance or min_distance of the family, fewer members or families",
+    "more heads, so that families have more room between them"};
+constexpr Advice kReview[] = {"a smaller min_distance_to_rejected"};
+
+using Diversity = DiversityOptions;
+using Believability = BelievabilityOptions;
+
+constexpr std::array<Constraint, kReasonCount> kConstraints = {{
+    {Reason::kMinDistance, "diversity", "min_distance", &Diversity::min_distance_mm, nullptr, " mm",
+     "nearer to another face than", kRoom},
+    {Reason::kMinDistanceToFaces, "diversity", "min_distance_to_faces",
+     &Diversity::min_distance_to_faces_mm, nullptr, " mm", "nearer to a head than", kMixture},
+    {Reason::kMaxWeight, "diversity", "max_weight", &Diversity::max_weight, nullptr, "",
+     "one head has more weight in a region than", kMixture},
+    {Reason::kImplausible, "believability", "max_deviation", nullptr, &Believability::max_deviation,
+     "", "farther from the heads' mean than", kShape},
+    {Reason::kFlipped, "believability", "max_flipped", nullptr, &Believability::max_flipped, "",
+     "more of the skin is turned over than", kShape},
+    {Reason::kStretched, "believability", "max_stretch", nullptr, &Believability::max_stretch, "",
+     "skin is stretched more than", kShape},
+    {Reason::kIntersecting, "believability", "max_intersecting", nullptr,
+     &Believability::max_intersecting, "", "more of the skin passes through other skin than",
+     kShape},
+    {Reason::kGap, "believability", "max_gap", nullptr, &Believability::max_gap_mm, " mm",
+     "lips, or other skin that nearly touches, part by more than", kShape},
+    {Reason::kExposed, "believability", "max_exposed", nullptr, &Believability::max_exposed_mm2,
+     " mm²", "skin that passes through other skin shows more of its back than", kShape},
+    {.reason = Reason::kFamily, .section = "", .key = "family", .advice = kFamilies},
+    {.reason = Reason::kRejected,
+     .section = "diversity",
+     .key = "min_distance_to_rejected",
+     .advice = kReview},
+}};
+
+constexpr bool constraints_are_in_order() {
+  for (std::size_t r = 0; r < kReasonCount; ++r) {
+    if (kConstraints[r].reason != static_cast<Reason>(r)) return false;
+  }
+  return true;
+}
+static_assert(constraints_are_in_order(), "every Reason has its row, in the enumeration's order");
+
+std::string full_key(const Constraint& constraint) {
+  return concat(constraint.section, '.', constraint.key);
+}
+
+/// The limit with its unit.
+std::string limit_of(const Constraint& constraint, const DiversityOptions& diversity,
+                     const BelievabilityOptions& believability) {
+  const double limit = constraint.diversity != nullptr ? diversity.*constraint.diversity
+                                                       : believability.*constraint.believability;
+  return concat(limit, constraint.unit);
+}
+
+}  // namespace
+
+const Constraint& constraint_of(Reason reason) {
+  return kConstraints[static_cast<std::size_t>(reason)];
+}
+
+std::string describe(Reason reason, const DiversityOptions& diversity,
+                     const BelievabilityOptions& believability) {
+  if (reason == Reason::kFamily) return "what keeps families together";
+  const Constraint& constraint = constraint_of(reason);
+  if (reason == Reason::kRejected) {
+    return concat("a distance from the faces that reviews rejected (", full_key(constraint), ")");
+  }
+  return concat(full_key(constraint), ", ", limit_of(constraint, diversity, believability));
+}
+
+std::string describe_broken(Reason reason, const DiversityOptions& diversity,
+                            const BelievabilityOptions& believability) {
+  const Constraint& constraint = constraint_of(reason);
+  return concat(constraint.broken, ' ', full_key(constraint), " (",
+                limit_of(constraint, diversity, believability), ")");
+}
+
+}  // namespace crowdface

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/shortfall.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// With one digit that counts: 3,480 is about 3,000.
+std::uint64_t about(double count) {
+  const double unit = std::pow(10, std::floor(std::log10(count)));
+  return static_cast<std::uint64_t>(std::round(count / unit) * unit);
+}
+
+std::string asked_of(const Config& config, Reason reason) {
+  return describe(reason, config.diversity, config.believability);
+}
+
+/// What a user can change, most promising first.
+std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
+  std::vector<std::string> advice;
+  if (remedy.largest_mm) {
+    const bool all = remedy.tried == config.crowd.count;
+    advice.push_back(concat("the largest ", name_of(remedy.binding), " with which ",
+                            all ? "all " : "the first ", remedy.tried, " were cast in a trial: ",
+                            *remedy.largest_mm, " mm", all ? "" : "; so many more need less"));
+  }
+  if (remedy.binding == Reason::kMinDistance &&
+      config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
+    advice.emplace_back("mode: spread fits more faces at the same distance");
+  }
+  for (const std::string_view line : constraint_of(remedy.binding).advice) {
+    advice.emplace_back(line);
+  }
+  if (remedy.binding == Reason::kFamily &&
+      std::ranges::any_of(config.families, [](const auto& family) {
+        return family.age != Range{0, 0};
+      })) {
+    advice.emplace_back("a smaller range of age");
+  }
+  return advice;
+}
+
+}  // namespace
+
+void ScarcityWarning::face_joined(const Rejections& thrown) {
+  ++cast_;
+  if (foreseen_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
+  forecast_.add(thrown.of(Reason::kMinDistance),
+                static_cast<std::uint64_t>(casting_.diversity.candidates_for(cast_)));
+  const auto faces = forecast_.faces();
+  const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
+  if (faces && *faces < static_cast<double>(casting_.count)) {
+    foreseen_ = true;
+    log_warning(concat("roughly ", about(*faces), " faces, a third to three times as many, can be ",
+                       casting_.diversity.min_distance_mm, " mm apart, not ", casting_.count,
+                       ": a smaller diversity.min_distance fits more (crowdface plan --estimate "
+                       "tells which)"));
+  } else if (!scarce_ && thrown.total() >= attempts / 5) {
+    scarce_ = true;
+    log_info(concat("faces are getting scarce: number ", cast_, " of ", casting_.count, " took ",
+                    thrown.total(),
+                    " candidates; the crowd may need a smaller diversity.min_distance"));
+  }
+}
+
+void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall) {
+  const std::uint64_t thrown = shortfall.rejections.total();
+  const std::uint64_t by_main = shortfall.rejections.of(remedy.binding);
+  std::string message = concat(config.file.string(), ": ");
+  if (!shortfall.family.empty()) {
+    message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
+                      "within max_distance of a founder, min_distance apart and nearer to each ",
+                      "other than to everyone else (most candidates failed by ",
+                      asked_of(config, remedy.binding), ")");
+  } else if (!shortfall.reviewed.empty()) {
+    message += concat(shortfall.reviewed, ", which the review rejects, cannot be drawn anew: ",
+                      asked_of(config, remedy.binding), ", cannot be kept");
+  } else {
+    message += concat(
+        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
+        ", cannot be kept; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
+  }
+  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
+    message += concat(" (for the next one ", by_main, " of ", thrown,
+                      " candidates were thrown away for that)");
+  }
+  if (shortfall.kind >= 0) {
+    const auto kind = static_cast<std::size_t>(shortfall.kind);
+    message += concat("; the next one is of the group ", config.groups[kind].name);
+  }
+  for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
+  throw Unsatisfiable(message);
+}
+
+}  // namespace crowdface

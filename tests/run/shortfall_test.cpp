@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/shortfall.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/log.h"
+
+#include "support/crowd_files.h"
+#include "support/temporary_folder.h"
+
+namespace crowdface {
+namespace {
+
+using testing::read_text;
+using testing::TemporaryFolder;
+
+TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log";
+  Casting casting;
+  casting.count = 10;
+  casting.diversity.min_distance_mm = 1;
+  ScarcityWarning warning(casting);
+  Rejections few, many;
+  few.add(Reason::kMinDistance, 3);
+  many.add(Reason::kMinDistance, static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5);
+  add_log_file(path);
+  warning.face_joined(few);
+  warning.face_joined(many);
+  warning.face_joined(many);
+  close_log_file();
+  const std::string log = read_text(path);
+  const auto first = log.find("faces are getting scarce: number 2 of 10 took 200 candidates");
+  EXPECT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("getting scarce", first + 20), std::string::npos) << log;
+}
+
+}  // namespace
+}  // namespace crowdface
