@@ -283,10 +283,6 @@ class AttachmentDrawing {
 
 }  // namespace
 
-bool is_called(const AttachmentItem& item, const std::string& word) {
-  return item.kind == word || item.name == word || item.colour == word;
-}
-
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected) {
   AttachmentDrawing drawing(draw, groups);

@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/attachment_item.h"
 #include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/typical_head.h"
 
 namespace crowdface {
-
-/// What may sit on a face.
-struct AttachmentItem {
-  std::string name, kind;
-  std::vector<std::string> tags;      ///< only for faces whose typical_head has all of these
-  double share = 1;                   ///< against the others of its kind
-  std::vector<std::string> excludes;  ///< names and kinds of what it does not go with
-  std::string colour = {};            ///< what goes together in one face and runs in families
-};
 
 /// All that may sit on the faces of a crowd.
 struct AttachmentDraw {
@@ -31,9 +23,6 @@ struct AttachmentDraw {
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< their names: parents may be heads
 };
-
-/// What an attachment counts for: its kind, name and colour.
-bool is_called(const AttachmentItem& item, const std::string& word);
 
 /// Gives each face of a crowd its attachments, by name, in the order of the items: of each kind at most one,
 /// drawn by the face's own index, or its id if it is not sampled, and by the kind, so that neither later faces

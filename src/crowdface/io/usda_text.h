@@ -11,9 +11,6 @@
 
 namespace crowdface {
 
-/// How a USD mesh is to be subdivided when it is shown.
-enum class Subdivision { kNone, kCatmullClark };
-
 /// A name as USD allows it for a prim: letters, digits and '_', no digit first.
 std::string usda_name(std::string_view text);
 

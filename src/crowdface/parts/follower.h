@@ -6,14 +6,9 @@
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/eye_socket.h"
 #include "crowdface/parts/part_list.h"
+#include "crowdface/parts/part_options.h"
 
 namespace crowdface {
-
-/// What a rigid part looks like in a generated face.
-enum class PartShape {
-  kTarget,  ///< as in the target
-  kBlend,   ///< as blended like skin (Eq. 7)
-};
 
 /// Lets the parts of a head go along with its skin after blending. How they hang on the skin is found
 /// once, on the mean head, and measured once on each head (docs/parts.md says what a face then costs).

@@ -12,12 +12,6 @@
 
 namespace crowdface {
 
-/// What becomes of lips, and of other skin that nearly touches skin, in a generated face.
-enum class Contacts {
-  kAuto,  ///< they are as far apart as in the target and the sources
-  kNone,  ///< as blended (Eq. 7)
-};
-
 /// Where skin nearly touches skin. Lips are near each other in space and far along the surface, so
 /// blending parts them or pushes one into the other. Their gap is measured at places some millimetres
 /// apart, and brought to what it should be by a smooth displacement of the skin around them.
