@@ -16,14 +16,16 @@
 namespace crowdface {
 namespace {
 
-/// Triangles so many edges apart are of one sheet if they face alike: the least cosine.
+/// Triangles at most kSheetRings edges apart belong to one sheet. Two such triangles face alike if
+/// the cosine between their normals is at least kAlike.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 
-/// Leaves of dense meshes are small: no more than some of them side by side are looked through.
+/// Upper limit of both search distances, in mean leaf sizes. On a dense mesh, leaves are small, and
+/// larger distances would give too many pairs of leaves.
 constexpr double kMostLeaves = 3;
 
-/// Of a leaf with itself: each pair once.
+/// Candidates of a leaf paired with itself: each pair of triangles once.
 constexpr std::uint64_t kOnce = [] {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < LeafBoxes::kCount; ++i) {
@@ -34,7 +36,7 @@ constexpr std::uint64_t kOnce = [] {
   return bits;
 }();
 
-/// Which triangles are how many edges from one.
+/// Finds the triangles a few edges away from a triangle.
 class Rings {
  public:
   Rings(const std::vector<Triangle>& triangles, Index vertex_count)
@@ -42,7 +44,7 @@ class Rings {
         around_(topology_of(triangles, vertex_count)),
         seen_(triangles.size(), kNoIndex) {}
 
-  /// Those within kSheetRings, the one itself included.
+  /// Returns the triangles within kSheetRings edges, including `from`.
   std::span<const std::uint32_t> around(std::uint32_t from) {
     reached_ = {from};
     seen_[from] = from;
@@ -65,11 +67,12 @@ class Rings {
  private:
   const std::vector<Triangle>& triangles_;
   FacesAround around_;
-  std::vector<std::uint32_t> seen_;  ///< #triangles: from which
+  /// #triangles: the triangle whose search reached this one last
+  std::vector<std::uint32_t> seen_;
   std::vector<std::uint32_t> reached_;
 };
 
-/// Diagonals of the leaves' boxes, on average.
+/// Returns the mean diagonal of the leaves' boxes.
 double mean_leaf_size(const TriangleTree& tree, const SingleRows& points) {
   double sum = 0;
   for (const LeafCorners& corners : tree.corners) {
@@ -115,14 +118,17 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
     far.emplace_back(corners, single, facing / 2);
     normals.emplace_back(corners, single);
   }
-  std::vector<std::uint32_t> place(numbered.size(), kNoIndex);  // in the leaves' order
+  // position of each triangle in the order of the leaves
+  std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());
-  std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());  // of the leaf at hand
+  // #leaves: bits for the current leaf `one`
+  std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);
     for (const std::uint32_t other : others) of_sheet[other] = {0, 0};
     const auto ones = tree_.leaf(one);
+    // Mark the triangles on the same sheet: few edges apart, and joined at a vertex.
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.around(ones[k])) {
         if (place[other] == kNoIndex) continue;
@@ -135,6 +141,7 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
     }
     for (const std::uint32_t other : others) {
       const auto& [few_edges, joined] = of_sheet[other];
+      // Choose the candidates of each pair of leaves.
       const std::uint64_t once = one == other ? kOnce : ~std::uint64_t{0};
       std::uint64_t facing_it = overlapping(far[one], far[other]);
       if (facing_it != 0) facing_it &= ~facing_alike(normals[one], normals[other], 0);

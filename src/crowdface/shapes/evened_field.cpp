@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// Means of a field over the cells of a grid.
+/// Averages of a vector field on a grid, with trilinear weights.
 class CellMeans {
  public:
   CellMeans(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double cell)
@@ -34,7 +34,7 @@ class CellMeans {
       node.weight += weight;
     });
   }
-  /// At a place to which something was added.
+  /// Returns the average at a position where a sample was added.
   Eigen::Vector3d at(const Eigen::Vector3d& place) const {
     Node mean;
     visit(place, [&](std::size_t at, double weight) {
@@ -75,7 +75,8 @@ class CellMeans {
   Eigen::Vector3d low_;
   double cell_;
   std::array<std::size_t, 3> nodes_a_side_;
-  std::vector<std::uint32_t> number_;  ///< of a node; most hear of nothing and have none
+  /// index into `nodes_`; kNoIndex for the many nodes without samples
+  std::vector<std::uint32_t> number_;
   std::vector<Node> nodes_;
 };
 
@@ -96,7 +97,7 @@ bool EvenedField::hears(const Eigen::Vector3d& place) const {
   return in_reach(place, none_ + cell_);
 }
 
-/// To the nearest of the places around which it is evened out.
+/// Returns the distance to the nearest centre.
 double EvenedField::distance(const Eigen::Vector3d& place) const {
   double least = std::numeric_limits<double>::max();
   for (const Eigen::Vector3d& other : around_) {

@@ -11,27 +11,30 @@
 
 namespace crowdface {
 
-/// Vectors at scattered places, evened out near some of them.
+/// Smooths vectors at scattered positions, near given centres only.
 class EvenedField {
  public:
-  /// \param around  the places near which it is evened out; none: nowhere
-  /// \param cell    over which
-  /// \param whole   so near to those a vector becomes the mean around it,
-  /// \param none    and so far from them it stays
+  /// \param around  The centres. If there are none, nothing changes.
+  /// \param cell    Cell size of the grid over which vectors are averaged.
+  /// \param whole   Up to this distance from a centre, a vector is replaced by the average.
+  /// \param none    From this distance on, a vector stays as it is. Between the two the effect
+  ///                fades.
   EvenedField(std::vector<Eigen::Vector3d> around, double cell, double whole, double none);
 
-  /// Whether what lies at a place may have a say.
+  /// Returns whether a sample at this position can affect the result.
   bool hears(const Eigen::Vector3d& place) const;
 
   struct Sample {
-    std::uint32_t number;  ///< the caller's
+    std::uint32_t number;  ///< an index of the caller's choice
     Eigen::Vector3d place, value;
   };
   struct Change {
     std::uint32_t number;
     Eigen::Vector3d by;
   };
-  /// What becomes of samples that are heard; of those which stay nothing.
+  /// Returns the changes of the samples nearer than `none` to a centre.
+  ///
+  /// \param samples  Only samples at positions for which `hears` is true.
   std::vector<Change> changes(std::span<const Sample> samples) const;
 
  private:
@@ -39,7 +42,7 @@ class EvenedField {
   double distance(const Eigen::Vector3d& place) const;
 
   std::vector<Eigen::Vector3d> around_;
-  Eigen::AlignedBox3d box_;  ///< of those
+  Eigen::AlignedBox3d box_;  ///< bounding box of the centres
   double cell_, whole_, none_;
 };
 

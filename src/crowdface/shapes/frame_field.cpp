@@ -14,17 +14,17 @@
 namespace crowdface {
 namespace {
 
-// Shares of the skin's extent, some 43 cm.
-constexpr double kSpacing = 0.06;  // between places
-constexpr double kBetween = 0.1;   // how far a place is heard
-constexpr double kPatch = 0.1;     // of skin around a place that tells its map
-/// How much the whole skin counts beside a patch, as a share of the patch's spread.
+// Lengths are fractions of the skin's extent, about 43 cm.
+constexpr double kSpacing = 0.06;  // spacing of the nodes
+constexpr double kBetween = 0.1;   // radius of a node's influence
+constexpr double kPatch = 0.1;     // radius of the patch that determines a node's map
+/// Weight of the whole skin's similarity in a node's fit, as a fraction of the patch's scatter.
 constexpr double kWhole = 0.02;
-/// Vertices that stand for all: of the skin, of candidates for places, of a patch.
+/// Largest number of vertices used for the whole skin, as candidates for nodes, and for a patch.
 constexpr std::size_t kMostSkin = 4000, kMostCandidates = 20000, kMostPatch = 400;
 
-/// Vertices that lie as far from each other as can be: the next is always the farthest from those
-/// before, until none is as far as `spacing`.
+/// Farthest-point sampling: adds the vertex farthest from those chosen so far, until none is
+/// farther than `spacing`.
 std::vector<std::uint32_t> spread_over(const Positions& positions,
                                        std::span<const std::uint32_t> vertices, double spacing) {
   std::vector<double> nearest(vertices.size(), std::numeric_limits<double>::max());
@@ -103,6 +103,7 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
     const Eigen::Vector3d weighted = weights[i] * from;
     spread += weighted * from.transpose();
   }
+  // Regularise the fit towards the whole skin's similarity, in proportion to the patch's scatter.
   const double whole = kWhole * (spread(0, 0) + spread(1, 1) + spread(2, 2));
   if (!(whole > 0)) {
     place.rest = Eigen::Matrix3d::Identity();
@@ -125,7 +126,7 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
     const Place& place = places_[p];
     Eigen::Matrix3d& map = frames.of_place[p];
     for (Index c = 0; c < 3; ++c) map.col(c) = frames.whole.turn(place.rest.col(c));
-    // From one vertex on, so that where the face stands makes no difference to rounding.
+    // Positions relative to one vertex, so that rounding does not depend on where the face is.
     const Eigen::Vector3d origin = row3(face, place.vertex);
     for (const Sample& sample : place.samples) {
       const Eigen::Vector3d from = row3(face, sample.vertex) - origin;

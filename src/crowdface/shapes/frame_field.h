@@ -11,28 +11,29 @@
 
 namespace crowdface {
 
-/// How a face's skin is turned and stretched against a template's, smoothly: at places some
-/// centimetres apart the linear map that carries the template's skin around the place nearest to
-/// the face's, in the least-squares sense, and between them a mean of those. What a patch of skin
-/// leaves open, being flat, is taken from the similarity of the whole skin. All that depends on the
-/// template alone is computed once.
+/// The local rotation and stretch of a face's skin relative to the template's, as a smooth field of
+/// linear maps. The maps are fitted at nodes a few centimetres apart: each map is the least-squares
+/// fit from the template's skin around the node to the face's. Between nodes the maps are
+/// interpolated. A flat patch of skin does not determine a map, so each fit includes the similarity
+/// of the whole skin with a small weight. The constructor precomputes what depends on the template
+/// only.
 class FrameField {
  public:
   FrameField() = default;
-  /// \param neutral  of the template
-  /// \param skin     its skin's vertices, ascending, at least three
-  /// \param extent   diagonal of the skin's box
-  /// \param used     vertices at which frames are asked for, ascending
+  /// \param neutral  Template at rest, #V by 3; must outlive this object.
+  /// \param skin     Vertices of the skin, ascending; at least three.
+  /// \param extent   Diagonal of the skin's bounding box.
+  /// \param used     Vertices at which maps are needed, ascending.
   FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
              std::span<const std::uint32_t> used);
 
   struct Frames {
     RigidMotion whole;                      ///< from the template to the face
-    std::vector<Eigen::Matrix3d> of_place;  ///< #places
+    std::vector<Eigen::Matrix3d> of_place;  ///< #places: linear map at each node
   };
   Frames frames(const Positions& face) const;
-  /// The map at the vertex `used[i]`. A face that is the template turned, moved and scaled gives that
-  /// turn and scale, up to rounding.
+  /// Returns the map at the vertex `used[i]`. If the face is the template rotated, translated and
+  /// scaled, the map is this rotation and scale, up to rounding.
   Eigen::Matrix3d at(std::size_t i, const Frames& frames) const;
 
  private:
@@ -44,11 +45,12 @@ class FrameField {
     Eigen::Vector3d middle;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    Eigen::Matrix3d rest;  ///< times the map of the whole: what the samples leave open
+    /// factor of the whole skin's map: the part that the samples do not determine
+    Eigen::Matrix3d rest;
   };
   struct Share {
     std::uint32_t place;
-    double weight;  ///< those of a vertex add up to one
+    double weight;  ///< weights of a vertex sum to one
   };
 
   static Place place_at(const Positions& neutral, std::span<const std::uint32_t> patch,
@@ -56,12 +58,12 @@ class FrameField {
 
   const Positions* neutral_ = nullptr;
   std::vector<std::uint32_t> some_skin_;
-  std::vector<double> ones_;  ///< #some_skin
+  std::vector<double> ones_;  ///< #some_skin_
   std::vector<Place> places_;
-  Grouped<Share> shares_;  ///< #used
+  Grouped<Share> shares_;  ///< #used: nodes that each vertex interpolates
 };
 
-/// The inverse of a matrix that has one, by cofactors.
+/// Inverts a regular 3 by 3 matrix by cofactors.
 Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m);
 
 }  // namespace crowdface

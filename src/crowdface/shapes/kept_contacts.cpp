@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// A share of the skin's extent: 0.4 mm on a head.
+/// As a fraction of the skin's extent; 0.4 mm on a head.
 constexpr double kMostChange = 1e-3;
 
 }  // namespace

@@ -9,39 +9,44 @@
 
 namespace crowdface {
 
-/// Lips that a shape leaves closed, or as far apart as they are, stay so. They are far from each other
-/// along the skin: what turns and stretches it there is not the same on both.
+/// Preserves the gaps between lips in shapes that leave the lips closed or equally far apart. The
+/// two lips are far from each other along the skin, so the linear maps of FrameField differ between
+/// them and would change the gap.
 class KeptContacts {
  public:
-  /// \param skin  its vertices, ascending
+  /// \param skin  Vertices of the skin, ascending.
   KeptContacts(const FaceSet& faces, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
-  /// Whether a shape with these vertices, ascending, moves skin that nearly touches skin.
+  /// Returns whether a shape that moves these vertices (ascending) moves skin that nearly touches
+  /// other skin.
   bool moved_by(std::span<const std::uint32_t> vertices) const;
-  /// A vertex of each place where skin nearly touches skin.
+  /// Returns one vertex of each place.
   std::vector<std::uint32_t> vertices() const;
 
-  /// The vertices that `keep` may move.
+  /// Returns the vertices that `keep` may move.
   std::vector<std::uint32_t> moved() const { return contacts_.moved(); }
 
-  /// Of all places. \param positions  #V by 3
+  /// Returns the gaps at all places. \param positions  #V by 3.
   std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
-  /// How far skin goes through skin at most; 0: nowhere.
+  /// Returns the largest depth to which skin passes through other skin at a place; 0 if there is
+  /// none.
   double deepest(const Positions& positions) const;
 
-  /// Of places that are to stay nearly as they are, or of all.
+  /// Which gaps to adjust: those that the shape hardly changes, or all.
   enum class Keeping { kNearlySame, kAll };
-  /// Brings the gaps of those places to what is asked for.
-  /// \param rest      #places: gaps of the face at rest
-  /// \param widening  #places, asked for
-  /// \param shape     of the face, #V by 3; made to fit
+  /// Adjusts a shape so that gaps become `rest + widening`.
+  ///
+  /// \param rest      #places: gaps of the face at rest.
+  /// \param widening  #places: wanted change of each gap.
+  /// \param how       Which gaps to adjust.
+  /// \param shape     The face in the shape, #V by 3; adjusted.
   void keep(std::span<const double> rest, std::span<const double> widening, Keeping how,
             Positions& shape) const;
 
  private:
   SkinContacts contacts_;
-  double most_ = 0;  ///< a gap that changes by more is not kept
+  double most_ = 0;  ///< kNearlySame skips gaps that change by more than this
 };
 
 }  // namespace crowdface

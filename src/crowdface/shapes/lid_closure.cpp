@@ -15,28 +15,30 @@
 namespace crowdface {
 namespace {
 
-// Lengths are shares of the eyeball's radius, some 12 mm.
-constexpr double kWholeShare = 1.8, kNoShare = 3;   // from the eyeball's centre
-constexpr double kWholeHold = 0.27, kNoHold = 0.6;  // off the eyeball's surface
-/// Cosine of the angle to the axis at which holding off begins, and over which it grows.
+// Lengths are fractions of the eyeball's radius, about 12 mm.
+constexpr double kWholeShare = 1.8, kNoShare = 3;   // distance from the eyeball's centre
+constexpr double kWholeHold = 0.27, kNoHold = 0.6;  // distance from the eyeball's surface
+/// Keeping off the eyeball grows from 0 to 1 over kHoldOver above kHoldFrom, in the cosine between
+/// a vertex's direction and the front. With −2 it is 1 everywhere.
 constexpr double kHoldFrom = -2, kHoldOver = 0.25;
-constexpr std::size_t kPlaces = 52;  // along the opening
-constexpr double kProfile = 0.35;    // of a place, to either side
-constexpr double kBlur = .12;        // over which places are evened out
+constexpr std::size_t kPlaces = 52;  // number of places along the opening
+constexpr double kProfile = 0.35;    // radius of a profile around its place
+constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
 constexpr double kLeastClosed = 0.05;
-/// What is left of an opening that counts as closed.
+/// The template's shape closes a place if at most this fraction of the gap at rest is left.
 constexpr double kLeft = 0.4;
-constexpr double kMargin = 0.004;  // kept free where template and face are
-/// As deep as skin may go into the eyeball where it is not at rest.
+// clearance from the eyeball, if template and face have at least this
+constexpr double kMargin = 0.004;
+/// Largest depth of skin in the eyeball, unless the skin is deeper at rest.
 constexpr double kDeepest = 0.0125;
-constexpr double kSomeDeeper = 0.002;  // what nobody minds
-/// By so much lids close further than the template's, where its shape does not fit by itself: what lies between the
-/// places closes too.
+constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
+/// If gaps must be corrected, lids close by up to this much more than the template's, so that skin
+/// between the places closes too.
 constexpr double kSure = 0.02;
 constexpr int kSteps = 8;
-constexpr double kClosed = 0.016;  // as good as no gap
+constexpr double kClosed = 0.016;  // a gap that counts as closed
 
-/// Where the lid's rim is at a place along the opening.
+/// Returns the vertex of a lid's rim that is nearest to a position along the opening.
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
   double nearest = std::numeric_limits<double>::max();
@@ -115,7 +117,7 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   }
 }
 
-/// While gains are looked for, only those move.
+/// Only lids in profiles are moved while the gains are searched.
 void LidClosure::put_profiles_first() {
   std::set<std::uint32_t> rows;
   for (const Place& place : places_) {
@@ -131,6 +133,7 @@ void LidClosure::put_profiles_first() {
 void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
                             const Positions& neutral, const Displacements& shape,
                             const HeadAxes& axes) {
+  // Put places along the opening, between the corners of the eye.
   Positions closed = neutral;
   shape.add_to(closed);
   const Eigen::Vector3d along = axes.side();
@@ -147,6 +150,8 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kPlaces;
     const Eigen::Vector3d middle =
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
+    // Cut both lids across the opening, in the template's shape, where the shape closes them
+    // enough.
     ContactPlace cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
@@ -282,7 +287,7 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const Rigid
     const double least = least_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // Of what is held in part only, that part.
+    // Count only the part by which this vertex is moved.
     is_out = is_out && lid.hold * (least - now.gap) < some;
     moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
   }
@@ -331,6 +336,7 @@ void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotio
   const Positions carried = moves;
   std::vector<double> gains(places_.size(), 0.0);
   double sure = 0;
+  // Chord method for the gains: a gain of one closes a place by as much as on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) close(in_profiles_, axes.up, carried, gains, moves);
     hold_off(in_profiles_, face, eye, whole.scale, goals, moves);

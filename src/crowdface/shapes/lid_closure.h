@@ -18,103 +18,115 @@ namespace crowdface {
 struct TemplateEye {
   BallMap ball;
   Lids lids;
-  std::vector<std::uint32_t> skin;  ///< around the eye, ascending
+  std::vector<std::uint32_t> skin;  ///< vertices around the eye, ascending
 };
 
-/// An eyeball of a face: a map of one, the motion that carries it there, and how far the skin around is from it at
-/// rest.
+/// An eyeball of a face: the radius map of a head's eyeball, the motion that carries this eyeball
+/// to the face, and the distance of the surrounding skin from the eyeball at rest.
 struct FaceEye {
   const BallMap* ball;
   RigidMotion motion;
-  std::vector<double> rest_gaps = {};  ///< #skin of the template's eye
+  std::vector<double> rest_gaps = {};  ///< #skin of the TemplateEye
 
   BallMap::Gap gap_at(const Eigen::Vector3d& point) const;
 };
-/// \param mesh  at rest, #V by 3
+/// \param mesh  The face at rest, #V by 3.
 FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
                  const Positions& mesh);
 
-/// Writes 1 for skin around an eye that belongs to the upper lid and −1 for the lower one's, by what of the rim is
-/// nearest.
-/// \param side  #V
+/// Assigns the skin around an eye to the upper lid (1) or the lower lid (−1), whichever has the
+/// nearest vertex of the rim. Leaves other entries unchanged.
+///
+/// \param side  #V.
 void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
 
-/// How the lids of one eye move in a shape, so that a blink closes on eyes of any size. Carried by frames
-/// alone, lids meet or miss each other by millimetres, because an opening is no piece of skin that
-/// could be measured. Where the shape closes the lids on the template, what they move up or down is
-/// made so much more or less that they are as near to each other on the face; and lids keep off the
-/// eyeball, as the template's do.
+/// Adjusts how a shape moves the lids of one eye, so that a blink closes eyes of any size. Local
+/// linear maps alone leave lids open, or overlapping, by millimetres, because the opening is not
+/// part of the skin and no map measures its height. Where the shape closes the lids on the
+/// template, this class scales their vertical movement until the gap on the face equals the
+/// template's. It also keeps the lids outside the eyeball, as on the template.
 class LidClosure {
  public:
-  /// \param shape  some of its rows are skin around the eye
+  /// \param shape  Shape of the template. Some of its vertices may be skin around the eye.
   LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
              const Displacements& shape, const HeadAxes& axes);
 
-  /// Whether the shape moves this eye's lids.
+  /// Returns whether the shape leaves this eye's lids unmoved.
   bool empty() const { return lids_.empty(); }
 
-  /// Between the rims at a place; negative where the upper lid reaches below the lower one.
+  /// Gap between the two rims at one place; negative where the upper lid is below the lower lid.
   struct Gap {
-    double paired;  ///< of the points that lie above each other on the template
-    double plumb;   ///< straight down from the upper one, whatever lies there
+    double paired;  ///< between points that lie above each other on the template
+    /// vertically below the point of the upper rim, to whatever part of the lower rim is there
+    double plumb;
   };
-  /// What a face's lids are to be like, of a mesh whose shape is known, in the template's size.
+  /// The gaps and distances that a face's lids should have, measured on a mesh with a known shape
+  /// and divided by its scale relative to the template.
   struct Goals {
-    std::vector<Gap> gaps;                  ///< #places
-    std::vector<double> least, gap_change;  ///< #lids: to the eyeball, in the shape; and since rest
+    std::vector<Gap> gaps;  ///< #places
+    /// #lids: distance from the eyeball in the shape; its change since rest
+    std::vector<double> least, gap_change;
   };
-  /// \param mesh   #V by 3, at rest
-  /// \param whole  from the template to the mesh
-  /// \param moves  its own, as the shape's rows
+  /// Measures the goals on a mesh.
+  ///
+  /// \param mesh   #V by 3, at rest.
+  /// \param whole  Motion from the template to the mesh.
+  /// \param moves  The mesh's displacements, with the rows of the shape.
   Goals goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& whole,
               const Positions& moves) const;
-  /// Between those of several sets.
+  /// Returns the weighted mean of several sets' goals.
   static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
-  /// Whether the shape closes the lids.
+  /// Returns whether the shape closes the lids.
   bool closes() const { return !places_.empty(); }
-  /// The rows of the shape that `fit` may change.
+  /// Returns the rows of the shape that `fit` may change.
   std::vector<std::uint32_t> rows() const;
 
-  /// How far lids are open that are to be closed, at most, in radii of the eyeball; 0: as good as not.
+  /// Returns by how much closed lids are still open: the maximum over all places, in radii of the
+  /// eyeball. Gaps that count as closed give 0.
   double open(const Positions& face, const RigidMotion& whole, const Goals& goals,
               const Positions& moves) const;
-  /// Closes what is open again, by more of the shape's own movement.
+  /// Closes lids that were opened again, by scaling the vertical movement.
   void close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
                    Positions& moves) const;
 
-  /// \param face   #V by 3, at rest
-  /// \param whole  from the template to the face
-  /// \param moves  as the shape's, carried to the face; made to fit
+  /// Adjusts a shape so that it meets the goals.
+  ///
+  /// \param face   #V by 3, at rest.
+  /// \param whole  Motion from the template to the face.
+  /// \param moves  Displacements of the face, with the rows of the shape; adjusted.
   void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole, const Goals& goals,
            Positions& moves) const;
-  /// Brings out what something else took into the eyeball. \return  whether there was nothing
+  /// Moves lid vertices out of the eyeball.
+  ///
+  /// \return  false if any vertex was noticeably too deep.
   bool keep_out(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
                 const Goals& goals, Positions& moves) const;
 
  private:
-  /// A point of a lid's profile; rows are of the shape, or kNoIndex for what does not move.
+  /// A point of a lid's profile. Rows are rows of the shape, or kNoIndex if the vertex does not
+  /// move.
   struct Point {
     EdgePoint on;
     std::uint32_t row_a, row_b;
   };
   struct Place {
     std::vector<Point> low, high;
-    double along;   ///< the opening
-    double closed;  ///< by how much the template's gap is less than at rest
+    double along;   ///< position along the opening
+    double closed;  ///< by how much the shape narrows the template's gap
   };
-  /// Of a face: along the opening, and from the lower lid to the upper one; unit.
+  /// Axes of a face: along the opening, and from the lower lid to the upper lid; unit vectors.
   struct Axes {
     Eigen::Vector3d along, up;
   };
-  /// A point of a rim in the plane of those.
+  /// A point of a rim in the plane of these axes.
   struct Rim {
     double along, height;
   };
   struct Lid {
     std::uint32_t row, vertex;
-    std::uint32_t number;  ///< among the skin around the eye
-    double share;          ///< of what closes the lids: 1 around the eye, less farther off
-    double hold;           ///< of what holds it off the eyeball: 1 near it
+    std::uint32_t number;  ///< index among the skin around the eye
+    double share;          ///< weight of closing: 1 near the eye, less farther off
+    double hold;           ///< weight of keeping off the eyeball: 1 near its surface
   };
 
   void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
@@ -123,17 +135,18 @@ class LidClosure {
   std::span<const double> heard(std::size_t lid) const {
     return {heard_.data() + lid * places_.size(), places_.size()};
   }
-  /// Of the first `count` lids.
+  /// Applies gains to the vertical movement of the first `count` lids.
   void close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
              std::span<const double> gains, Positions& moves) const;
-  /// How near to the eyeball a lid may come, or how deep into it: as it is at rest, or as the shape has it.
+  /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
+  /// smallest of its distance at rest, its distance in the shape, and a small margin.
   double least_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
   void hold_off(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
                 const Goals& goals, Positions& moves) const;
   Axes axes_on(const RigidMotion& whole) const;
   static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
                        const Positions& face, const Positions& moves);
-  /// By how much gaps are wider than they are to be; negative: narrower.
+  /// Returns by how much gaps are wider than the goals; negative: narrower.
   static std::vector<double> missing_gaps(const std::vector<Gap>& now, const Goals& goals,
                                           double scale);
   std::vector<Gap> gaps(const Axes& axes, const Positions& face, const Positions& moves) const;
@@ -142,8 +155,8 @@ class LidClosure {
   double radius_ = 0;
   std::vector<Place> places_;
   std::vector<Lid> lids_;
-  std::size_t in_profiles_ = 0;  ///< so many of them come first
-  std::vector<double> heard_;    ///< #lids by #places: how much a lid hears of each
+  std::size_t in_profiles_ = 0;  ///< number of lids that appear in profiles; they come first
+  std::vector<double> heard_;    ///< #lids by #places: weight of each place's gain for each lid
 };
 
 }  // namespace crowdface

@@ -12,16 +12,20 @@
 namespace crowdface {
 namespace {
 
-// Lengths are shares of the skin's extent, some 430 mm.
-constexpr double kMeetingReach = 0.02;      // of skin that may meet: other faces are narrower
-constexpr double kMeetingReachEdges = 1.6;  // the same, in edges
-/// How much of its distance to other skin a shape may take away on a face: of what it moves skin, and of what it moves
-/// it against that.
+// Lengths are fractions of the skin's extent, about 430 mm.
+// largest distance of skin that may meet; other faces are narrower
+constexpr double kMeetingReach = 0.02;
+constexpr double kMeetingReachEdges = 1.6;  // the same, in edge lengths
+/// Skin may meet if its distance in the shape is at most kOfMove times the larger movement plus
+/// kOfDifference times the difference of both movements.
 constexpr double kOfMove = 4, kOfDifference = 10;
-constexpr double kFolds = 0.5;  // a difference between what the ends of an edge move, in its length
-constexpr double kMeetingCell = 0.003;  // skin so near to each other that one vertex stands for it
+// an edge folds if its ends move differently by more than this fraction of its length
+constexpr double kFolds = 0.5;
+// size of the cells in which one vertex represents the others
+constexpr double kMeetingCell = 0.003;
 
-/// For each vertex of the skin one that lies in the same cell and faces the same way; other vertices: none.
+/// Returns for each vertex of the skin a vertex in the same cell that faces the same way; for other
+/// vertices kNoIndex.
 std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Positions& shaped,
                                            const Positions& normals, double cell) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;

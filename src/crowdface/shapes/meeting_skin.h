@@ -10,17 +10,19 @@
 
 namespace crowdface {
 
-/// The skin of a mesh, as triangles among its vertices.
+/// The triangles of a mesh whose corners are all skin.
 struct SkinTriangles {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<Triangle> triangles;
   Grouped<std::uint32_t> around;  ///< #V: triangles at each vertex
 };
 
-/// Skin that a shape folds, brings to other skin, or may on another face bring to other skin; #V.
-/// \param neutral  of the template, #V by 3
-/// \param shaped   the template in the shape
-/// \param extent   of the skin
+/// Returns which skin a shape folds or brings near other skin, on the template or possibly on
+/// another face; #V.
+///
+/// \param neutral  Template at rest, #V by 3.
+/// \param shaped   Template in the shape, #V by 3.
+/// \param extent   Diagonal of the skin's bounding box.
 std::vector<bool> skin_that_may_meet(const SkinTriangles& skin, const Positions& neutral,
                                      const Positions& shaped, double extent);
 

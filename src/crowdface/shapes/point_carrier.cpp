@@ -18,7 +18,7 @@ double nearest(const Eigen::Vector3d& point, const Positions& mesh,
   return least;
 }
 
-/// Whether a point is nearer to the middle of an eyeball than its surface is.
+/// Returns whether a point is nearer to the middle of an eyeball than any vertex of its surface.
 bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
   const Eigen::Vector3d middle = centre_of(mesh, eyeball.surface);
   return (point - middle).norm() < nearest(middle, mesh, eyeball.surface);
@@ -51,7 +51,8 @@ Socket PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& me
       return whole(part.vertices);
     }
   }
-  // Half as far again as the nearest skin, so that what lies deep hears of all that is around it.
+  // Use skin up to half as far again as the nearest skin, so that a deep point follows all the skin
+  // around it.
   constexpr double kFurther = 1.5;
   constexpr std::size_t kFewest = 60;
   std::vector<std::pair<double, std::uint32_t>> by_distance;

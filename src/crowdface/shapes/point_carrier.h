@@ -11,26 +11,29 @@
 
 namespace crowdface {
 
-/// Named places beside a mesh that faces shall have too: joints, pivots of eyes, ear rings.
+/// Named points beside a mesh that each face gets too: joints, centres of eyes, positions of ear
+/// rings.
 struct PointSet {
   std::vector<std::string> names;
-  /// #names by 3 each, and the mesh beside which they stand, #V by 3: those of one template for all faces,
-  /// or of each head for the faces built on it.
+  /// `positions`: #names by 3 each. `meshes`: the mesh that each set of points belongs to, #V by 3.
+  /// One entry (a template's, for all faces) or one for each head (for the faces built on it).
   std::vector<Positions> positions, meshes;
 
   bool empty() const { return names.empty(); }
 };
 
-/// Carries named points to faces, like parts: one that lies in an eyeball, or nearest to another rigid
-/// part, goes with that as a whole; any other with the skin around it, by the best turn, shift and
-/// scale of the skin nearest to it. A face that is the points' own mesh, turned, moved and scaled, has
-/// them turned, moved and scaled, up to rounding.
+/// Carries named points to faces, as parts are carried. A point inside an eyeball, or nearer to
+/// another rigid part than to the skin, moves with this part. Any other point moves by the best
+/// rotation, translation and scale of the skin nearest to it. If the face is the points' own mesh,
+/// rotated, translated and scaled, the points undergo the same motion up to rounding.
 class PointCarrier {
  public:
-  /// \param skin  its vertices, at least three that are not on a line.
+  /// \param points  Must outlive this object.
+  /// \param skin    Vertices of the skin; at least three that are not collinear.
   PointCarrier(const PointSet& points, const PartList& parts, std::span<const std::uint32_t> skin);
 
-  /// \param target  the head the face was built on: its own points are carried, if there are any.
+  /// \param target  The head that the face is built on. Its own points are used if each head has
+  ///                points.
   /// \param face    #V by 3.
   /// \return        #names by 3.
   Positions carry(Index target, const Positions& face) const;
@@ -40,7 +43,8 @@ class PointCarrier {
                           const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;
-  std::vector<std::vector<Socket>> anchors_;  ///< #meshes by #names: what carries a point
+  /// #meshes by #names: the vertices whose motion a point follows
+  std::vector<std::vector<Socket>> anchors_;
 };
 
 }  // namespace crowdface

@@ -17,12 +17,12 @@
 namespace crowdface {
 namespace {
 
-/// Vertices of an eyeball or a jaw that tell where all of it is.
+/// Number of vertices of an eyeball or jaw used to fit its motion.
 constexpr std::size_t kMostFitted = 500;
-/// How far from an eyeball's centre its lids' skin may be, as a share of its radius.
+/// Skin this near to an eyeball's centre belongs to the eye; in radii.
 constexpr double kEyeSkin = 3;
-/// A shape that takes lips through each other by more than this share of the skin's extent, some 5 mm, is made to be
-/// added to another.
+/// A shape that moves lips through each other by more than this needs a companion. As a fraction of
+/// the skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
 std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
   return used;
 }
 
-/// A head's displacements as rows of the whole set's.
+/// Returns a head's displacements with the rows of the mean shape.
 Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& shape) {
   Positions rows = Positions::Zero(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
@@ -152,7 +152,7 @@ void PreparedShapes::find_inner(const PartList& parts) {
   }
 }
 
-/// Masks say nothing of lashes and eyeballs.
+/// Masks do not cover lashes and eyeballs, so these get the weights of the nearest skin.
 void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   const PointGrid grid(set.neutral, skin);
   const auto nearest = [&](std::uint32_t v) {
@@ -267,8 +267,8 @@ Eigen::Matrix3d PreparedShapes::map_of(const PartMove& part, const PreparedShape
   return map / static_cast<double>(part.rows.size());
 }
 
-/// Finds what each set's shapes do to parts and lids, and takes out of the heads' own shapes how the heads
-/// are turned and stretched.
+/// Measures each set's movement of parts and lids, and normalises the heads' own shapes by removing
+/// the local rotation and stretch of each head.
 void PreparedShapes::add_sets() {
   const std::size_t heads = set.of_head.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {

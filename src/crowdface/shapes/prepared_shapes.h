@@ -22,56 +22,64 @@
 
 namespace crowdface {
 
-/// An eye of the template, and its eyeball in each head.
+/// An eye of the template, and the same eyeball in each head.
 struct ActingEye {
-  std::size_t part;  ///< of the rigid ones
+  std::size_t part;  ///< index into the rigid parts
   TemplateEye of_template;
   std::vector<BallMap> balls;  ///< #heads
 };
 
-/// A rigid part in a shape.
+/// The movement of a rigid part in a shape.
 struct PartMove {
   std::size_t part;
   std::vector<std::uint32_t> rows, vertices;
   std::vector<RigidTurn> turns;  ///< #sets
 };
 
-/// The lids of an eye in a shape.
+/// The movement of an eye's lids in a shape.
 struct LidMove {
   LidClosure lids;
   std::vector<LidClosure::Goals> goals;  ///< #sets
 };
 
-/// A vertex of a bound part that goes along with lids.
+/// A vertex of a bound part (such as a lash) that follows a lid's correction.
 struct Hanging {
   std::uint32_t row;
-  std::array<std::uint32_t, 3> rows;  ///< of the skin it hangs on, or kNoIndex
+  /// rows of the skin triangle it hangs on; kNoIndex for uncorrected corners
+  std::array<std::uint32_t, 3> rows;
   std::array<double, 3> shares;
 };
 
-/// #shapes: of those that take lips far through each other, such as ARKit's `mouthClose`, the one to which they are
-/// made to be added: that with which lips go through each other least, and half as far at most.
-/// \param extent  of the skin
+/// Finds shapes that are made to be added to another shape, such as ARKit's `mouthClose`: shapes
+/// that move the lips far through each other. The companion is the other shape with which the lips
+/// overlap least, if that at least halves the depth.
+///
+/// \param extent  Diagonal of the skin's bounding box.
+/// \return        #shapes: the companion of each shape, if it has one.
 std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
                                                       const KeptContacts& contacts, double extent);
 
-/// One shape: what it moves, and what is to come of that on a face.
+/// One shape: what it moves, and the data for its corrections on a face.
 struct PreparedShape {
-  std::optional<std::size_t> companion;  ///< lips and crossings are mended where that is added
-  std::vector<std::uint32_t> used;       ///< #rows: numbers among the used vertices
-  std::vector<SingleRows> of_head;       ///< #heads by #rows, as on the mean head; empty: one set
+  /// lips and intersections are corrected in the sum of both shapes
+  std::optional<std::size_t> companion;
+  std::vector<std::uint32_t> used;  ///< #rows: indices into PreparedShapes::used
+  /// #heads by #rows, normalised to the mean head; empty: one set
+  std::vector<SingleRows> of_head;
   std::vector<PartMove> parts;
-  std::vector<LidMove> lids;  ///< of the eyes
+  std::vector<LidMove> lids;  ///< #eyes
   std::vector<Hanging> hanging;
   SkinOverParts over_parts;
   SkinCrossings::Watched watched;
   bool moves_contacts = false;
-  std::vector<std::vector<double>> widening;  ///< #sets, if it does: of the gaps between lips
+  /// #sets by #places: change of each gap between lips; empty if no gap changes
+  std::vector<std::vector<double>> widening;
 };
 
-/// All that ShapeTransfer finds once: what a template's or heads' shapes do to skin, parts, lids and lips.
+/// Everything that ShapeTransfer computes once: how the shapes of a template, or of each head, move
+/// skin, parts, lids and lips.
 struct PreparedShapes {
-  /// As ShapeTransfer has them.
+  /// Parameters as for ShapeTransfer.
   PreparedShapes(const FaceSet& all_faces, const Adjacency& adjacency, const PartList& parts,
                  const HeadAxes& head_axes, const ShapeSet& shape_set,
                  const RegionWeights& regions);
@@ -82,29 +90,32 @@ struct PreparedShapes {
   FacesAround around;
   std::vector<std::uint32_t> skin;  ///< ascending
   std::vector<RigidPart> rigid;
-  std::vector<std::vector<double>> rigid_alpha;  ///< #rigid by #regions, of the skin at them
+  /// #rigid by #regions: mean weights of the skin at each part
+  std::vector<std::vector<double>> rigid_alpha;
   std::vector<ActingEye> eyes;
-  std::vector<std::uint32_t> used;  ///< vertices that some shape moves
-  RegionWeights::Alpha alpha;       ///< #used by #regions: of the skin nearest to them
+  std::vector<std::uint32_t> used;  ///< vertices that any shape moves, ascending
+  /// #used by #regions: weights of the skin nearest to each vertex
+  RegionWeights::Alpha alpha;
   KeptContacts contacts;
   RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
   FrameField field;
-  double extent = 0;                 ///< of the template's skin
-  std::vector<std::uint32_t> inner;  ///< vertices of parts away from eyes: gums and teeth
+  double extent = 0;                 ///< diagonal of the template's skin's bounding box
+  std::vector<std::uint32_t> inner;  ///< vertices of parts away from the eyes: gums and teeth
   SkinCrossings crossings;
-  CrossingSearch watched;  ///< of any shape
+  CrossingSearch watched;  ///< candidates of all shapes
   std::vector<PreparedShape> shapes;
 
-  /// A face, and how it is turned and stretched.
+  /// A face, and how its skin is rotated and stretched relative to the template's.
   struct Carrier {
     const Positions& mesh;
     FrameField::Frames frames;
-    std::vector<Eigen::Matrix3d> maps;  ///< #used
+    std::vector<Eigen::Matrix3d> maps;  ///< #used: linear map at each vertex
     std::vector<double> gaps;           ///< #contacts
-    std::vector<bool> at_rest;          ///< #V: at crossings of its skin
+    /// #V: whether the vertex is at a self-intersection of the face at rest
+    std::vector<bool> at_rest;
   };
   Carrier carrier_to(const Positions& face) const;
-  /// Of a part's skin, the mean.
+  /// Returns the mean map of the part's vertices that the shape moves.
   Eigen::Matrix3d map_of(const PartMove& part, const PreparedShape& state,
                          std::span<const Eigen::Matrix3d> maps) const;
 
@@ -119,7 +130,7 @@ struct PreparedShapes {
   SkinCrossings::Watched watch(const Displacements& moves, const PreparedShape& state) const;
   void add_sets();
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
-  /// \param rest  what the shape is added to
+  /// \param rest  The mesh to which the shape is added.
   void add_set(const Carrier& carrier, const Positions& rest, const Displacements& shape,
                std::span<const FaceEye> at_eyes, PreparedShape& state) const;
   SingleRows undone(const Carrier& carrier, const PreparedShape& state,

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of less than half a turn.
+/// Returns the quaternion (w, x, y, z) of a rotation by less than half a turn.
 std::array<double, 4> quaternion_of(const RigidMotion& motion) {
   constexpr double kLeast = 1e-6;
   const Eigen::Matrix3d& r = motion.rotation;
@@ -37,12 +37,12 @@ Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
   return v + q[0] * once + axis.cross(once);
 }
 
-/// As the template has it.
+/// Rotates and scales a direction back to the template.
 Vector3d undone(const RigidMotion& whole, const Vector3d& direction) {
   return whole.undo(whole.to + direction) - whole.from;
 }
 
-/// How far a vertex of the part goes by the turn alone.
+/// Returns the displacement of a vertex by the rotation alone.
 Vector3d by_turn(const std::array<double, 4>& quaternion, const PlacedPart& placed,
                  std::uint32_t vertex) {
   const Vector3d arm = row3(placed.mesh, vertex) - placed.middle;

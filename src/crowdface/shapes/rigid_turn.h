@@ -12,23 +12,27 @@
 
 namespace crowdface {
 
-/// A rigid part of the template: an eyeball, a jaw's teeth.
+/// A rigid part of the template: an eyeball, or the teeth of a jaw.
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> fitted;  ///< some of them
+  std::vector<std::uint32_t> fitted;  ///< the subset of `vertices` used in fits
   std::vector<double> ones;           ///< #fitted
-  Eigen::Vector3d middle;             ///< of an eyeball: its centre
+  /// centre of rotation: of an eyeball its centre, of teeth their mean
+  Eigen::Vector3d middle;
 };
 
-/// How a shape moves a rigid part of a mesh, measured on the template: what the face is turned and
-/// stretched against it is taken out, and put in again on another.
+/// How a shape moves a rigid part, independent of the mesh it was measured on: the local rotation
+/// and stretch of this mesh relative to the template are removed. `carry_turn` applies those of
+/// another face.
 struct RigidTurn {
-  std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< unit; about the middle
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< of the middle
-  std::vector<Eigen::Vector3d> rests;               ///< #rows: of the moves, beside that
+  /// unit quaternion (w, x, y, z); rotation about the middle
+  std::array<double, 4> quaternion = {1, 0, 0, 0};
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< translation of the middle
+  /// #rows: residual displacement beyond rotation and translation
+  std::vector<Eigen::Vector3d> rests;
 };
 
-/// A face at a rigid part.
+/// The position of a rigid part on a face.
 struct PlacedPart {
   PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& mesh,
              const RigidMotion& whole, const Eigen::Matrix3d& map);
@@ -36,20 +40,22 @@ struct PlacedPart {
   Eigen::Vector3d middle;
   const Positions& mesh;
   const RigidMotion& whole;    ///< from the template to the face
-  const Eigen::Matrix3d& map;  ///< of the skin at the part
+  const Eigen::Matrix3d& map;  ///< mean linear map of the part's moved vertices
 };
 
-/// \param vertices  #rows, of the part, that the shape moves
-/// \param rows      their rows among the moves
-/// \param moves     the shape's
+/// Measures the rigid motion of a part in a shape.
+///
+/// \param vertices  #rows: vertices of the part that the shape moves.
+/// \param rows      Their rows in `moves`.
+/// \param moves     Displacements of the shape.
 RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
                     std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                     const Positions& moves);
 
-/// Between those of several sets.
+/// Returns the weighted mean of several sets' motions.
 RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares);
 
-/// Writes the rows of `moves`.
+/// Applies a motion to a part of a face: writes `rows` of `moves`.
 void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                 Positions& moves);

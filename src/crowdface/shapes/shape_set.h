@@ -11,53 +11,58 @@
 
 namespace crowdface {
 
-/// One expression, as displacements of a mesh at rest.
+/// An expression: displacements of a mesh at rest.
 struct Shape {
   std::string name;
   Displacements moves;
 };
 
-/// Where an expression takes one of the heads.
+/// An expression of one head.
 struct OwnShape {
   std::vector<std::uint32_t> vertices;  ///< ascending
   SingleRows moves;                     ///< #vertices by 3
 };
 
-/// Expressions in the topology of a crowd's heads: those of one template, or of each head.
+/// Expressions in the topology of a crowd's heads: one set (a template's), or one set for each
+/// head.
 struct ShapeSet {
-  Positions
-      neutral;  ///< of the template, or the mean head; #V by 3; of no rows: there are no shapes
-  std::vector<Shape> shapes;                        ///< of the template, or the mean of the heads'
-  std::vector<std::vector<OwnShape>> of_head = {};  ///< #heads by #shapes; empty: one set for all
+  /// mesh at rest: the template, or the mean head; #V by 3; no rows: there are no shapes
+  Positions neutral;
+  std::vector<Shape> shapes;  ///< the template's, or the mean of the heads'
+  /// #heads by #shapes; empty: one set for all heads
+  std::vector<std::vector<OwnShape>> of_head = {};
 };
 
-/// What the displacements of all shapes of one face take.
+/// Returns the memory, in bytes, of one face's displacements for all shapes.
 std::size_t displacement_bytes(const ShapeSet& shapes);
-/// What a set for each head takes.
+/// Returns the memory, in bytes, of the sets of all heads.
 std::size_t own_shape_bytes(const ShapeSet& shapes);
 
-/// A shape from its mesh. What moves by less than four thousandths of a millimetre on a head (a
-/// share of `extent`, the diagonal of the skin's box) stays.
+/// Computes a shape from its mesh. Vertices that move by at most 10⁻⁵ · `extent` (0.004 mm on a
+/// head) do not belong to the shape.
+///
+/// \param extent  Diagonal of the skin's bounding box.
 Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh, double extent);
 
 OwnShape own_shape_of(const Displacements& moves);
 Displacements displacements_of(const OwnShape& shape);
 
-/// The mean of all heads' displacements: of the vertices that one of them moves.
+/// Returns the mean of all heads' displacements, for all vertices that any head moves.
 Displacements mean_of(const std::vector<std::vector<OwnShape>>& of_head, std::size_t shape);
 
-/// How much one of several sets of shapes counts.
+/// The weight of one of several sets of shapes.
 struct SetShare {
   std::uint32_t set;
   double share;
 };
 using SetShares = std::vector<SetShare>;
 
-/// The sets whose shape a face has, region by region; those of a region add up to one.
+/// #regions: the sets that a face's shape is made of. The weights of a region sum to one.
 using RegionShares = std::vector<SetShares>;
 
-/// At a place that belongs to several regions.
-/// \param alpha  #regions, of sum one
+/// Returns the sets' weights at a position in several regions.
+///
+/// \param alpha  #regions: weights of the regions, with sum one.
 inline SetShares shares_at(std::span<const double> alpha, const RegionShares& of_region) {
   SetShares shares;
   for (std::size_t k = 0; k < of_region.size(); ++k) {

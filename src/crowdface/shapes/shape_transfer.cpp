@@ -13,9 +13,10 @@
 namespace crowdface {
 namespace {
 
-/// How often skin is taken apart at most, as long as that takes lids into an eyeball or opens them.
+/// Largest number of repairs, while a repair moves lids into an eyeball or opens them.
 constexpr int kMends = 3;
-/// As many crossing triangles, out of sight between lids that meet, as a gap between those by the eyeball's radius.
+/// Cost of a gap between closed lids as wide as the eyeball's radius, in intersecting triangles.
+/// Intersections between closed lids are out of sight.
 constexpr double kOpenIsAsBad = 1000;
 
 using Carrier = PreparedShapes::Carrier;
@@ -35,8 +36,9 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
 /// One shape of a face.
 class CarriedShape {
  public:
-  /// \param rest  what the shape is added to: the face at rest, or in the shape's companion
-  /// \param mesh  the same; changed while it works
+  /// \param rest  The mesh to which the shape is added: the face at rest, or in the shape's
+  ///              companion.
+  /// \param mesh  Equal to `rest`; modified during the call and restored.
   CarriedShape(const PreparedShapes& prepared, std::size_t number, std::span<const FaceEye> at_eyes,
                const Carrier& carrier, const RegionShares& shares, const Positions& rest,
                Positions& mesh)
@@ -64,7 +66,7 @@ class CarriedShape {
   }
 
   Displacements moves() && { return std::move(result_); }
-  /// Triangles that still pass through others.
+  /// Returns the number of triangles that still intersect others.
   Index crossing() const { return crossing_; }
 
  private:
@@ -93,11 +95,11 @@ class CarriedShape {
   const Positions& rest_;
   Positions& mesh_;
   Displacements result_;
-  std::vector<LidClosure::Goals> goals_;  ///< of the eyes
+  std::vector<LidClosure::Goals> goals_;  ///< #eyes
   Index crossing_ = 0;
 };
 
-/// Between the heads' own, by region.
+/// Returns the weighted mean of the heads' own displacements, region by region.
 Positions CarriedShape::mixed_moves() const {
   Positions moves = Positions::Zero(result_.moves.rows(), 3);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
@@ -132,7 +134,7 @@ void CarriedShape::move_parts() {
   }
 }
 
-/// What skin does on which something hangs: #hanging times three rows.
+/// Returns the current displacements of the skin that bound vertices hang on, 3 · #hanging rows.
 Positions CarriedShape::before_lids() const {
   Positions rows(static_cast<Index>(3 * shape_.hanging.size()), 3);
   Index next = 0;
@@ -155,7 +157,8 @@ void CarriedShape::fit_lids() {
   }
 }
 
-/// Lips that the shape leaves closed stay closed; those that one closes again lie as the template's do.
+/// Lips that the shape leaves closed stay closed. If the shape closes the lips that its companion
+/// opens, all gaps change as on the template.
 void CarriedShape::keep_contacts() {
   std::vector<double> widening(shape_.widening.front().size(), 0.0);
   for (std::size_t p = 0; p < widening.size(); ++p) {
@@ -183,8 +186,8 @@ void CarriedShape::keep_contacts() {
   for (const std::uint32_t v : prepared_.contacts.moved()) mesh_.row(v) = rest_.row(v);
 }
 
-/// Taking skin apart may open lids, and closing them take skin through skin: of what is found by turns the best is
-/// kept.
+/// Repairing intersections may open lids, and closing lids may cause intersections. Alternate, and
+/// keep the best round.
 void CarriedShape::take_skin_apart() {
   SkinCrossings::Harm harm;
   if (closes_lids()) harm = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
@@ -230,7 +233,7 @@ void CarriedShape::close_lids() {
   }
 }
 
-/// \return  whether they were out
+/// \return  Whether no lid was noticeably inside an eyeball.
 bool CarriedShape::keep_lids_out() {
   bool are_out = true;
   for (std::size_t e = 0; e < goals_.size(); ++e) {
@@ -243,7 +246,7 @@ bool CarriedShape::keep_lids_out() {
   return are_out;
 }
 
-/// Lashes go along with what was corrected of the lid.
+/// Lashes follow the corrections of the lid.
 void CarriedShape::hang(const Positions& carried) {
   Index next = 0;
   for (const Hanging& hanging : shape_.hanging) {

@@ -16,41 +16,46 @@ namespace crowdface {
 
 struct PreparedShapes;
 
-/// Carries expressions to faces of their topology (docs/shapes.md): those of a template, or between
-/// those of the heads, each first measured on the mean head:
+/// Transfers expressions to faces of the same topology (docs/shapes.md). The shapes come from a
+/// template, or are weighted means of the heads' shapes, normalised to the mean head first.
 ///
-/// - skin, lashes and whatever else is bound to the skin by how the face's skin is turned and stretched
-///   against the template's (FrameField);
-/// - lids so that they close as on the template and keep off the eyeballs (LidClosure), lashes with them;
-/// - a rigid part, teeth or eyeball, by the turn that the shape gives it, about its own middle (an
-///   eyeball's centre), and the shift of that, carried like skin.
+/// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
+///   stretch of the face's skin relative to the template's (FrameField).
+/// - Lids close as on the template and stay outside the eyeballs (LidClosure). Lashes follow the
+///   lids.
+/// - Rigid parts (teeth, eyeballs) rotate as in the shape, about their own middle (an eyeball's
+///   centre). Their translation is carried like skin.
 ///
-/// What depends on the shapes alone is found once. A face that is the template, or a head with shapes of
-/// its own, has the shapes themselves up to rounding, and vertices that a shape leaves alone are in no
-/// displacement.
+/// The constructor precomputes what depends on the shapes only. If the face is the template, or a
+/// head with its own shapes, the results are these shapes, up to rounding. Vertices that a shape
+/// does not move are in no displacement.
 class ShapeTransfer {
  public:
-  /// \param faces, shapes  must outlive this object; at least one head.
-  /// \param parts          of no parts: all is skin.
-  /// \param regions        α, #V by #regions, for sets of shapes of the heads.
+  /// \param faces    At least one head; must outlive this object.
+  /// \param parts    If there are no parts, everything is skin.
+  /// \param shapes   Must outlive this object.
+  /// \param regions  Region weights α, #V by #regions; needed if each head has its own shapes.
   ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency, const PartList& parts,
                 const HeadAxes& axes, const ShapeSet& shapes, const RegionWeights& regions = {});
   ~ShapeTransfer();
 
-  /// \param target  the head the face was built on, whose eyeballs it has.
-  /// \param face    #V by 3.
-  /// \param shares  #shapes: whose shapes count how much, by head; none: the template's.
-  /// \param crossing  if given, gets how many triangles of the skin pass through other skin in each shape and
-  ///                  neither in that shape on the template nor in the face at rest.
-  /// \return        #shapes, each with the vertices of the set's shape.
+  /// Transfers all shapes to a face. May be called from several threads.
+  ///
+  /// \param target    The head that the face is built on. The face has this head's eyeballs.
+  /// \param face      #V by 3.
+  /// \param shares    #shapes: weights of the heads' shapes. Empty: the template's shapes.
+  /// \param crossing  Optional output, #shapes: number of skin triangles that intersect other skin
+  ///                  in the shape, but neither in this shape of the template nor in the face at
+  ///                  rest.
+  /// \return          #shapes: displacements, with the vertices of the set's shape.
   std::vector<Displacements> carry(Index target, const Positions& face,
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing = nullptr) const;
 
-  /// The shape to which one is made to be added, see companions_of.
+  /// Returns the shape that this shape is made to be added to, see companions_of.
   std::optional<std::size_t> companion(std::size_t shape) const;
 
-  /// What it keeps of the heads' own shapes.
+  /// Returns the memory, in bytes, of the heads' normalised shapes and region weights.
   std::size_t memory_bytes() const;
 
  private:

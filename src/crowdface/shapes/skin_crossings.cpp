@@ -14,19 +14,25 @@
 namespace crowdface {
 namespace {
 
-// Lengths are shares of the skin's extent, some 430 mm.
-/// How near on the template is what may meet on a face: anything, and skin that faces other skin.
+// Lengths are fractions of the skin's extent, about 430 mm.
+/// Distance on the template up to which triangles may intersect on a face: any triangles, and
+/// triangles that face each other.
 constexpr double kMeets = 0.008, kFacing = 0.02;
-constexpr int kRings = 2;                              // around what may meet
-constexpr double kEvened = 0.002, kNotEvened = 0.005;  // from crossings, at rest
-constexpr double kCell = 0.003;                        // over which displacements are evened out
-constexpr double kGrowth = 0.08;                       // of those, a round
-constexpr double kLaid = 0.7;                          // of those, where skin is laid
-/// Of what evens out how lids move up and down, so that they close still.
+// width of the border around skin that may meet
+constexpr int kRings = 2;
+constexpr double kEvened = 0.002, kNotEvened = 0.005;  // distance from intersections, at rest
+// size of the cells over which displacements are averaged
+constexpr double kCell = 0.003;
+constexpr double kGrowth = 0.08;  // growth of these lengths per round
+// the same lengths where skin is arranged as on the template, as a factor
+constexpr double kLaid = 0.7;
+/// Fraction of the averaging's vertical change that is applied to lids, so that the eye stays
+/// closed.
 constexpr double kClosing = 0.3;
-constexpr double kPush = 0.00015, kPushed = 0.004;  // a round; from crossings, at rest
+// push per round; distance from intersections, at rest
+constexpr double kPush = 0.00015, kPushed = 0.004;
 constexpr int kRounds = 30;
-constexpr int kPatience = 6;  // rounds in which nothing gets better, where lids meet
+constexpr int kPatience = 6;  // rounds without improvement before giving up, where lids meet
 
 using Pair = CrossingSearch::Pair;
 
@@ -53,7 +59,7 @@ Index crossing_triangles(const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-/// One shape of a face whose skin is taken apart.
+/// Repairs one shape of a face.
 class SkinCrossings::Mending {
  public:
   Mending(const SkinCrossings& skin, const Face& face, const Watched& watched, Positions& mesh,
@@ -76,7 +82,8 @@ class SkinCrossings::Mending {
 
   Index crossing() const { return crossing_triangles(pairs_); }
 
-  /// Lids are pushed; where that does not do, they are laid as on the template.
+  /// Lids are pushed apart first. If intersections remain, they are arranged as on the template,
+  /// starting anew.
   void take_apart(const Harm& harm) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
@@ -113,7 +120,7 @@ class SkinCrossings::Mending {
     }
   }
 
-  /// Keeps it, if so.
+  /// Keeps the current displacements if they are the best so far.
   bool is_best(const Harm& harm) {
     const double bad = static_cast<double>(crossing()) + (harm ? harm(shape_.moves) : 0);
     if (bad >= best_) return false;
@@ -131,7 +138,9 @@ class SkinCrossings::Mending {
     pairs_ =
         watched_.search.crossing(mesh_, boxes_, [&](std::uint32_t t) { return is_excused(t); });
   }
-  /// \param before  that crossed; those of which nothing has changed still do
+  /// Searches again after vertices moved.
+  ///
+  /// \param before  Pairs that intersected before the move. Those without a moved vertex still do.
   void look_again(const std::vector<Pair>& before) {
     for (const ShapeRow& row : watched_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
@@ -166,7 +175,8 @@ class SkinCrossings::Mending {
     changed_[row.vertex] = true;
   }
 
-  /// What is near each other at rest moves together.
+  /// Averages displacements around intersections, so that skin that is close at rest moves
+  /// together.
   void even_out(double grown) {
     const double unit = grown * skin_.extent_;
     std::vector<Eigen::Vector3d> around;
@@ -188,8 +198,8 @@ class SkinCrossings::Mending {
     }
   }
 
-  /// Skin that is near each other on the template in the shape comes to lie to each other as there: what the face adds
-  /// to the template is evened out there.
+  /// Arranges skin as on the template in the shape: averages the difference between face and
+  /// template over skin that is close in the template's shape.
   void lay(const std::vector<Pair>& meeting, double grown) {
     const double unit = kLaid * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
@@ -211,8 +221,8 @@ class SkinCrossings::Mending {
     for (const auto& [number, by] : field.changes(samples)) move(watched_.rows[number], by);
   }
 
-  /// The upper lid forward over the lower one: pushed up it would open, and the lower one pushed back would go into the
-  /// eyeball.
+  /// Pushes the upper lid forward over the lower lid. Pushing it up would open the eye, and pushing
+  /// the lower lid back would move it into the eyeball.
   void push_lids(const std::vector<Pair>& lids, double grown) {
     const Eigen::Vector3d &up = axes_.up, &front = axes_.front;
     std::map<std::uint32_t, Eigen::Vector3d> wanted;
@@ -254,13 +264,13 @@ class SkinCrossings::Mending {
 
   const SkinCrossings& skin_;
   const Face& face_;
-  HeadAxes axes_;  ///< of the face
+  HeadAxes axes_;  ///< axes of the face
   const Watched& watched_;
   Positions& mesh_;
   Displacements& shape_;
   CrossingSearch::Boxes boxes_;
-  std::vector<Pair> pairs_;    ///< that cross
-  std::vector<bool> changed_;  ///< #V, in this round
+  std::vector<Pair> pairs_;    ///< intersecting pairs
+  std::vector<bool> changed_;  ///< #V: moved in this round
   double best_ = HUGE_VAL;
   Positions best_moves_;
   std::vector<Pair> best_pairs_;
@@ -313,7 +323,7 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   return watched;
 }
 
-/// The same as in NewIntersections: those with a vertex at a triangle of a pair.
+/// Excuses every triangle with a vertex of an intersecting triangle, as NewIntersections does.
 void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
   const CrossingSearch& search = watched.search;
   std::vector<bool> there(is_skin_.size(), false);

@@ -15,60 +15,68 @@
 
 namespace crowdface {
 
-/// Skin that a shape takes through other skin on a face, where it does not on the template: in folds, between lips,
-/// where lids meet. The face's displacements are changed there, and nowhere else.
+/// Removes self-intersections of the skin that a shape has on a face but not on the template: in
+/// folds, between lips, where lids meet. Only displacements near intersections change.
 class SkinCrossings {
  public:
   SkinCrossings() = default;
-  /// \param skin    its vertices, ascending
-  /// \param extent  of the skin, about the same in the template and all faces
+  /// \param skin    Vertices of the skin, ascending.
+  /// \param extent  Diagonal of the skin's bounding box; about the same for template and faces.
   SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
                 const HeadAxes& axes);
 
   const SkinTriangles& mesh() const { return skin_; }
 
-  /// Which skin of a shape is looked at: see skin_that_may_meet.
+  /// The skin of a shape that is searched for intersections, see skin_that_may_meet.
   struct Watched {
     CrossingSearch search;
-    std::vector<bool> excused;  ///< #triangles of that: at crossings of the template's own
-    std::vector<signed char>
-        side;                    ///< #V: 1 upper and −1 lower lid of an eye that closes; or empty
-    std::vector<ShapeRow> rows;  ///< that are skin
-    Positions shaped;            ///< #rows by 3, of the template in the shape
-    /// Skin that is far from each other at rest meets in it: it is laid as the template's lies.
+    /// #triangles of `search`: at intersections that the template already has
+    std::vector<bool> excused;
+    /// #V: 1 upper and −1 lower lid of an eye that closes; 0 elsewhere; or empty
+    std::vector<signed char> side;
+    std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
+    Positions shaped;            ///< #rows by 3: these vertices of the template in the shape
+    /// The shape brings together skin that is far apart at rest. Intersecting skin is then arranged
+    /// as on the template.
     bool comes_from_afar = false;
   };
-  /// \param neutral  of the template, #V by 3
+  /// \param neutral  The mesh to which the shape is added, #V by 3.
+  /// \param side     See Watched::side.
   Watched watch(const Positions& neutral, const Displacements& shape,
                 std::vector<signed char> side) const;
-  /// Crossings in this mesh are to be found on faces as well.
+  /// Marks the triangles at intersections of `mesh` as excused: they will be ignored on faces.
   void excuse(const Positions& mesh, Watched& watched) const;
 
-  /// What is watched in any of the shapes. \param neutral  of the template, #V by 3
+  /// Returns a search over the skin that is searched in any of the shapes.
+  ///
+  /// \param neutral  Template at rest, #V by 3.
   CrossingSearch watch_all(const Positions& neutral,
                            std::span<const CrossingSearch* const> shapes) const;
-  /// #V: whether a vertex is one of triangles that pass through others in a face at rest.
+  /// Returns which vertices belong to intersecting triangles of a face at rest, #V.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
   struct Face {
-    const Positions& rest;  ///< #V by 3: what shapes are added to
-    const std::vector<bool>&
-        at_rest;               ///< #V, see crossing_at_rest; those crossings are none of a shape's
+    const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
+    /// #V, from crossing_at_rest; the shape did not cause these intersections
+    const std::vector<bool>& at_rest;
     const RigidMotion& whole;  ///< from the template
   };
-  /// How many triangles pass through others in a shape of a face.
-  /// \param mesh  the face at rest; changed while it works
+  /// Returns the number of intersecting triangles in a shape of a face.
+  ///
+  /// \param mesh  The face at rest; modified during the call and restored.
   Index count(const Face& face, const Watched& watched, const Displacements& shape,
               Positions& mesh) const;
 
   using Harm = std::function<double(const Positions& moves)>;
-  /// Makes a shape fit: displacements around crossings are evened out over what is near each other at rest, so
-  /// that it stays as it lies there; lids are pushed off each other, or laid as the template's lie.
-  /// \param mesh     the face at rest; changed while it works
-  /// \param shape    of the face
-  /// \param harm     of displacements, beside crossings, in triangles: the best of all rounds is kept; none: the
-  ///                 last is
-  /// \return         how many triangles still pass through others
+  /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
+  /// between skin that is close at rest, so that the skin keeps its arrangement. Lids are pushed
+  /// apart, or arranged as on the template.
+  ///
+  /// \param mesh   The face at rest; modified during the call and restored.
+  /// \param shape  Displacements of the face; adjusted.
+  /// \param harm   Additional cost of displacements, in units of one intersecting triangle. The
+  ///               round with the lowest total cost is kept.
+  /// \return       Number of triangles that still intersect others.
   Index mend(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
              const Harm& harm = {}) const;
 

@@ -19,15 +19,21 @@
 namespace crowdface {
 namespace {
 
-// Lengths are shares of the skin's extent, some 430 mm.
-constexpr double kDepth = 0.001;       // below the skin, if the template is not less deep
-constexpr double kFrontReach = 0.025;  // of skin in front
-constexpr double kNear = 0.008;  // so near the template's skin is on a face, if there is a question
-constexpr double kPushedAround = 0.02;  // around
-constexpr double kFrontCell = 0.0025;   // in which one vertex stands for others
-constexpr double kTooNear = 0.25;       // of that depth: what lies less deep is not left there
-constexpr double kFacesFront = 0.5;     // how much skin looks to the front: rims of lips do not
-/// Of triangles around, one of which is in front on a face: so many, or so far.
+// Lengths are fractions of the skin's extent, about 430 mm.
+// wanted depth below the skin, or the template's depth if that is less
+constexpr double kDepth = 0.001;
+constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
+// nothing to do if the triangle that covers the vertex on the template is farther away
+constexpr double kNear = 0.008;
+constexpr double kPushedAround = 0.02;  // radius of the skin that moves along
+// size of the cells in which one vertex represents the others
+constexpr double kFrontCell = 0.0025;
+// only skin less than this fraction of the wanted depth away is pushed
+constexpr double kTooNear = 0.25;
+// cosine of the skin's normal to the front; rims of lips face elsewhere
+constexpr double kFacesFront = 0.5;
+/// The triangles around the covering triangle that may be in front on a face: kSlides wide, but
+/// between kFewestRings and kMostRings rings.
 constexpr double kFewestRings = 2, kMostRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
@@ -36,7 +42,8 @@ Eigen::Vector3d normal_of(const Corners& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
 }
 
-/// How far a triangle is in front of a point, if it is in front of or behind it.
+/// Returns how far a triangle is in front of a point (negative: behind); nothing if the point is
+/// beside the triangle, seen from the front.
 std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corners,
                                const HeadAxes& axes, const Eigen::Vector3d& side) {
   std::array<double, 3> x{}, y{}, shares{};
@@ -55,7 +62,7 @@ std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corn
   return ahead / (shares[0] + shares[1] + shares[2]);
 }
 
-/// Triangles by where they are when seen from the front.
+/// A grid of triangles, seen from the front.
 class FrontView {
  public:
   FrontView(const Positions& positions, std::span<const Triangle> triangles, const HeadAxes& axes,
@@ -74,9 +81,9 @@ class FrontView {
 
   struct Hit {
     std::uint32_t triangle;
-    double ahead;  ///< of the point
+    double ahead;  ///< distance in front of the point
   };
-  /// What is foremost of all that is in front of or behind a point.
+  /// Returns the foremost of all triangles in front of or behind a point.
   std::optional<Hit> foremost(const Eigen::Vector3d& point) const {
     const auto cell = cells_.find(cell_of(seen(point)));
     if (cell == cells_.end()) return std::nullopt;
@@ -136,6 +143,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
   const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kFewestRings, kMostRings));
   const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
+  // Find the vertices that the shape's skin covers, one per cell.
   for (const std::uint32_t v : inner) {
     const Eigen::Vector3d point = row3(shaped, v);
     const auto cell = [&](Index c) {
@@ -150,6 +158,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     if (facing < kFacesFront || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
+    // Collect the rings of triangles that may be in front on a face.
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
     for (int ring = 0; ring < rings; ++ring) {
       std::vector<std::uint32_t> wider;
@@ -173,7 +182,8 @@ void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
                          std::span<const ShapeRow> rows, Positions& mesh,
                          Displacements& shape) const {
   shape.add_to(mesh);
-  std::vector<double> most;  // what the shape itself moves
+  // remaining push for each covered vertex: at most the shape's own movement
+  std::vector<double> most;
   for (const Covered& covered : covered_) {
     double least = HUGE_VAL;
     for (const std::uint32_t v : covered.over) {
@@ -222,7 +232,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
   return pushes;
 }
 
-/// Skin around goes along.
+/// Pushes skin, and the skin around it.
 void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
                          Positions& mesh, Displacements& shape) const {
   const double reach = kPushedAround * scale * extent_;

@@ -17,40 +17,43 @@ struct ShapeRow {
   std::uint32_t row, vertex;
 };
 
-/// Skin in front of gums and teeth, which a shape brings nearer to them than they let it on another face: a jaw that
-/// opens draws the cheeks in.
+/// Keeps skin in front of gums and teeth. A jaw that opens pulls the cheeks in; on some faces the
+/// gums would come through the skin.
 class SkinOverParts {
  public:
   SkinOverParts() = default;
-  /// \param shaped  the template in the shape, #V by 3
-  /// \param inner   vertices of what lies under it, and maybe elsewhere
-  /// \param moved   by the shape, ascending
-  /// \param extent  of the skin
+  /// \param shaped  Template in the shape, #V by 3.
+  /// \param inner   Vertices that the skin may cover: gums and teeth.
+  /// \param moved   Vertices that the shape moves, ascending.
+  /// \param extent  Diagonal of the skin's bounding box.
   SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
                 std::span<const std::uint32_t> inner, std::span<const std::uint32_t> moved,
                 const HeadAxes& axes, double extent);
 
-  /// Moves skin outwards until what lies under it on the template does so on a face.
-  /// \param rest   what the shape is added to, #V by 3
-  /// \param whole  from the template
-  /// \param rows   of the shape that are skin
-  /// \param mesh   the same as rest; changed while it works
+  /// Pushes skin outwards until it covers on the face what it covers on the template.
+  ///
+  /// \param rest   The mesh to which the shape is added, #V by 3.
+  /// \param whole  Motion from the template to the face.
+  /// \param rows   Rows of the shape that are skin.
+  /// \param mesh   Equal to `rest`; modified during the call and restored.
+  /// \param shape  Displacements of the face; adjusted.
   void keep(const Positions& rest, const RigidMotion& whole, std::span<const ShapeRow> rows,
             Positions& mesh, Displacements& shape) const;
 
  private:
-  /// A vertex under the skin, and the triangle that is in front of it on the template in the shape.
+  /// A vertex under the skin, and the triangle in front of it on the template in the shape.
   struct Covered {
     std::uint32_t vertex;
     Triangle over;
-    std::vector<Triangle> near;  ///< and around it: one of them is in front on a face
-    double depth;                ///< how far below it must be
+    /// the triangle and those around it: one of them is in front on a face
+    std::vector<Triangle> near;
+    double depth;  ///< wanted depth below the skin
   };
 
   struct Push {
     Eigen::Vector3d at, by;
   };
-  /// \param most  #covered: how far each may still be pushed
+  /// \param most  #covered: how far each may still be pushed.
   std::vector<Push> pushes_in(const Positions& mesh, const RigidMotion& whole,
                               std::span<double> most) const;
   void push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
