@@ -58,7 +58,7 @@ double number_in(const Json& body, const std::string& key, double low, double hi
 }
 
 HttpAnswer json_answer(const Json& json, int status) {
-  // Names of files need not be UTF-8; an answer has to be.
+  // File names may be invalid UTF-8, but JSON must be valid UTF-8.
   return {status, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 

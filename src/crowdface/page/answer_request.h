@@ -13,30 +13,31 @@
 
 namespace crowdface {
 
-/// What a request holds. \throws UsageError if it is no mapping in JSON.
+/// Parses the body of a request. \throws UsageError if the body is not a JSON object.
 nlohmann::ordered_json body_of(const HttpRequest& request);
 
-/// A value of a request. \throws UsageError, naming the key, if it is of another type or out of bounds.
+/// Returns the value of `key`. \throws UsageError, naming the key, if the value is missing, of
+/// another type or not in [low, high].
 std::string text_in(const nlohmann::ordered_json& body, const std::string& key);
 double number_in(const nlohmann::ordered_json& body, const std::string& key, double low,
                  double high);
 
 HttpAnswer json_answer(const nlohmann::ordered_json& json, int status = 200);
-/// {"error": sentence}
+/// An error answer with the body {"error": sentence}.
 HttpAnswer refusal(int status, std::string_view sentence);
-/// Of bytes that the page takes apart itself.
+/// An answer in a binary format that the page decodes.
 HttpAnswer binary_answer(std::string bytes);
 
-/// The files of one page that the program serves, NAME.html, NAME.js and NAME.css, as
-/// scripts/build_gallery.sh writes them.
+/// The files of one web page: NAME.html, NAME.js and NAME.css, as scripts/build_gallery.sh writes
+/// them.
 class PageFiles {
  public:
-  /// \param folder  where pages lie, or nothing
-  /// \param page    "editor"
+  /// \param folder  folder of the built pages; nothing if there is none
+  /// \param page    NAME, such as "editor"
   PageFiles(std::optional<std::filesystem::path> folder, std::string page);
 
-  /// A file by its name in the address; the empty name is the page itself. Where the page was not built a
-  /// notice stands in its place.
+  /// The file with this name; an empty name means NAME.html. If the page was not built, NAME.html
+  /// is a notice that says how to build it. \return nothing if there is no such file.
   std::optional<HttpAnswer> file(std::string_view name) const;
 
  private:
@@ -44,10 +45,11 @@ class PageFiles {
   std::string page_;
 };
 
-/// A file of the page, or a refusal.
+/// The file of the page that the request asks for, or status 404.
 HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request);
 
-/// What `answer` gives; an Error becomes a refusal with its message, anything else one that points to the log.
+/// Returns `answer(request)` and turns exceptions into error answers. A RecoverableError gives its
+/// message; any other exception is logged, and the answer refers to the log.
 HttpAnswer answer_or_refuse(const HttpRequest& request,
                             const std::function<HttpAnswer(const HttpRequest&)>& answer);
 

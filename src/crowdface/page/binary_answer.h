@@ -12,9 +12,9 @@
 
 namespace crowdface {
 
-/// What the page gets as arrays: a uint32 length of a JSON head, the head (padded with blanks, so that
-/// data begins at a multiple of four bytes), then the arrays that its `arrays` lists, each padded to
-/// four bytes. All numbers are little-endian.
+/// A binary answer with arrays of numbers. Layout: the length of a JSON text as uint32; the JSON
+/// text, padded with blanks so that the arrays start at a multiple of four bytes; the arrays in the
+/// order of the JSON key `arrays`, each padded to four bytes. All numbers are little-endian.
 class BinaryAnswer {
  public:
   nlohmann::ordered_json head = nlohmann::ordered_json::object();

@@ -19,7 +19,7 @@
 namespace crowdface {
 namespace {
 
-/// 128 bits of the system's as 32 hexadecimal digits.
+/// 128 random bits from the operating system, as 32 hexadecimal digits.
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
@@ -30,7 +30,7 @@ std::string random_token() {
   return token;
 }
 
-/// The same, in a time that does not tell how much of it is right.
+/// Compares in constant time, so that the response time does not reveal a partly correct token.
 bool is_same(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned differences = 0;
@@ -40,7 +40,7 @@ bool is_same(std::string_view a, std::string_view b) {
   return differences == 0;
 }
 
-/// No other program may share the port, as the library would let it.
+/// Replaces the library's default, SO_REUSEPORT, which would let another program share the port.
 void set_socket_options(socket_t socket) {
   const int yes = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -68,13 +68,14 @@ struct sigaction action_of_sigpipe() {
   return action;
 }
 
-/// Threads in which a reader that is gone raises no signal: writing to it fails.
+/// Creates a thread pool that blocks SIGPIPE: writing to a closed connection fails instead of
+/// raising the signal.
 httplib::TaskQueue* make_threads() {
   constexpr int kThreads = 16;
   sigset_t pipe, before;
   ::sigemptyset(&pipe);
   ::sigaddset(&pipe, SIGPIPE);
-  ::pthread_sigmask(SIG_BLOCK, &pipe, &before);  // threads inherit it
+  ::pthread_sigmask(SIG_BLOCK, &pipe, &before);  // the pool's threads inherit the mask
   auto pool = std::make_unique<httplib::ThreadPool>(kThreads);
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return pool.release();
@@ -83,7 +84,8 @@ httplib::TaskQueue* make_threads() {
 }  // namespace
 
 struct LocalServer::State {
-  /// A server ignores SIGPIPE for the whole process from its constructor on, which is the host's to decide.
+  /// The constructor of httplib::Server sets SIGPIPE to ignored for the whole process. Restores the
+  /// host program's action.
   State() { ::sigaction(SIGPIPE, &of_host, nullptr); }
 
   const struct sigaction of_host = action_of_sigpipe();
@@ -92,7 +94,8 @@ struct LocalServer::State {
   std::string token = random_token();
   std::string prefix = "/" + token + "/";
   std::string address;
-  std::array<std::string, 2> hosts;  ///< that are ours
+  /// Accepted values of the Host header.
+  std::array<std::string, 2> hosts;
 
   void configure();
   bool passes(const httplib::Request& request, httplib::Response& response) const;
@@ -108,7 +111,7 @@ bool LocalServer::State::comes_from_us(const httplib::Request& request) const {
   return reads || request.get_header_value("Sec-Fetch-Site") == "same-origin";
 }
 
-/// What is looked at before anything of a request is read but its headers.
+/// Checks the headers of a request before its body is read.
 bool LocalServer::State::passes(const httplib::Request& request,
                                 httplib::Response& response) const {
   constexpr std::size_t kLongestPath = 512;
@@ -129,7 +132,7 @@ bool LocalServer::State::passes(const httplib::Request& request,
       !is_same(std::string_view(request.path).substr(0, prefix.size()), prefix)) {
     return no(404, "there is nothing at this address");
   }
-  // The library bounds a body only if its length is said.
+  // The library limits the size of a body only if Content-Length is given.
   if (request.has_header("Transfer-Encoding") ||
       (writes && request.get_header_value_count("Content-Length") != 1)) {
     return no(411, "expected a body of a known length");
@@ -197,7 +200,7 @@ void LocalServer::run(const std::function<bool()>& stop) {
   constexpr auto kMoment = std::chrono::milliseconds(100);
   auto serving = std::async(std::launch::async, [this] { state_->server.listen_after_bind(); });
   while (!stop()) std::this_thread::sleep_for(kMoment);
-  // The library lets only a server be stopped that has begun to listen.
+  // The library ignores stop() until the server has started to listen.
   do {
     state_->server.stop();
   } while (serving.wait_for(kMoment) != std::future_status::ready);

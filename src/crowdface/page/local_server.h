@@ -7,10 +7,10 @@
 
 namespace crowdface {
 
-/// A request that passed the server's checks.
+/// An HTTP request that passed the server's checks.
 struct HttpRequest {
   std::string method;  ///< GET, POST or PUT
-  std::string path;    ///< below the token, without its first slash: "api/job"
+  std::string path;    ///< path after the token, without a leading slash: "api/job"
   std::string body;
 };
 
@@ -20,16 +20,18 @@ struct HttpAnswer {
   std::string bytes;
 };
 
-/// A server for one user on this machine. It listens on 127.0.0.1 alone, and whoever does not know the
-/// random token that its address holds gets nothing; nor does a page of another site, whose requests
-/// bear another Host or Origin. Bodies are bounded, and clients that do not go on are cut off.
+/// An HTTP server for one user on this machine. It listens on 127.0.0.1 only and answers only
+/// requests whose path starts with a random token. Requests from pages of other sites are refused
+/// by their Host or Origin header. The size of bodies is limited, and stalled connections are
+/// closed.
 class LocalServer {
  public:
-  static constexpr std::size_t kMostBytes = std::size_t{4} << 20U;  ///< of a body
+  /// Largest body, in bytes.
+  static constexpr std::size_t kMostBytes = std::size_t{4} << 20U;
 
-  /// \param answer  is called from several threads.
-  /// \param port    0: any that is free.
-  /// \throws CannotCreate if it cannot be listened to.
+  /// \param answer  called from several threads.
+  /// \param port    0: any free port.
+  /// \throws CannotCreate if the server cannot listen on the port.
   LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, int port);
   ~LocalServer();
   LocalServer(const LocalServer&) = delete;
@@ -37,7 +39,7 @@ class LocalServer {
 
   /// "http://127.0.0.1:PORT/TOKEN/".
   const std::string& address() const;
-  /// Serves until `stop` returns true; it is asked ten times a second.
+  /// Serves until `stop` returns true; `stop` is called every 100 ms.
   void run(const std::function<bool()>& stop);
 
  private:
