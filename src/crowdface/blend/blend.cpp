@@ -11,11 +11,11 @@ const Positions& positions_of(const FaceSet& faces, Index head) {
   return faces.heads[static_cast<std::size_t>(head)].positions;
 }
 
-/// A level that a region smooths: of region k its band b.
+/// One band of one region.
 struct SmoothedBand {
   Index region = 0;
   const BandRecipe* band = nullptr;
-  bool first = false;  ///< of its region
+  bool first = false;  ///< whether this is the coarsest band of its region
 };
 
 std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
@@ -28,8 +28,8 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
   return bands;
 }
 
-/// G_kb of level_shares, side by side for all bands of all regions: #V by 3·bands. With one band a
-/// region that is D_k = B − e_k Σ_i ω̂_ki C_i.
+/// G_kb of level_shares for all bands of all regions, side by side: #V by 3·#bands. With one band
+/// per region this is D_k = B − e_k Σ_i ω̂_ki C_i.
 Columns coarser_less_finer(const FaceSet& faces, const std::vector<SmoothedBand>& bands,
                            const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));

@@ -23,7 +23,7 @@ bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
          a.extrapolation == b.extrapolation;
 }
 
-/// Whether two regions add the same to a face of the same target.
+/// Whether two region recipes contribute the same to faces with the same target.
 bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   if (band_count(a) != band_count(b)) return false;
   for (std::size_t i = 0; i < band_count(a); ++i) {
@@ -32,10 +32,10 @@ bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   return true;
 }
 
-/// Floats where whole vectors begin at the lines of the cache.
+/// A buffer of floats aligned to cache lines.
 class AlignedFloats {
  public:
-  /// Keeps nothing of what was there.
+  /// Resizes the buffer; its content becomes unspecified.
   float* sized(std::size_t count) {
     lines_.resize(count / kPatchStep + 1);
     return lines_.front().values;
@@ -88,8 +88,9 @@ void CrowdBlender::find_regions() {
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
-    // Where a head is both target and source, or lends to two bands alike, the shares are added
-    // first, so that the target blended with itself leaves no trace.
+    // Add up the shares of a head that is both target and source, or lends to adjacent bands,
+    // before multiplying by functions: shares that cancel then give exactly zero, so that a target
+    // blended with itself is unchanged.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -105,7 +106,7 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   return {sums.begin(), sums.end()};
 }
 
-/// Faces that are blended together, and the coefficients of all heads' fields in each.
+/// Faces that are blended together, with the coefficients of all heads' fields in each.
 class CrowdBlender::Crowd {
  public:
   Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,
@@ -135,30 +136,31 @@ class CrowdBlender::Crowd {
   const float* coefficients(std::size_t region, std::size_t face) const {
     return coefficients_[region * size() + face].data();
   }
-  /// Whether any of the kColumns faces from the first on has anything of the field.
+  /// Whether the field has a non-zero coefficient in any of the kColumns faces from `first` on.
   bool uses(std::size_t region, std::size_t first, std::size_t field) const {
     return used_[region][first / kColumns][field] != 0;
   }
+  /// Whether the field has a non-zero coefficient in any face.
   bool uses(std::size_t region, std::size_t field) const {
     return used_by_some_[region][field] != 0;
   }
-  /// Heads that any of the faces begins from.
+  /// Heads that are the target, or in the mixture, of any of the faces.
   const std::set<Index>& targets() const { return targets_; }
 
  private:
   std::span<const Recipe* const> recipes_;
   std::span<Positions> results_;
-  using Used = std::vector<std::uint8_t>;         ///< of each field, whether
+  using Used = std::vector<std::uint8_t>;  ///< for each field: whether its coefficient is non-zero
   std::vector<std::vector<float>> coefficients_;  ///< #regions by #faces
   std::vector<std::vector<Used>> used_;           ///< #regions by #faces/kColumns
   std::vector<Used> used_by_some_;                ///< #regions
   std::set<Index> targets_;
 };
 
-/// Blends all faces at one patch after the other. For one thread.
+/// Blends all faces at one patch after another. Each thread needs its own instance.
 class CrowdBlender::PatchBlender {
  public:
-  /// \param blender, crowd  must outlive it.
+  /// \param blender, crowd  must outlive this object.
   PatchBlender(const CrowdBlender& blender, const Crowd& crowd) : blender_(blender), crowd_(crowd) {
     std::iota(all_of_skeleton_.begin(), all_of_skeleton_.end(), 0U);
   }
@@ -182,7 +184,7 @@ class CrowdBlender::PatchBlender {
   }
 
  private:
-  /// Of all heads' fields, which stand in the patch's rows.
+  /// Finds which fields of all heads are in the rows of the patch.
   void find_fields() {
     fields_.clear();
     for (std::size_t h = 0; h < patch_.counts.size(); ++h) {
@@ -191,7 +193,8 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Nobody else would use what is unpacked: numbers are added up where they lie, for all regions at once.
+  /// With a single face, unpacking the quantized values would not pay off: multiplies them
+  /// directly, for several regions at once. The steps are folded into the coefficients.
   void add_to_one() {
     for (std::size_t first = 0; first < regions_.size(); first += kColumns) {
       const auto regions = regions_.subspan(first, std::min(kColumns, regions_.size() - first));
@@ -221,6 +224,8 @@ class CrowdBlender::PatchBlender {
     }
   }
 
+  /// With several faces, unpacks the fields once and multiplies them by the coefficients of
+  /// kColumns faces at a time.
   void add_to_all() {
     float* unpacked = unpacked_values_.sized(blender_.field_count() * patch_.values());
     for (std::size_t row = 0; row < fields_.size(); ++row) {
@@ -249,18 +254,19 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// α of a region at the patch's vertices.
+  /// Copies α of a region at the patch's vertices to alpha_.
   void spread_alpha(std::uint32_t region) {
     for (std::size_t i = 0; i < patch_.vertices.size(); ++i) {
       alpha_[i] = static_cast<float>(blender_.regions_.alpha(patch_.vertices[i], region));
     }
   }
 
-  /// Adds to faces, at all vertices, α times what their fields add up to at the skeleton (Eq. 7).
-  /// \param at_skeleton  `count` by values(): x of all vertices of the skeleton, y, z
+  /// Interpolates the sums at the skeleton to all vertices of the patch, multiplies them by α and
+  /// adds them to the faces (Eq. 7).
+  /// \param at_skeleton  `count` by values(): x of all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
     float* added = added_ + first_face * kPatchValues;
-    const auto coordinate = [&](std::size_t i) {  // of all faces, one after the other
+    const auto coordinate = [&](std::size_t i) {  // i-th coordinate of all faces, face by face
       return at_skeleton + i / kCoordinates * patch_.values() + i % kCoordinates * patch_.skeleton;
     };
     for (std::size_t first = 0; first < kCoordinates * count; first += kColumns) {
@@ -284,6 +290,7 @@ class CrowdBlender::PatchBlender {
     }
   }
 
+  /// Splits the patch's vertices into runs of consecutive numbers.
   void find_runs() {
     runs_.clear();
     for (const std::uint32_t v : patch_.vertices) {
@@ -292,7 +299,7 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Brings what `write` will read into the core's cache while products keep the core busy and memory waits.
+  /// Prefetches the target positions that `write` reads, so that they load while the products run.
   void fetch_targets() const {
     constexpr std::size_t kLine = 64 / sizeof(double);
     for (const Index h : crowd_.targets()) {
@@ -306,7 +313,7 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// The faces at the patch's vertices: the target's positions and what is added to them.
+  /// Writes the faces at the patch's vertices: the target's positions plus the sums.
   void write() {
     for (std::size_t face = 0; face < crowd_.size(); ++face) {
       const Recipe& recipe = crowd_.recipe(face);
@@ -333,11 +340,11 @@ class CrowdBlender::PatchBlender {
   FieldPatch patch_;
   std::span<const std::uint32_t> regions_;
   std::vector<std::uint32_t> fields_, used_;
-  std::vector<float> in_steps_;  ///< coefficients times steps
+  std::vector<float> in_steps_;  ///< coefficients times quantization steps
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  float* at_skeleton_ = nullptr;  ///< kColumns by values()
-  float* added_ = nullptr;        ///< #faces by 3 by kPatchVertices
+  float* at_skeleton_ = nullptr;  ///< kColumns by values(): sums at the skeleton
+  float* added_ = nullptr;        ///< #faces by 3 by kPatchVertices: sums at the vertices
   std::array<const float*, kColumns> columns_{};
   std::array<float*, kColumns> products_{};
   std::array<std::uint32_t, kPatchVertices> all_of_skeleton_{};

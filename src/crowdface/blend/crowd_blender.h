@@ -12,34 +12,40 @@
 
 namespace crowdface {
 
-/// Builds faces from fitted levels (Eqs. 5–7 with S̃), many at once:
+/// Blends many faces at once from the fitted levels of the heads (Eqs. 5–7 with S̃):
 ///
 ///     A = B + Σ_k α_k Σ_h Σ_p [ Σ_L s_kLh φ_hp(L) ] c_hp
 ///
-/// with the shares s_kLh of level_shares (of one band: s_kh = τ_h − e_k ω̂_kh at L_k), since
-/// C − S̃_L C = −Σ_p φ_p c_p(C). For M faces that is, for each patch of vertices and each region there, a product of
-/// all heads' fields at the patch's skeleton with a matrix of M columns of coefficients, and one of the skeleton's weights
-/// with what comes of it: what fields cost to read is
-/// shared by the faces. A face has the same bits alone and in any company, on any number of threads
-/// and with any instruction set; one that adds nothing (the target with itself) keeps the target's.
+/// The weights s_kLh come from level_shares; with one band s_kh = τ_h − e_k ω̂_kh at level L_k. The
+/// formula follows from Eq. 7 by C − S̃_L C = −Σ_p φ_p c_p(C).
+///
+/// For M faces and each region of a patch this is two matrix products. The first multiplies the
+/// fields of all heads at the patch's skeleton by a matrix of M columns of coefficients. The second
+/// multiplies the skeleton's interpolation weights by that result. All M faces share the cost of
+/// reading the fields.
+///
+/// A face is bit-identical whichever faces are blended with it, on any number of threads and with
+/// any instruction set. A face whose coefficients are all zero (the target blended with itself) is
+/// bit-identical to its target. All const methods may run concurrently.
 class CrowdBlender {
  public:
-  /// \param levels   one for each head of the face set.
-  /// \param patches  of their fields
-  /// \param regions  α, #V by #regions, rows summing to one.
-  /// \throws BrokenPrecondition if these do not fit together.
+  /// \param faces, regions  must outlive this object.
+  /// \param levels          one for each head.
+  /// \param patches         the fields of all heads, compressed.
+  /// \param regions         α, #V by #regions, rows summing to one.
+  /// \throws BrokenPrecondition if the arguments do not fit together.
   CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, FieldPatches patches,
                const RegionWeights& regions);
 
-  /// The faces of the recipes, #V by 3 each, in the heads' unit.
-  /// \param results  one for each recipe; what memory they hold is used again.
-  /// \throws BrokenPrecondition if a recipe does not fit the face set or the regions.
+  /// Blends the faces of the recipes, #V by 3 each, in the unit of the heads.
+  /// \param results  one for each recipe; their memory is reused.
+  /// \throws BrokenPrecondition if a recipe does not fit the heads or the regions.
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 
-  /// Makes of the face of one recipe that of another, with the same bits as `blend`: only vertices of
-  /// patches where regions differ are computed.
-  /// \param face  #V by 3, what `blend` made of `before`
+  /// Updates a face from one recipe to another, bit-identical to `blend`. Recomputes only the
+  /// patches that a changed region covers, or all patches if the target changed.
+  /// \param face  #V by 3, the result of `blend` for `before`.
   void change(const Recipe& before, const Recipe& after, Positions& face) const;
 
  private:
@@ -47,13 +53,14 @@ class CrowdBlender {
   class PatchBlender;
 
   void find_regions();
-  /// Those with a weight at any of the patch's vertices.
+  /// The regions with a weight at any vertex of the patch.
   std::span<const std::uint32_t> regions_at(std::size_t patch) const {
     return std::span(patch_regions_)
         .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);
   }
+  /// The coefficients of all heads' fields in one region of a face: Σ_L s_kLh φ_hp(L).
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
-  /// Blends at those of the patches that are wanted.
+  /// Blends the patches for which wanted(patch) is true.
   template <class Wanted>
   void blend_at(const Wanted& wanted, std::span<const Recipe* const> recipes,
                 std::span<Positions> results) const;
@@ -64,9 +71,10 @@ class CrowdBlender {
   FieldPatches patches_;
   const RegionWeights& regions_;
   std::vector<std::size_t>
-      first_field_;  ///< #heads + 1: of all heads' fields, which is a head's first
-  std::vector<std::uint32_t> patch_regions_;  ///< of all patches, one after the other
-  std::vector<std::size_t> first_region_;     ///< #patches + 1: which of them is a patch's first
+      first_field_;  ///< #heads + 1: index of each head's first field among the fields of all heads
+  std::vector<std::uint32_t> patch_regions_;  ///< the regions of each patch, concatenated
+  /// #patches + 1: index of each patch's first entry in patch_regions_.
+  std::vector<std::size_t> first_region_;
 };
 
 }  // namespace crowdface

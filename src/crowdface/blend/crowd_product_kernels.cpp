@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/blend/crowd_product_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires foreach_target.h first, then the headers that are compiled once per target.
 #include <algorithm>
 
 #include "crowdface/core/fused_lanes-inl.h"
@@ -41,7 +41,8 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
   return hn::LoadU(lanes, values);
 }
 
-/// The products of kVectors vectors of values from `begin` on stay in registers.
+/// Computes kVectors vectors of each product, from element `begin` on, with all sums in registers.
+/// \param alpha  null: stores the products; otherwise adds alpha·products to `products`.
 template <std::size_t kOfColumns, std::size_t kVectors, class Number>
 HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* const* columns,
                               const float* alpha, std::size_t begin, float* const* products) {
@@ -105,7 +106,7 @@ void multiply_any(const ProductRows<Number>& rows, const float* const* columns, 
   kMultiply[count - 1](rows, columns, alpha, products);
 }
 
-// Highway's table of targets takes plain functions.
+// Highway's dispatch table needs non-template functions.
 void multiply_floats(const ProductRows<float>& rows, const float* const* columns, std::size_t count,
                      const float* alpha, float* const* products) {
   multiply_any(rows, columns, count, alpha, products);
@@ -115,7 +116,8 @@ void multiply_numbers(const ProductRows<std::int16_t>& rows, const float* const*
   multiply_any(rows, columns, count, alpha, products);
 }
 
-/// Whole cache lines go out by streaming stores, what is left at both ends by common ones.
+/// Writes whole cache lines with streaming stores, and the partial lines at both ends with ordinary
+/// stores.
 void write_run(const double* base, const float* added, std::size_t count, double* results) {
   const hn::CappedTag<double, 8> lanes;
   const hn::Rebind<float, decltype(lanes)> narrow;

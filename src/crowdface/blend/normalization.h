@@ -3,10 +3,10 @@
 
 namespace crowdface {
 
-/// The two readings of Eq. 3, whose sums run from i = 1 and from i = 0.
+/// The two readings of Eq. 3, in which one sum runs from i = 1 and the other from i = 0.
 enum class Normalization {
-  kPartition,  ///< the target takes part as face 0 with its own detail; weights sum to one
-  kPrinted,    ///< as printed: ω_0 counts in the denominator only
+  kPartition,  ///< the target is face 0 and lends its own detail; the weights sum to one
+  kPrinted,    ///< as printed: ω_0 occurs only in the denominator
 };
 
 }  // namespace crowdface

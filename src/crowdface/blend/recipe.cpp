@@ -17,7 +17,7 @@ void divide_by_sum(std::vector<SourceWeight>& weights, double extra = 0) {
   for (SourceWeight& source : weights) source.weight /= sum;
 }
 
-/// Keeps the `count` largest, in their old order; of equals the first.
+/// Keeps the `count` largest weights, by ascending head; of equal weights, the first.
 void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
   if (weights.size() <= count) return;
   std::stable_sort(weights.begin(), weights.end(),
@@ -55,7 +55,8 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
   std::vector<LevelShares> levels;
-  std::vector<SourceWeight> coarser = target_shares(recipe);  // B, then e_{b−1} C̄_{b−1}
+  // Shares of B, then of e_{b−1} C̄_{b−1}.
+  std::vector<SourceWeight> coarser = target_shares(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);
     const double e = extrapolation == Extrapolation::kNone ? 1 : band.extrapolation;

@@ -11,81 +11,86 @@
 
 namespace crowdface {
 
-/// A head whose detail takes part, and its normalised weight ω̂.
+/// A head and its weight in a blend; ω̂ for heads that lend detail.
 struct SourceWeight {
   Index head = 0;
   double weight = 0;
   bool operator==(const SourceWeight&) const = default;
 };
 
-/// A band of detail: whose it is, how strong, and at which level it begins. It ends where the next
-/// finer one begins, the last one at level 0.
+/// A band of detail: the heads that lend it, its strength, and the level at which it begins. A band
+/// ends where the next finer band begins; the finest band ends at level 0.
 struct BandRecipe {
-  std::optional<PlanePoint> position;  ///< m_k, if the weights come from one
-  std::vector<SourceWeight> weights;   ///< ω̂_ki, ascending heads, none zero
+  std::optional<PlanePoint> position;  ///< m_k, if the weights come from a position on the plane
+  std::vector<SourceWeight> weights;   ///< ω̂_ki, by ascending head, none zero
   double smoothness = 0;               ///< L_k/L_max
   std::uint64_t iterations = 0;        ///< L_k
   double extrapolation = 1;            ///< e_k, the factor of Fig. 6
 };
 
-/// What a recipe says about one region: its coarsest band, all that Eq. 7 needs, and those finer.
+/// The recipe of one region: its coarsest band (all that Eq. 7 needs) and its finer bands.
 struct RegionRecipe : BandRecipe {
-  std::vector<BandRecipe>
-      finer;  ///< coarse to fine; none begins at a higher level than the one before
+  std::vector<BandRecipe> finer;  ///< coarse to fine, at non-increasing levels
 };
 
 std::size_t band_count(const RegionRecipe& region);
-/// Band number `band`, from 0, the coarsest.
+/// A band by number; band 0 is the coarsest.
 BandRecipe& band_of(RegionRecipe& region, std::size_t band);
 const BandRecipe& band_of(const RegionRecipe& region, std::size_t band);
 
-/// What determines a face: with the face set and the regions it gives the mesh to the bit.
+/// The parameters of one face. Together with the heads and the regions, a recipe determines the
+/// mesh to the bit.
 struct Recipe {
-  Index target = 0;                   ///< B; of a mixture the head whose file and parts are taken
-  std::vector<RegionRecipe> regions;  ///< one for each region
-  /// B may be a mixture, B = Σ_h τ_h B_h: its τ_h, ascending heads, none zero, summing to one. Empty:
-  /// the target alone. As Eq. 2 is linear in B, so is all that is computed from it.
+  Index target = 0;  ///< B; for a mixture, the head whose file and parts the face uses
+  std::vector<RegionRecipe> regions;  ///< one for each mask region
+  /// The τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, none zero, summing to one. Empty: B
+  /// is the target alone. Eq. 2 is linear in B, so everything computed from B is linear in the
+  /// heads too.
   std::vector<SourceWeight> mixture = {};
-  /// Whose textures the face wears, ascending heads, none zero, summing to one. Empty: by the weights of its shape.
+  /// The heads whose textures are blended, by ascending head, none zero, summing to one. Empty: the
+  /// weights of the shape.
   std::vector<SourceWeight> colours = {};
-  /// What makes left and right differ in the blended skin counts so often; 1: as blended, 0: symmetric.
+  /// Factor on the left-right differences of the blended skin; 1: as blended, 0: symmetric.
   double asymmetry = 1;
-  bool mirrored = false;  ///< the face, parts and all, is the mirror image of what the rest says
+  bool mirrored = false;  ///< mirrors the whole face including its parts
 };
 
-/// Whether the face is blended, and no more.
+/// Whether the face is used as blended: not mirrored, and with asymmetry 1.
 bool is_unmirrored(const Recipe& recipe);
-/// How much the mirror image counts in the whole face, see mirror_share.
+/// The weight of the mirror image in the face, see mirror_share(double, bool).
 double mirror_share(const Recipe& recipe);
 
-/// The heads that a region smooths to one level, see level_shares.
+/// The weights of the heads that a region smooths to one level, see level_shares.
 struct LevelShares {
   std::uint64_t level = 0;
-  std::vector<SourceWeight> shares;  ///< s_h in the order they are added; a head may stand twice
+  std::vector<SourceWeight> shares;  ///< s_h in the order of summation; a head may occur twice
 };
 
-/// Whether extrapolation factors count, or are taken as 1.
+/// Whether to use the extrapolation factors of the recipe or 1 instead.
 enum class Extrapolation { kAsGiven, kNone };
 
-/// What a region adds to B, by levels. With bands b = 1 … n that begin at L_1 ≥ … ≥ L_n and end at the
-/// next, L_{n+1} = 0, and C̄_b = Σ_i ω̂_bi C_i,
+/// The levels of a region and the weights of the heads smoothed to each. Let the bands b = 1 … n
+/// begin at levels L_1 ≥ … ≥ L_n; each band ends where the next begins, with L_{n+1} = 0. With
+/// C̄_b = Σ_i ω̂_bi C_i, the region's surface is
 ///
 ///     S_{L_1} B + Σ_b e_b (S_{L_{b+1}} − S_{L_b}) C̄_b = B + Σ_b (S_{L_b} − 1) G_b,
 ///     G_1 = B − e_1 C̄_1,   G_b = e_{b−1} C̄_{b−1} − e_b C̄_b
 ///
-/// so that bands of the same weights and factor are one band, and one band is Eq. 7.
-/// \return  for each band its L_b and the heads in G_b.
+/// Adjacent bands with the same weights and factor act as one band, and a single band gives Eq. 7.
+/// \return  for each band: L_b and the weights of the heads in G_b.
 std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation = Extrapolation::kAsGiven);
 
-/// The τ_h of B: those of a mixture, or 1 for the target.
+/// The τ_h of B: the weights of the mixture, or 1 for the target.
 std::vector<SourceWeight> target_shares(const Recipe& recipe);
 
-/// Makes B of these heads. The target is the one with the largest share, of equals the first.
-/// \param shares  ascending heads, above zero, summing to one.
+/// Sets B to a mixture of heads, or to a single head. The target becomes the head with the largest
+/// share; of equal shares, the first.
+/// \param shares  by ascending head, above zero, summing to one.
 void set_target(Recipe& recipe, std::vector<SourceWeight> shares);
 
-/// B = Σ_h τ_h B_h, where of(h) is the matrix B_h: positions, or whatever is linear in them.
+/// B = Σ_h τ_h B_h.
+/// \param of  of(h): the matrix B_h, positions or anything linear in them.
 template <class Matrix, class Of>
 Matrix target_matrix(const Recipe& recipe, const Of& of) {
   Matrix sum = of(recipe.target);
@@ -97,20 +102,24 @@ Matrix target_matrix(const Recipe& recipe, const Of& of) {
   return sum;
 }
 
-/// The weights ω̂ of a position (Eqs. 3 and 4).
-/// Partition: the target takes part as face 0 with its own detail, whether or not it is a source,
-/// and the weights sum to one. Printed: the target's ω_0 counts in the denominator only and is left
-/// out of the result, whose weights sum to less than one.
+/// The weights ω̂ of a position on the plane (Eqs. 3 and 4).
+///
+/// - Partition: the target is face 0 and lends its own detail, whether or not it is in `sources`;
+/// the weights sum to one.
+/// - Printed: the target's ω_0 occurs only in the denominator. The result omits it, so its weights
+/// sum to less than one.
+///
 /// \param anchors      #heads
-/// \param sources      heads that lend detail, ascending
-/// \param max_sources  keep only that many of the largest weights beside the target's (of equals
-///                     the first), then normalise again; ω_0 always stays and is not counted
+/// \param sources      heads that lend detail, ascending.
+/// \param max_sources  keeps only this many of the largest weights (of equal weights, the first)
+///                     and normalises again; ω_0 is always kept and not counted.
 std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
                                      const std::vector<Index>& sources, const PlanePoint& position,
                                      Normalization normalization, std::optional<int> max_sources);
 
-/// Hand-written weights, divided by their sum; zero weights are left out.
-/// \throws BrokenPrecondition if one is negative or not finite, or if they sum to zero.
+/// Divides weights by their sum, drops zero weights and sorts by head.
+/// \throws BrokenPrecondition if a weight is negative or not finite, or if the sum is zero or not
+///         finite.
 std::vector<SourceWeight> normalized_weights(std::vector<SourceWeight> weights);
 
 }  // namespace crowdface

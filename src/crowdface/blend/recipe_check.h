@@ -7,8 +7,10 @@
 
 namespace crowdface {
 
-/// \throws BrokenPrecondition if the recipe names a head that the face set has not, or if the regions are
-/// not as many as the recipe's or not for this topology.
+/// Checks that a recipe fits the heads and regions.
+/// \throws BrokenPrecondition if the recipe names a head that does not exist, if a band begins at a
+///         higher level than the coarser band before it, or if the regions do not match the
+///         recipe's regions or the topology's vertices.
 void require_fit(const FaceSet& faces, const RegionWeights& regions, const Recipe& recipe);
 
 }  // namespace crowdface
