@@ -19,21 +19,22 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kBleed = 6;        // texels beyond a chart's border
-constexpr int kMostRounds = 60;  // of corrections
+constexpr int kBleed = 6;        // texels painted beyond a chart's border
+constexpr int kMostRounds = 60;  // largest number of correction rounds
+/// Largest error of a sampled weight at which corrections stop: a fifth of an 8-bit step.
 constexpr double kGoodEnough = 0.2 / 255;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The texels that a place is read from, and how much of each, as sample_bilinear does.
+/// The four texels, and their weights, from which sample_bilinear interpolates.
 struct Texels {
   std::array<std::size_t, 4> at;
   std::array<double, 4> share;
 };
 
-/// The weights of one tile's texels.
+/// The region weights of all texels of one tile.
 class Canvas {
  public:
   Canvas(int size, Index regions)
@@ -42,7 +43,8 @@ class Canvas {
         painted_(count(), 0),
         value_(count() * regions_, 0) {}
 
-  /// Paints a triangle at places in texels where nothing is painted yet.
+  /// Paints a triangle over unpainted texels.
+  /// \param at  corners, in texels.
   void paint(const std::array<Vector2d, 3>& at, const std::array<const double*, 3>& weights) {
     const Vector2d low = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
     const Vector2d high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
@@ -64,7 +66,7 @@ class Canvas {
     }
   }
 
-  /// Carries what is painted into the texels beside it.
+  /// Extends the paint by one texel: an unpainted texel gets the mean of its painted neighbours.
   void bleed() {
     const std::vector<std::uint8_t> before = painted_;
     for (int y = 0; y < size_; ++y) {
@@ -86,8 +88,9 @@ class Canvas {
     }
   }
 
-  /// Moves texels towards what should be read at some places.
-  /// \param weights  for each place the weights that it should read as.
+  /// Adjusts texels iteratively, so that samples at some places match given weights: each round
+  /// distributes the error of every sample over its texels.
+  /// \param weights  for each place: the weights that a sample should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());
     for (const Texels& place : places) {
@@ -119,7 +122,7 @@ class Canvas {
     }
   }
 
-  /// \param u, v  in the tile.
+  /// \param u, v  relative to the tile.
   Texels texels(double u, double v) const {
     const double x = std::clamp(u * size_ - 0.5, 0.0, size_ - 1.0);
     const double y = std::clamp((1 - v) * size_ - 0.5, 0.0, size_ - 1.0);
@@ -130,6 +133,8 @@ class Canvas {
             {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t}};
   }
 
+  /// Converts weights to bytes. The rounding error goes to the largest byte, so that the bytes of a
+  /// texel add up to 255.
   std::vector<std::vector<std::uint8_t>> images() const {
     const std::size_t images = (regions_ + kRegionsOfImage - 1) / kRegionsOfImage;
     std::vector<std::vector<std::uint8_t>> out(
@@ -171,7 +176,7 @@ class Canvas {
   std::vector<float> value_;
 };
 
-/// The faces that reach into each tile.
+/// The faces that have a corner in each tile.
 std::map<int, std::vector<Index>> faces_by_tile(const Topology& topology,
                                                 const TextureCoordinates& uvs) {
   std::map<int, std::vector<Index>> tiles;
@@ -212,6 +217,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;
+    // Paint faces with priority first.
     for (const bool turn : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);
@@ -226,6 +232,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       }
     }
     for (int i = 0; i < kBleed; ++i) canvas.bleed();
+    // Collect the samples of this tile that should match vertex weights.
     std::vector<Texels> places;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {

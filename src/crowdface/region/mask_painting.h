@@ -12,40 +12,47 @@
 
 namespace crowdface {
 
-/// Regions of one mask image: red, green, blue.
+/// Regions per mask image: one each in red, green and blue.
 inline constexpr Index kRegionsOfImage = 3;
 
-/// Mask images: by tile (UDIM, or kFirstTile alone), for each image `size` × `size` × 3 bytes, first
-/// row at v = 1. Image i holds regions 3·i to 3·i + 2; what all images hold of a texel adds up to 255.
+/// Mask images by tile. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to images of
+/// `size` × `size` × 3 bytes, first row at v = 1. Image i holds regions 3·i to 3·i + 2. At a
+/// painted texel the values of all images add up to 255; other texels are black.
 struct PaintedMasks {
   int size = 0;
   std::map<int, std::vector<std::vector<std::uint8_t>>> tiles;
 
-  bool tiled() const;  ///< whether they need <UDIM> in their name
+  bool tiled() const;  ///< whether the file names need <UDIM>
   std::size_t image_count() const { return tiles.empty() ? 0 : tiles.begin()->second.size(); }
 };
 
-/// Paints weights of vertices into images in the layout of the texture, so that region_weights reads
-/// them back: each triangle with what its corners have, evenly between them, and some texels beyond the
-/// borders of the layout's charts; then texels are corrected until vertices read back as they should, as
-/// far as there are texels enough. Black elsewhere.
+/// Paints vertex weights into images in the texture's layout, such that region_weights reads the
+/// weights back. Paints each triangle with interpolated weights of its corners, extends the paint a
+/// few texels beyond the borders of the UV charts, and then adjusts texels until the sampled
+/// weights match the vertex weights as closely as the resolution allows.
 /// \param alpha  #V by #R, not negative, rows summing to one.
-/// \param first  #V: where faces share a place, those of these vertices count (the skin: eyes and
-///               lashes may lie over the face's texture); among equals the first. Empty: all.
-/// \param size   texels of a side, at least 1.
-/// \throws InvalidInput if there are no texture coordinates, a face lacks them, or one lies outside
-///         all UDIM tiles.
+/// \param first  #V, or empty for all: vertices with priority. Where polygons overlap in the
+///               texture, polygons whose first corner has priority win (the skin: eyes and lashes
+///               may overlap the face's texture); otherwise the polygon with the lower index wins.
+///               Only these vertices are matched.
+/// \param size   texels per side, at least 1.
+/// \throws InvalidInput if there are no texture coordinates, a face lacks them, or a texture
+///         coordinate lies outside all UDIM tiles.
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
                          const RegionWeights::Alpha& alpha, const std::vector<bool>& first,
                          int size);
 
 struct MaskFiles {
-  std::vector<std::filesystem::path> masks;  ///< #images: what a config names, with <UDIM> if tiled
-  std::vector<std::pair<std::filesystem::path, std::string>> files;  ///< PNG, in memory
+  /// #images: paths for the config, with <UDIM> if tiled.
+  std::vector<std::filesystem::path> masks;
+  /// Path and content of each PNG file.
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
 };
 
-/// \param path  of the first image, may hold <UDIM>; where there are several tiles and it does not,
-///              their number goes before the ending, and _2, _3, … of further images before that.
+/// Encodes mask images as PNG.
+/// \param path  path of the first image; may contain <UDIM>. If there are several tiles and the
+///              path has no <UDIM>, it is added before the extension. The numbers _2, _3, … of
+///              further images go before <UDIM>.
 MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& path);
 
 }  // namespace crowdface

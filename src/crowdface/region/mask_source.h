@@ -9,22 +9,24 @@
 
 namespace crowdface {
 
-/// Where a mask's pixels come from: one picture, or with <UDIM> in its path a set of tiles. Nothing
-/// is read until it is asked for, so that tiles which no texture coordinate touches may be missing.
+/// The source of a mask's pixels: one picture, or a set of UDIM tiles if the path contains <UDIM>.
+/// Pictures are read on request only, so tiles that no texture coordinate uses may be missing.
 class MaskSource {
  public:
-  /// \param path  may hold <UDIM> (once or more), which stands for a tile's number.
+  /// \param path  may contain <UDIM> (one or more times), which stands for a tile's number.
   explicit MaskSource(std::string path);
-  /// A picture already in memory; `name` stands for it in messages.
+  /// A picture in memory.
+  /// \param name  used in messages instead of a path.
   MaskSource(std::string name, Image image);
 
   const std::string& path() const { return path_; }
-  /// Whether it is a set of UDIM tiles.
+  /// Whether the mask is a set of UDIM tiles.
   bool tiled() const;
-  /// The file that holds a tile, or the one picture.
+  /// The path of a tile, or of the single picture.
   std::string file_of(int tile) const;
-  /// Reads a tile, or the one picture. \throws as read_image; InvalidInput, naming the pixel, if a
-  /// value (of a channel that is not alpha) is negative.
+  /// Reads a tile, or the single picture.
+  /// \throws InvalidInput naming the pixel, if a value outside the alpha channel is negative; also
+  ///         throws the errors of read_image.
   Image read(int tile) const;
 
  private:
@@ -32,7 +34,7 @@ class MaskSource {
   std::optional<Image> image_;
 };
 
-/// Channels of an image that hold masks: all but alpha, in order.
+/// The channels of an image that hold masks: all channels but alpha, in order.
 std::vector<int> mask_channels(const Image& image);
 
 }  // namespace crowdface

@@ -24,21 +24,21 @@ constexpr Index kBlock = 4096;
 
 struct LoadedTile {
   Image image;
-  std::vector<int> channels;  ///< those that hold masks
+  std::vector<int> channels;  ///< channels that hold masks
 };
 
-/// A mask with the tiles it needs in memory, or weights of vertices.
+/// A mask in memory: its tiles, or vertex weights.
 struct LoadedMask {
   bool tiled = false;
-  std::map<int, LoadedTile> tiles;       ///< a single picture stands as kFirstTile
-  std::optional<VertexWeights> weights;  ///< instead of tiles
-  std::vector<std::string> names;        ///< #channels, if the file tells them
+  std::map<int, LoadedTile> tiles;       ///< by UDIM number; a single picture is kFirstTile
+  std::optional<VertexWeights> weights;  ///< vertex weights, instead of tiles
+  std::vector<std::string> names;        ///< #channels, if the file has channel names
 
   std::size_t channels() const {
     if (weights) return weights->rows.width();
     return tiles.empty() ? 0 : tiles.begin()->second.channels.size();
   }
-  /// Zero where no image is needed and none is there.
+  /// One channel at a texture coordinate; zero if the tile is not loaded.
   double at(const UvSample& sample, std::size_t channel) const {
     const auto found = tiles.find(tiled ? sample.tile : kFirstTile);
     if (found == tiles.end()) return 0;
@@ -47,7 +47,7 @@ struct LoadedMask {
     const int column = number % 10, row = number / 10;
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
-  /// The mean over the places of a vertex; nothing if it has none.
+  /// One channel at a vertex: the mean over its texture coordinates; nothing if it has none.
   std::optional<double> at_vertex(Index vertex, std::span<const UvSample> samples,
                                   std::size_t channel) const {
     if (weights) {
@@ -60,7 +60,7 @@ struct LoadedMask {
   }
 };
 
-/// Whether a channel has one value in all tiles; likewise whether two have the same values.
+/// Whether a channel has the same value at all pixels of all tiles.
 bool is_constant(const LoadedMask& mask, int channel) {
   const Image& first = mask.tiles.begin()->second.image;
   return std::ranges::all_of(mask.tiles, [&](const auto& tile) {
@@ -73,6 +73,7 @@ bool is_constant(const LoadedMask& mask, int channel) {
     return true;
   });
 }
+/// Whether two channels are equal at all pixels of all tiles.
 bool are_same(const LoadedMask& mask, int one, int other) {
   return std::ranges::all_of(mask.tiles, [&](const auto& tile) {
     const Image& image = tile.second.image;
@@ -94,7 +95,7 @@ void take_one_channel(LoadedMask& mask, int channel) {
   mask.names.clear();
 }
 
-/// Where colours tell nothing, alpha does.
+/// Uses alpha as the mask if alpha varies and all colour channels are constant.
 void take_alpha_if_it_is_all(LoadedMask& mask) {
   const int alpha = alpha_of(mask);
   if (alpha < 0 || is_constant(mask, alpha)) return;
@@ -104,7 +105,9 @@ void take_alpha_if_it_is_all(LoadedMask& mask) {
   take_one_channel(mask, alpha);
 }
 
-/// Of an image that is one region's: its grey, or else its alpha.
+/// For an image that holds one region: uses its grey value if all channels are equal, or else its
+/// alpha.
+/// \throws InvalidInput if the image is coloured and alpha does not vary.
 void take_grey(LoadedMask& mask, const std::string& path) {
   if (mask.channels() < 2 || mask.tiles.empty()) return;
   const std::vector<int> channels = mask.tiles.begin()->second.channels;
@@ -119,7 +122,9 @@ void take_grey(LoadedMask& mask, const std::string& path) {
              "each mask in grey, or all of them as channels of one image"));
 }
 
-/// \param needed  those of the used tiles that must be there.
+/// Loads a mask's tiles or vertex weights; adds errors to `problems`.
+/// \param used    tiles that texture coordinates use.
+/// \param needed  the used tiles that must exist.
 LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::set<int>& needed,
                 Index vertices, Problems& problems) {
   LoadedMask mask;
@@ -193,12 +198,12 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
   }
 }
 
-/// Where a region's weights come from.
+/// The mask and channel that hold a region's weights.
 struct RegionChannel {
   std::size_t mask = 0, channel = 0;
 };
 
-/// What a channel is called: "top", and of "top.R" or "masks.top" the part that is no colour.
+/// The dot-separated parts of a channel's name, in lower case: "masks.top" gives "masks" and "top".
 std::vector<std::string> names_of_channel(const std::string& name) {
   std::vector<std::string> names;
   for (const std::string_view part : split(name, '.')) names.push_back(lower_case(part));
@@ -211,8 +216,9 @@ bool is_colour_name(const std::string& name) {
   return colours.contains(lower_case(name));
 }
 
-/// Channels that are called like regions, in the regions' order; nothing if none is.
-/// \throws InvalidInput if channels have names, and they are no regions.
+/// Finds the channels that are named like regions, in the order of the regions; nothing if no
+/// channel is.
+/// \throws InvalidInput if a mask's channels have names and none of the names is a region.
 std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
     const std::vector<std::string>& regions) {
@@ -240,7 +246,8 @@ std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
   return found;
 }
 
-/// Which image is which region, if there is one for each.
+/// The image of each region, if there is one image per region: by file name if all match, otherwise
+/// in order.
 std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& sources,
                                            const std::vector<std::string>& regions) {
   std::vector<std::size_t> by_name, by_order;
@@ -254,7 +261,7 @@ std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& source
   return by_name.size() == sources.size() ? by_name : by_order;
 }
 
-/// #regions; what has no channel is what the others leave.
+/// The channel of each region; a region without a channel gets the remainder of the others.
 std::vector<std::optional<RegionChannel>> channels_of_regions(
     const std::vector<MaskSource>& sources, std::vector<LoadedMask>& masks, Index regions,
     const std::vector<std::string>& names) {
@@ -291,8 +298,8 @@ std::vector<std::optional<RegionChannel>> channels_of_regions(
   return found;
 }
 
-/// The mean of every region's mask over the places of one vertex, scaled to sum to one. False, and
-/// nothing written, where no mask covers it.
+/// Samples every region's mask at one vertex and scales the values to sum to one. Returns false and
+/// writes nothing if all masks are zero there or the vertex has no texture coordinates.
 bool normalised_mean(const std::vector<LoadedMask>& masks,
                      const std::vector<std::optional<RegionChannel>>& channels, Index vertex,
                      std::span<const UvSample> samples, Eigen::Ref<Eigen::RowVectorXd> row) {
@@ -314,7 +321,7 @@ bool normalised_mean(const std::vector<LoadedMask>& masks,
   return true;
 }
 
-/// The places of all vertices; none, where weights of vertices need none.
+/// The texture coordinates of all vertices; empty groups if all masks are vertex weights.
 UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
                       const std::vector<MaskSource>& masks, const std::vector<bool>& needed) {
   const bool by_vertex = std::ranges::all_of(

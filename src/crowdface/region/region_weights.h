@@ -11,49 +11,59 @@
 
 namespace crowdface {
 
-/// The masks α_k of Eq. 7: how much of each region every vertex belongs to.
+/// The masks α_k of Eq. 7: the weight of each region at every vertex.
 struct RegionWeights {
   using Alpha = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Alpha alpha;                   ///< #V by #R, not negative, rows sum to one
-  Index uncovered_vertices = 0;  ///< of faces, but covered by no mask: in the last region
+  Alpha alpha;  ///< #V by #R, not negative, rows sum to one
+  /// Number of needed vertices that faces use but no mask covers; they belong to the last region.
+  Index uncovered_vertices = 0;
 };
 
 /// One region that is the whole head.
 RegionWeights whole_head(const Topology& topology);
 
-/// Looks the masks up at every vertex's texture coordinates.
+/// Samples the masks at every vertex's texture coordinates.
 ///
-/// Channels make regions in the order of the images, alpha left out; channels beyond the last
-/// region are ignored. Channels that an OpenEXR file calls like regions are those regions, and so are columns of
-/// weights of vertices. As many images as regions, each with more than one channel, give one region each: the grey
-/// of theirs, or their alpha; by the files' names if these are the regions'. Where all colours are the same
-/// and alpha is not, alpha is the mask. One channel of two regions leaves the rest to the second, as do named
-/// channels to the last region if it has none. A place is sampled bilinearly between texel centres and clamped at the
-/// image's edge, the first row at v = 1. A set of UDIM tiles takes the place from the tile that it
-/// lies in; on a border the middle of the corner's polygon decides. A single picture covers u and v
-/// in [0, 1], beyond which its edge goes on. A vertex gets the mean over its distinct places,
-/// scaled to sum to one; where that is zero, and for vertices in no face, the last region.
+/// Assignment of channels to regions:
+/// - By default, channels are assigned to regions in the order of the images; alpha channels are
+///   skipped and surplus channels ignored.
+/// - Channels with names that match region names (OpenEXR channels, or columns of a vertex weight
+///   file) are assigned by name. If only the last region has no channel, it gets the remainder
+///   1 − Σ of the others.
+/// - If there are as many images as regions, each image is one region: its grey value, or else its
+///   alpha. File names that match all regions determine the order.
+/// - If all colour channels are constant and alpha is not, alpha is the mask.
+/// - If there is one channel for two regions, the second region gets the remainder.
 ///
-/// \param masks    may be empty if there is one region.
-/// \param needed   #V, or empty for all: of a tile that none of these vertices lies in there need be no
-///                 image; vertices that lie nowhere else go to the last region.
-/// \throws MissingInput if an image or a tile that some texture coordinate lies in is missing, all
-///         of them named; InvalidInput if an image cannot be used, channels do not suffice, a whole
-///         image is left over, tiles differ in channels, named channels are no regions, or texture coordinates of needed
-///         vertices lack.
-/// \param names    of the regions; empty: channels are told by their order alone.
+/// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at
+/// v = 1. A UDIM sample comes from the tile that contains the coordinate; on a tile border the mean
+/// coordinate of the corner's polygon decides. A single picture covers u and v in [0, 1] and is
+/// clamped beyond. A vertex with several distinct texture coordinates gets their mean. The weights
+/// of a vertex are scaled to sum to one; if the sum is zero, or no face uses the vertex, the vertex
+/// belongs to the last region.
+///
+/// \param masks   may be empty if there is one region.
+/// \param needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
+///                missing; vertices that lie only in missing tiles belong to the last region.
+/// \param names   names of the regions; empty: assigns channels by order only.
+/// \throws MissingInput naming every missing image, and every missing tile that a needed vertex
+///         uses.
+/// \throws InvalidInput if an image cannot be used, there are too few channels, a whole image is
+///         unused, tiles differ in their channels, named channels match no region, or needed
+///         vertices lack texture coordinates.
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions,
                              const std::vector<bool>& needed = {},
                              const std::vector<std::string>& names = {});
 
-/// The first channel of one mask at every vertex, looked up in the same way but not scaled; zero for
-/// vertices in no face. \throws as region_weights.
-/// \param needed  as there.
+/// The first channel of one mask at every vertex, sampled as in region_weights but not scaled; zero
+/// for vertices that no face uses. Throws the errors of region_weights.
+/// \param needed  #V, or empty for all: vertices that must have texture coordinates.
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
                                 const MaskSource& mask, const std::vector<bool>& needed = {});
 
-/// One channel of an image at (u, v) in the unit square, as above.
+/// Samples one channel of an image bilinearly at (u, v), as in region_weights; coordinates outside
+/// [0, 1] are clamped.
 double sample_bilinear(const Image& image, double u, double v, int channel);
 
 }  // namespace crowdface

@@ -10,34 +10,34 @@
 
 namespace crowdface {
 
-/// A place in a texture: where a mask is looked up for a vertex.
+/// A texture coordinate at which a mask is sampled for a vertex.
 struct UvSample {
   int tile = 0;  ///< UDIM number
-  double u = 0;  ///< as in the file, not relative to the tile
+  double u = 0;  ///< as in the mesh file, not relative to the tile
   double v = 0;
   auto operator<=>(const UvSample&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The distinct places of every vertex: those of its corners, each value once (a value on the
-/// border of two tiles once for each of the tiles its faces lie in).
+/// The distinct texture coordinates of each vertex, collected from its corners. A value on the
+/// border of two tiles occurs once for each tile that the vertex's polygons lie in.
 using UvSamples = Grouped<UvSample>;
 
-/// The column (for u) or row (for v) of the tile that a coordinate of a corner lies in: its whole
-/// part, and where the coordinate is a whole number and so lies on a border, that of the mean of
-/// its polygon's coordinates.
+/// The column (for u) or row (for v) of the tile that contains a corner's coordinate: its integer
+/// part. An integer coordinate lies on a tile border; then the mean coordinate of the corner's
+/// polygon decides.
 double tile_step(double coordinate, double polygon_mean);
 
-/// One picture for all coordinates (every sample's tile is kFirstTile), or UDIM tiles.
+/// kOne: one picture for all coordinates, every sample's tile is kFirstTile. kUdim: UDIM tiles.
 enum class Tiles { kOne, kUdim };
 
-/// The places of every vertex; a vertex in no face has none.
-/// \param needed  #V, the vertices that must have one; empty: all.
-/// \throws InvalidInput if a needed vertex of a face has no texture coordinate at any of its corners, or one
-///         outside all UDIM tiles (where there are tiles).
+/// Collects the texture coordinates of every vertex; a vertex that no face uses has none.
+/// \param needed  #V, or empty for all: vertices that must have a texture coordinate.
+/// \throws InvalidInput if a needed vertex of a face has no texture coordinate at any corner, or if
+///         a coordinate lies outside all UDIM tiles (for Tiles::kUdim).
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
                             const std::vector<bool>& needed = {});
 
-/// The tiles that some sample lies in.
+/// The tiles that contain at least one sample.
 std::set<int> tiles_of(const UvSamples& samples);
 
 }  // namespace crowdface

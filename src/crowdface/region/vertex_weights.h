@@ -9,17 +9,20 @@
 
 namespace crowdface {
 
-/// Weights of vertices in columns, such as painted in another program.
+/// Vertex weights in columns, for example painted in another program.
 struct VertexWeights {
   NpyArray rows;                   ///< #V by columns
-  std::vector<std::string> names;  ///< of the columns, if a first line tells them
+  std::vector<std::string> names;  ///< names of the columns, if the file has a header line
 };
 
-/// Whether a mask's file holds a row of weights for each vertex (.npy, .txt, .csv), and not pixels.
+/// Whether a mask file holds one row of weights per vertex (.npy, .txt, .csv) instead of pixels, by
+/// its extension.
 bool holds_vertex_weights(const std::filesystem::path& path);
 
-/// Reads an array of NumPy, or lines of numbers that stand between blanks, commas or semicolons.
-/// \throws MissingInput; InvalidInput if numbers are negative or not finite, or rows differ in length.
+/// Reads a NumPy array, or lines of numbers separated by blanks, commas or semicolons, with an
+/// optional header line; `#` starts a comment.
+/// \throws MissingInput if there is no such file.
+/// \throws InvalidInput if a number is negative or not finite, or if rows differ in length.
 VertexWeights read_vertex_weights(const std::filesystem::path& path);
 
 }  // namespace crowdface
