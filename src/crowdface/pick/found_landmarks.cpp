@@ -14,10 +14,13 @@
 namespace crowdface {
 namespace {
 
-constexpr double kFarMm = 25;  ///< off where the guessed pose has them
-constexpr double kOffMm = 14;  ///< off where the others have them: faces differ by less
+/// largest distance between a found landmark and the template's in the estimated pose
+constexpr double kFarMm = 25;
+/// Largest distance after a fit to all landmarks. Differences between faces are smaller.
+constexpr double kOffMm = 14;
 
-/// Landmarks of a scan that stands along some axes; none of one that is too small for a head.
+/// Landmarks of a scan whose head has the axes `axes`; empty if the mesh is not usable as a head
+/// (for example too small).
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
                                                 const HeadAxes& axes) {
   if (!in_mm.allFinite()) return {};
@@ -30,7 +33,8 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
   }
 }
 
-/// Leaves out, one by one, what lies far from where a similarity of all has it.
+/// Removes the worst landmark, one at a time, until all lie within kOffMm of a similarity fitted to
+/// them.
 void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
   while (landmarks.size() > kFewestLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
@@ -54,7 +58,9 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
   const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face,
                                      find_scan_face(scan, hint));
   const Positions placed = inverse(pose).apply(scan.positions);
-  // Scans that differ much from the template are turned a little too far by the fit, others stand a little slanted.
+  // Try two orientations and keep the one with more landmarks. The fitted pose tilts scans that
+  // differ much from the template; the axes of the hint are inexact for scans that stand at an
+  // angle.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}),
       propose_on(scan, placed, shape.axes)};

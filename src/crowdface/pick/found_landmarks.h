@@ -12,10 +12,11 @@
 
 namespace crowdface {
 
-/// Landmarks that the shapes of a template and of a scan tell, where it is known which way the scan looks: middle of
-/// nose, lips and chin, and of heads with eyeballs corners of eyes and lids. None where no face is found, or where they
-/// do not lie about as the template's do.
-/// \param here  of the template, see propose_landmarks
+/// Finds landmarks on a scan by its shape: midpoints of nose, lips and chin and, if the scan has
+/// eyeballs, corners of the eyes and edges of the lids. Landmarks that do not fit the template's
+/// are left out; the result is empty if no face is found.
+/// \param here  landmarks of the template by name, as vertex numbers (see propose_landmarks)
+/// \param hint  up and front direction of the scan
 std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
                                          const std::map<std::string, std::uint32_t>& here,
                                          const Scan& scan, const PoseHint& hint);

@@ -16,48 +16,50 @@
 
 namespace crowdface {
 
-/// Named places as a file of landmarks has them: numbers of vertices, from 0, or x y z.
+/// The content of a landmark file: places by name, as vertex numbers from 0 or as points.
 struct LandmarkFile {
   using Place = LandmarkPlace;
   std::map<std::string, Place> of_template, of_scan;
 };
 
-/// Whose landmarks a file has that does not tell.
+/// Which mesh the landmarks belong to if the file does not say.
 enum class LandmarksOf { kTemplate, kScan };
 
-/// Reads a YAML file of `template: {chin: 966}` and `scan: {chin: [x, y, z]}`; either may lack, at most
-/// 100 names each; or a list as other programs write it (parse_landmark_list).
-/// \throws UsageError, MissingInput naming every place that is wrong.
+/// Reads a landmark file: YAML with the keys `template: {chin: 966}` and `scan: {chin: [x, y, z]}`,
+/// both optional and with at most 100 names each; or a list from another program
+/// (parse_landmark_list).
+/// \throws UsageError, MissingInput with a message that names every wrong place.
 LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of = LandmarksOf::kScan);
 
-/// The row of the template that a place stands for: of a point the vertex nearest to it.
-/// \throws UsageError if a vertex has no such number.
+/// The template vertex for a place: its vertex number, or the vertex nearest to its point.
+/// \throws UsageError if the template has no such vertex.
 std::uint32_t template_vertex(const LandmarkFile::Place& place, const Positions& of_template);
-/// The same of a scan.
+/// The point on the scan for a place. \throws UsageError if the scan has no such vertex.
 Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan);
 
-/// The names that both have: rows of the template, places on the scan. A point given for the template
-/// stands for the vertex nearest to it.
-/// \throws UsageError if a vertex has no such number.
+/// The landmarks that template and scan have in common: template vertices and points on the scan. A
+/// template point stands for its nearest vertex.
+/// \throws UsageError if there is no vertex with the number given.
 std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
                                           const Scan& scan);
 
-/// A name and where it is on template and scan, as far as that has been picked.
+/// A named landmark on the template, on the scan, or on both.
 struct PickedLandmark {
   std::string name;
-  std::optional<std::uint32_t> vertex;       ///< of the template
-  std::optional<Eigen::Vector3d> point;      ///< on the scan, in its file's unit
-  std::optional<std::uint32_t> scan_vertex;  ///< if the file has a number in place of the point
+  std::optional<std::uint32_t> vertex;   ///< template vertex
+  std::optional<Eigen::Vector3d> point;  ///< point on the scan, in the unit of its file
+  /// set if the landmark file gives a vertex number instead of a point
+  std::optional<std::uint32_t> scan_vertex;
 };
 
-/// The text of a file of landmarks, which read_landmarks reads back as the same. Names without any place are
-/// left out. \param comments  what stands above, as opening_comments gives it.
+/// The text of a landmark file, such that read_landmarks reads the same landmarks. Names without a
+/// place are left out. \param comments  lines put in front, see opening_comments.
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments = {});
 
-/// The lines of comments with which a text begins, with their ends.
+/// The comment lines at the start of a text, with their line ends.
 std::string_view opening_comments(std::string_view text);
-/// Whether there are comments after those.
+/// Whether the text may have comments after the opening comments.
 bool has_more_comments(std::string_view text);
 
 }  // namespace crowdface

@@ -19,7 +19,7 @@ using ListJson = nlohmann::ordered_json;
 
 constexpr std::size_t kMostListed = 1000;
 
-/// Collects places by name and complains by place.
+/// Collects places by name. Errors name the file and the place in it.
 class PlaceList {
  public:
   explicit PlaceList(const std::filesystem::path& path) : path_(path.string()) {}
@@ -60,7 +60,7 @@ class PlaceList {
   std::map<std::string, LandmarkPlace> places_;
 };
 
-/// What stands in quotes behind a word of a tag: name="chin".
+/// The quoted value of an XML attribute, such as chin in name="chin".
 std::string_view attribute_of(std::string_view tag, const std::string& name) {
   for (const char quote : {'"', '\''}) {
     const std::string key = concat(' ', name, '=', quote);
@@ -91,7 +91,8 @@ void read_picked_points(std::string_view text, PlaceList& list) {
   }
 }
 
-/// Name and numbers of a line, whatever sets them apart; the first line may say what the columns are.
+/// Reads a name and numbers per line, separated by tabs, semicolons, commas or blanks. The first
+/// line may be a header.
 void read_table(std::string_view text, PlaceList& list) {
   std::size_t line_number = 0;
   for (std::string_view line : split_lines(text)) {
@@ -119,7 +120,7 @@ void read_table(std::string_view text, PlaceList& list) {
     }
     const bool is_header = numbers.empty() && (line_number == 1 || name.empty());
     if (is_header) continue;
-    // A number in front of name and point counts the rows.
+    // A number before name and point is a row number.
     if (numbers.size() == 4 && !name.empty()) numbers.erase(numbers.begin());
     const std::string where = concat(':', line_number);
     if (has_other_words || numbers.empty()) {
@@ -161,7 +162,7 @@ void read_json_item(const std::string& key, const ListJson& item, PlaceList& lis
   list.add(name, numbers, name.empty() ? "" : concat(": ", name));
 }
 
-/// \return false if it is of our own form, or no JSON at all
+/// \return false if the text has the keys of our own format, or is not JSON.
 bool read_json(std::string_view text, PlaceList& list) {
   const ListJson root = parse_shallow_json(text);
   if (root.is_discarded() || (!root.is_object() && !root.is_array())) return false;

@@ -11,10 +11,12 @@
 
 namespace crowdface {
 
-/// Landmarks as other programs write them, of one mesh: MeshLab's picked points (.pp), lists of names and numbers
-/// (CSV, text), JSON ({name: [x, y, z]}, lists of points, 3D Slicer's markups), NumPy's arrays (n by 3, or n vertices).
-/// Points without names are called by their numbers, from 1.
-/// \return nothing if the file is YAML, or JSON of the same form: template and scan.
+/// Reads landmarks of one mesh that another program has written: MeshLab's picked points (.pp),
+/// tables of names and numbers (CSV, text), JSON ({name: [x, y, z]}, lists of points, 3D Slicer
+/// markups), NumPy arrays (n by 3 points, or n vertex numbers). Points without a name are named by
+/// their position in the list, from 1.
+/// \return nothing if the file has the form that read_landmarks reads (keys `template` and `scan`)
+///         or if its format is unknown.
 /// \throws UsageError naming the place that is wrong.
 std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     std::string_view bytes, const std::filesystem::path& path);

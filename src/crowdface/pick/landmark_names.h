@@ -8,17 +8,18 @@
 
 namespace crowdface {
 
-/// A place of a face that is found again on any other. Left and right are the head's own.
+/// A point that can be located on every face. Left and right are those of the head.
 struct LandmarkName {
   std::string_view name;
-  std::string_view where;  ///< said to whoever picks it
+  std::string_view where;  ///< description for the user
 };
 
-/// Names to begin with, in the order in which to pick them: the first four tell how a head stands.
+/// Standard landmarks, in the order in which to pick them. The first four determine the pose of a
+/// head.
 const std::vector<LandmarkName>& suggested_landmarks();
 
-/// The name of the place on the other half: "eye_outer_left" for "eye_outer_right", "brow_l" for "brow_r";
-/// nothing if it speaks of neither.
+/// The name with left and right exchanged: "eye_outer_left" for "eye_outer_right", "brow_l" for
+/// "brow_r"; nothing if the name has no side.
 std::optional<std::string> mirrored_name(std::string_view name);
 
 }  // namespace crowdface

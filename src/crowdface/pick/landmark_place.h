@@ -8,10 +8,10 @@
 
 namespace crowdface {
 
-inline constexpr double kFarthest =
-    1e9;  ///< that a landmark may be from the origin, along each axis
+/// Largest absolute coordinate of a landmark.
+inline constexpr double kFarthest = 1e9;
 
-/// A named place as a file of landmarks has it: the number of a vertex, from 0, or x y z.
+/// A landmark in a file: the number of a vertex, from 0, or a point.
 struct LandmarkPlace {
   bool is_vertex = false;
   std::uint64_t vertex = 0;

@@ -33,7 +33,7 @@ Json stands_json(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
   return {{"up", list_of(up)}, {"front", list_of(front)}};
 }
 
-/// From the template's millimetres to the scan's unit.
+/// Transforms from template (mm) to the unit of the scan.
 Json pose_json(const Similarity& pose) {
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r) rows.push_back(list_of(pose.rotation.row(r).transpose()));
@@ -61,7 +61,7 @@ std::uint32_t number_of(const Json& json, Index count, const std::string& key) {
   return json.get<std::uint32_t>();
 }
 
-/// A name that a file of landmarks can hold.
+/// The name of a landmark. \throws UsageError if a landmark file cannot hold the name.
 std::string name_in(const Json& body) {
   std::string name = text_in(body, "name");
   if (name.empty() || name.size() > kLongestName || printable(name) != name ||

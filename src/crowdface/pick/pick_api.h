@@ -16,15 +16,15 @@
 
 namespace crowdface {
 
-/// What the page on which landmarks are picked asks for, answered.
+/// Answers the HTTP requests of the page for picking landmarks.
 class PickApi {
  public:
   /// \param scans           must outlive this object
-  /// \param pages           the folder of built pages, if there is one
-  /// \param most_triangles  of each mesh on the page
+  /// \param pages           folder of the built pages; nothing if there is none
+  /// \param most_triangles  maximum number of triangles of each mesh that the page shows
   PickApi(PickScans& scans, std::optional<std::filesystem::path> pages, std::size_t most_triangles);
 
-  /// Never throws for what a request holds: mistakes are answers, {"error": sentence}.
+  /// Turns errors in a request into answers {"error": sentence}; does not throw for them.
   HttpAnswer answer(const HttpRequest& request);
 
  private:
@@ -38,10 +38,10 @@ class PickApi {
   std::size_t most_triangles_;
 };
 
-/// Serves the page on which landmarks are picked until a signal asks to end.
-/// \param pages    the folder of built pages, if there is one
-/// \param port     0: any that is free
-/// \param started  is given the address once the page can be opened
+/// Serves the page for picking landmarks until a signal such as SIGINT arrives.
+/// \param pages    folder of the built pages; nothing if there is none
+/// \param port     0: any free port
+/// \param started  called with the address of the page once the server listens
 /// \throws Error
 void pick_landmarks(PickScans& scans, std::optional<std::filesystem::path> pages, int port,
                     const std::function<void(const std::string&)>& started);

@@ -31,7 +31,7 @@ bool PickScans::is_picked(std::size_t number) const {
 void PickScans::open(std::size_t number) {
   PickInputs inputs = read_(entries_[number]);
   const std::lock_guard lock(mutex_);
-  // What was picked on the template for the scan before holds for the next.
+  // Template landmarks picked for the previous scan are reused for the next.
   if (inputs.of_template.empty() && current_ && is_picked(number_)) {
     inputs.of_template = entries_[number_].landmarks;
   }

@@ -13,40 +13,41 @@
 
 namespace crowdface {
 
-/// A mesh as the page shows it, made when it is first asked for.
+/// A reduced mesh, encoded for the page on first request.
 struct ShownMesh {
   std::once_flag once;
   std::string bytes;
 };
 
-/// One scan that is open on the page.
+/// A scan that the page currently shows.
 struct OpenScan {
   explicit OpenScan(PickInputs inputs) : session(std::move(inputs)) {}
   PickSession session;
   ShownMesh of_template, of_scan;
 };
 
-/// The scans that landmarks are picked on, one after the other. Any thread may ask.
+/// The list of scans on which landmarks are picked, one at a time. Thread-safe.
 class PickScans {
  public:
   struct Entry {
     std::filesystem::path scan, landmarks;
   };
-  /// \param read  reads the scan of an entry.
-  /// Opens the first that has no file of landmarks, or the first. \throws Error
+  /// Opens the first scan without a landmark file, or the first scan if all have one.
+  /// \param read  reads the scan of an entry. \throws Error
   PickScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read);
 
   std::shared_ptr<OpenScan> current() const;
   std::size_t number() const;
   const std::vector<Entry>& entries() const { return entries_; }
   bool is_picked(std::size_t number) const;
-  /// \throws Error; the one before stays open then.
+  /// Opens a scan. \throws Error; the previous scan then stays open.
   void open(std::size_t number);
 
  private:
   std::vector<Entry> entries_;
   std::function<PickInputs(const Entry&)> read_;
-  mutable std::mutex mutex_;  ///< of what follows
+  /// Guards the members below.
+  mutable std::mutex mutex_;
   std::shared_ptr<OpenScan> current_;
   std::size_t number_ = 0;
 };

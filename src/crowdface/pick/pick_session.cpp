@@ -17,7 +17,8 @@
 namespace crowdface {
 namespace {
 
-/// Tries the axes; a scan that stands slanted is turned by hand, or by its first landmarks.
+/// Tries all axis-aligned orientations. A scan that stands at an angle is turned by the user or by
+/// its first landmarks.
 PoseHint guess_bearing(const Scan& scan) {
   constexpr std::size_t kEnough = 30000;
   const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);
@@ -29,7 +30,7 @@ PoseHint guess_bearing(const Scan& scan) {
   return {unit_vector(bearing->up), unit_vector(bearing->front)};
 }
 
-/// The power of ten that is at most a millionth of the mesh's size.
+/// The largest power of ten that is at most a millionth of the mesh's bounding box diagonal.
 double step_of(const PickableMesh& mesh) {
   const double size = (mesh.high() - mesh.low()).norm();
   return size > 0 ? std::pow(10.0, std::floor(std::log10(size)) - 6) : 1e-6;
@@ -107,7 +108,7 @@ std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& orig
   if (!place) return std::nullopt;
   const double step = step_of(scan_);
   for (double& x : place->point) {
-    // By way of a text, so that a decimal number stays the one that is shown.
+    // Rounds by way of text, so that the number saved is the decimal number shown.
     const int decimals = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 15);
     x = parse_double(format_fixed(std::round(x / step) * step, decimals)).value_or(x);
   }

@@ -15,45 +15,48 @@
 
 namespace crowdface {
 
-/// What landmarks are picked on, and the file that they go to.
+/// The template, the scan, and the landmark file to write.
 struct PickInputs {
   const WrapTemplate& shape;
   Positions positions;  ///< #V by 3 of the template, in millimetres
-  Positions of_file;  ///< the same in its file's unit, which points in the file of landmarks are in
+  /// #V by 3 of the template, in the unit of its file. The landmark file gives template points in
+  /// this unit.
+  Positions of_file;
   Scan scan;
-  std::optional<PoseHint> hint;  ///< how the scan stands; found if nothing is said
+  std::optional<PoseHint> hint;  ///< pose of the scan; estimated if not given
   std::filesystem::path template_file, scan_file, landmarks;
-  /// A file whose landmarks of the template hold where `landmarks` has none; may be empty.
+  /// A further landmark file, for template landmarks that `landmarks` lacks; may be empty.
   std::filesystem::path of_template = {};
 };
 
-/// A template and a scan, ready to be pointed at; the landmarks' file.
+/// Picks landmarks on a template and a scan by ray casting, and reads and writes the landmark file.
 class PickSession {
  public:
-  /// Reads the file of landmarks, if it is there.
+  /// Reads the landmark file if it exists.
   /// \param inputs  its `shape` must outlive this object
-  /// \throws Error naming what is wrong in the file, as wrapping would
+  /// \throws Error naming what is wrong in the file
   explicit PickSession(PickInputs inputs);
 
   const PickInputs& inputs() const { return inputs_; }
   const PickableMesh& of_template() const { return template_; }
   const PickableMesh& of_scan() const { return scan_; }
-  /// Which way the head on the scan looks, as far as can be told.
+  /// Up and front direction of the head on the scan: given or estimated.
   const PoseHint& scan_stands() const { return stands_; }
-  /// What was read from the file, or saved last.
+  /// The landmarks read from the file or saved last.
   std::vector<PickedLandmark> landmarks() const;
-  /// Whether the file has comments that saving does not keep: those after its first lines.
+  /// Whether saving would lose comments: only comments at the start of the file are kept.
   bool loses_comments() const;
 
-  /// Points on the scan are rounded to a millionth of its size.
+  /// The first point on the mesh along a ray: on the template a vertex, on the scan a point rounded
+  /// to at most a millionth of the scan's size.
   std::optional<PickedPlace> pick_on_template(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,
                                           const Eigen::Vector3d& direction) const;
   SuggestedPlaces suggest(const std::vector<PickedLandmark>& landmarks) const;
 
-  /// Writes the file. \throws UsageError, once, if another program has changed it since it was read; CannotCreate,
-  /// IoError.
+  /// Writes the landmark file. \throws UsageError if another program has changed the file since it
+  /// was read or saved (a second call then overwrites it); CannotCreate, IoError.
   void save(const std::vector<PickedLandmark>& landmarks);
 
  private:
@@ -64,9 +67,10 @@ class PickSession {
   MirrorPlane plane_;
   std::map<std::string, std::uint32_t> proposals_;
   PoseHint stands_;
-  mutable std::mutex mutex_;  ///< of what follows
+  /// Guards the members below.
+  mutable std::mutex mutex_;
   std::vector<PickedLandmark> landmarks_;
-  std::string known_;  ///< what the file holds as far as we know
+  std::string known_;  ///< content of the file when it was last read or written
 };
 
 }  // namespace crowdface

@@ -22,7 +22,7 @@ std::vector<Quad> quads_of(const std::vector<Triangle>& triangles) {
   return quads;
 }
 
-/// Boxes are of what triangles use: vertices that none has may lie anywhere.
+/// Bounding box of the triangles. Unused vertices may lie anywhere.
 Eigen::AlignedBox3d box_of(const Positions& positions, const std::vector<Triangle>& triangles) {
   Eigen::AlignedBox3d box;
   for (const Triangle& t : triangles) {
@@ -32,7 +32,8 @@ Eigen::AlignedBox3d box_of(const Positions& positions, const std::vector<Triangl
   return box;
 }
 
-/// Counted from the middle, because rays are traced in single precision and scans may lie far from zero.
+/// Positions relative to `middle`: rays are traced in single precision, and a scan may lie far from
+/// the origin.
 std::vector<float> points_around(const Positions& positions, const Eigen::Vector3d& middle) {
   std::vector<float> points;
   points.reserve(static_cast<std::size_t>(positions.size()));

@@ -14,31 +14,33 @@
 
 namespace crowdface {
 
-/// A place on a surface that was pointed at.
+/// A point on a surface that the user pointed at.
 struct PickedPlace {
-  std::uint32_t vertex = kNoIndex;  ///< the nearest of the triangle's
+  std::uint32_t vertex = kNoIndex;  ///< nearest corner of the triangle hit
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< between those of the vertices, unit
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< interpolated vertex normal, unit length
 };
 
-/// A whole mesh that can be asked, from any thread, what a ray meets and what is near a place; the page shows
-/// one of fewer triangles.
+/// A mesh at full resolution for ray casts and nearest-point queries. Thread-safe. The page shows a
+/// version with fewer triangles.
 class PickableMesh {
  public:
   /// \param positions  #V by 3, finite, any unit
-  /// \param skin       what can be picked
-  /// \param others     what stands in front of it as well: eyes, teeth
+  /// \param skin       triangles that can be picked
+  /// \param others     triangles that only occlude the skin: eyes, teeth
   PickableMesh(Positions positions, std::vector<Triangle> skin,
                const std::vector<Triangle>& others = {});
   PickableMesh(const PickableMesh&) = delete;
   PickableMesh& operator=(const PickableMesh&) = delete;
 
-  /// The first place of the skin along a ray. Where that meets something else first, the skin beside it if
-  /// it is within `beside`: the corner of an eye is pointed at as often as the skin around it.
-  /// \param direction  any length but 0
+  /// The first point of the skin along a ray. If the ray first hits something else, the nearest
+  /// skin point within `beside` of the hit: users often point at the eyeball when they mean the
+  /// corner of the eye.
+  /// \param direction  any nonzero length
+  /// \param beside     in the unit of the mesh
   std::optional<PickedPlace> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                   double beside) const;
-  /// What a ray meets first: a row of `skin` then of `others`, and the place.
+  /// First hit of a ray. `triangle` counts the rows of `skin`, then those of `others`.
   struct Met {
     std::uint32_t triangle = 0;
     bool is_skin = false;
@@ -46,11 +48,12 @@ class PickableMesh {
   };
   std::optional<Met> meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// The place of the skin nearest to a point, of what faces within `least_cosine` of a unit vector.
+  /// The nearest skin point within `reach` whose surface faces `facing`: the cosine between normal
+  /// and `facing` is at least `least_cosine`. \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                      double least_cosine, double reach) const;
   PickedPlace at_vertex(std::uint32_t vertex) const;
-  /// The place as near to a point as the skin comes.
+  /// `point` itself, with the normal and vertex of the nearest skin point.
   PickedPlace at_point(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
@@ -58,9 +61,10 @@ class PickableMesh {
   Eigen::Vector3d low() const { return box_.min(); }
   Eigen::Vector3d high() const { return box_.max(); }
 
-  /// For the page: about so many triangles at most, normals of the whole mesh; a BinaryAnswer of `origin` (from
-  /// which its points are counted), `low`, `high`, and the arrays positions, normals (sixteen bits a number), triangles,
-  /// part (1: no skin).
+  /// The mesh reduced to about `most_triangles` triangles, with the normals of the full mesh, as a
+  /// BinaryAnswer. Head: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
+  /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
+  /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other).
   std::string preview(std::size_t most_triangles) const;
 
  private:
@@ -68,9 +72,10 @@ class PickableMesh {
 
   Positions positions_;
   std::vector<Triangle> skin_;
-  std::vector<Quad> quads_;  ///< of skin, then of others
+  /// triangles of skin, then of others, as quads whose last corner repeats
+  std::vector<Quad> quads_;
   Positions normals_;
-  Eigen::AlignedBox3d box_;  ///< of the skin
+  Eigen::AlignedBox3d box_;  ///< bounding box of the skin
   Eigen::Vector3d middle_;
   RayDevice device_;
   RayScene scene_;

@@ -26,7 +26,7 @@ HeadShape head_of(const WrapTemplate& shape, const Positions& positions) {
   return head;
 }
 
-/// Looks at a head from the front, along its axes.
+/// Casts rays at a head from the front. Coordinates: across (along the side axis) and height.
 class FrontView {
  public:
   FrontView(const PickableMesh& mesh, const HeadAxes& axes)
@@ -61,7 +61,8 @@ void add(const std::string& name, const std::optional<PickedPlace>& place, Propo
   if (place) proposals[name] = place->vertex;
 }
 
-/// Of the skin's outline in the middle, between two heights, the place where `measure` is most.
+/// The point of the midline profile between the heights `low` and `high` where `measure` is
+/// largest.
 template <class Measure>
 std::optional<Eigen::Vector3d> best_of_outline(const FrontView& view, double middle, double low,
                                                double high, const Measure& measure) {
@@ -80,9 +81,10 @@ std::optional<Eigen::Vector3d> best_of_outline(const FrontView& view, double mid
 }
 
 void propose_middle(const FrontView& view, const FaceMarks& marks, Proposals& proposals) {
-  // Of the way from mouth to eyes, some 65 mm.
+  // As fractions of the distance from mouth to eyes (about 65 mm).
   constexpr double kAroundTip = 0.08, kLipBegins = 0.02, kLipEnds = 0.15;
-  constexpr double kChinEnds = 0.45;  // of the way from its lowest point to the mouth
+  // As a fraction of the distance from the lowest point of the chin to the mouth.
+  constexpr double kChinEnds = 0.45;
   const double face = marks.face(), mouth = marks.mouth;
   const auto foremost = [&](double low, double high) {
     return best_of_outline(view, marks.middle, low, high,
@@ -99,7 +101,7 @@ void propose_middle(const FrontView& view, const FaceMarks& marks, Proposals& pr
   keep("chin", foremost(marks.chin, marks.chin + kChinEnds * (mouth - marks.chin)));
   add("nose_bridge", view.place(marks.middle, marks.bridge), proposals);
   if (!tip || !lip) return;
-  // The base of the nose lies deepest behind the line from its tip to the lip.
+  // Base of the nose: the point farthest behind the line from the tip of the nose to the upper lip.
   const double run = view.height(*tip) - view.height(*lip);
   const double slope = (view.front(*tip) - view.front(*lip)) / run;
   keep("nose_base", best_of_outline(view, marks.middle, view.height(*lip), view.height(*tip),
@@ -118,9 +120,9 @@ Eigen::Vector3d farthest(const Places& places, const Eigen::Vector3d& direction)
       places, {}, [&](const Eigen::Vector3d& place) { return place.dot(direction); });
 }
 
-/// Where an eyeball shows between the lids, from the front.
+/// Points of the eyeball that are visible between the lids from the front.
 Places find_opening(const FrontView& view, const Eigen::Vector3d& centre, double radius) {
-  constexpr int kSteps = 48;  // to each side
+  constexpr int kSteps = 48;  // in each direction
   constexpr double kFar = 1.2;
   Places opening;
   for (int x = -kSteps; x <= kSteps; ++x) {
@@ -137,7 +139,8 @@ Places find_opening(const FrontView& view, const Eigen::Vector3d& centre, double
 
 void propose_eye(const FrontView& view, double middle, const Eigen::Vector3d& centre, double radius,
                  Proposals& proposals) {
-  constexpr double kReachMm = 6, kHalfSlit = 0.05;  // of the radius: about the middle of the lids
+  // kHalfSlit: half width of the strip in the middle of the lids, in eyeball radii
+  constexpr double kReachMm = 6, kHalfSlit = 0.05;
   const Places opening = find_opening(view, centre, radius);
   if (opening.empty()) return;
   const HeadAxes& axes = view.axes();

@@ -12,20 +12,22 @@
 
 namespace crowdface {
 
-/// Landmarks of suggested_landmarks that a template's shape tells: along its middle from the outline of the
-/// face, corners of eyes and lids from where an eyeball shows.
-/// \param mesh  of the template, in millimetres; its skin is the template's, eyes and teeth stand before it
-/// \return rows of the template; nothing where no face is found.
+/// Estimates standard landmarks (suggested_landmarks) from the shape of a template: midline points
+/// from the face profile, corners of eyes and edges of lids from the visible part of the eyeballs.
+/// \param mesh  the template in millimetres, see `pickable`
+/// \return vertex numbers of the template by name; empty if no face is found.
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape,
                                                        const PickableMesh& mesh);
 
-/// The skin of a head, with its eyes and teeth before it. \param positions  #V by 3
+/// A mesh of the template whose skin can be picked and whose eyes and teeth occlude the skin.
+/// \param positions  #V by 3
 PickableMesh pickable(const WrapTemplate& shape, const Positions& positions);
 
-/// Brow, nose and mouth, and ears and neck where they are found; nothing where no face is.
+/// Regions of the skin: brow, nose and mouth, and ears and neck if they are found. Empty if no face
+/// is found.
 SkinRegions face_regions(const WrapTemplate& shape);
 
-/// The plane between a template's halves.
+/// The symmetry plane between the left and right half of a template.
 MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions);
 
 }  // namespace crowdface

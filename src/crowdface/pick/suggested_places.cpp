@@ -30,7 +30,7 @@ std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
   return pairs;
 }
 
-/// Places in a line leave open how a head is turned around it.
+/// Whether the places determine a rotation: places on a line do not.
 bool spread_out(const Positions& places) {
   constexpr double kLeast = 0.1;
   const Positions centred = places.rowwise() - places.colwise().mean();
@@ -38,7 +38,7 @@ bool spread_out(const Positions& places) {
   return values(1) > kLeast * values(0);
 }
 
-/// Of the pairs that `used` says, without the one numbered `without`.
+/// Fits the pairs with `used`, except pair `without`.
 std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<bool>& used,
                               std::size_t without) {
   std::vector<std::size_t> rows;
@@ -67,9 +67,10 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   return residuals;
 }
 
-/// The number of the pair that is far beyond the others, or how many there are.
+/// The index of the pair whose residual is far beyond the others, or residuals.size() if there is
+/// none.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
-  // People differ: after a similarity places lie some 5 mm from each other's.
+  // Corresponding points of two faces differ by about 5 mm after a similarity fit.
   constexpr double kLeastMm = 15, kTimes = 3;
   std::vector<double> sorted;
   std::size_t farthest = residuals.size();
@@ -85,7 +86,8 @@ std::size_t farthest_outlier(const std::vector<double>& residuals, const std::ve
   return residuals[farthest] > most ? farthest : residuals.size();
 }
 
-/// What the similarity leaves at a place, as the pairs around it tell: faces differ from place to place.
+/// Gaussian-weighted average of the fit's residual vectors near `place`, because faces differ
+/// locally.
 Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& pose,
                            const Eigen::Vector3d& place) {
   constexpr double kReachMm = 25, kHeld = 0.5;
@@ -100,7 +102,7 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
   return sum / weights;
 }
 
-/// In place of the lining of a nostril the skin outside it, if that is within `depth`.
+/// Moves a place inside a nostril to the skin outside, if that lies within `depth`.
 std::optional<PickedPlace> outermost(const PickableMesh& mesh,
                                      const std::optional<PickedPlace>& place, double depth) {
   if (!place) return place;
@@ -108,7 +110,8 @@ std::optional<PickedPlace> outermost(const PickableMesh& mesh,
   return outside && outside->normal.dot(place->normal) > 0 ? outside : place;
 }
 
-/// The places on the template that names have, picked or suggested.
+/// Likely template vertices of names that are not picked: mirrored landmarks, otherwise
+/// `proposals`.
 std::map<std::string, PickedPlace> suggest_on_template(
     const std::vector<PickedLandmark>& landmarks, const PickableMesh& mesh,
     const MirrorPlane& plane, const std::map<std::string, std::uint32_t>& proposals) {

@@ -13,25 +13,27 @@
 
 namespace crowdface {
 
-/// How the template stands on the scan, as far as pairs of places tell.
+/// Similarity transform from template to scan, fitted to landmark pairs.
 struct LandmarkPose {
-  Similarity pose;  ///< from the template (mm) to the scan's unit
+  Similarity pose;  ///< maps the template (mm) to the scan, in the unit of the scan
   struct Residual {
-    double mm =
-        0;  ///< from where the other pairs put it (of three pairs: from where they do together)
-    bool outlier =
-        false;  ///< far beyond the others: most likely misplaced, and left out of the pose
+    /// Distance of the pair to the fit of the other pairs, in mm. With three pairs: to the fit of
+    /// all three.
+    double mm = 0;
+    /// Far larger than the other residuals: most likely a mistake; not used for `pose`.
+    bool outlier = false;
   };
-  std::map<std::string, Residual> residuals;  ///< of all pairs
+  std::map<std::string, Residual> residuals;  ///< one for each pair
 };
 
-/// Fits the similarity (Umeyama 1991) to at least three pairs that are not in a line; while one is far
-/// beyond the others it is left out.
-/// \return nothing if there are fewer.
+/// Fits the similarity (Umeyama 1991) to landmark pairs. While one pair is an outlier, it is
+/// removed and the fit repeated.
+/// \return nothing if there are fewer than three pairs, or if the landmarks lie almost on a line.
 std::optional<LandmarkPose> pose_of_picked(const std::vector<PickedLandmark>& landmarks,
                                            const Positions& of_template);
 
-/// Where names that have been picked on the other half, or on the template, are likely to be.
+/// Likely positions of landmarks that are not picked yet, estimated from their mirror image or from
+/// the other mesh.
 struct SuggestedPlaces {
   std::map<std::string, PickedPlace> of_template;
   std::map<std::string, PickedPlace> of_scan;
@@ -39,8 +41,8 @@ struct SuggestedPlaces {
 };
 
 /// \param of_template  in millimetres
-/// \param plane        between its halves
-/// \param proposals    rows of the template that its shape tells, used where nothing is picked
+/// \param plane        symmetry plane of the template
+/// \param proposals    template vertices estimated from shape, for names that are not picked
 SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
                                const PickableMesh& of_template, const PickableMesh& of_scan,
                                const MirrorPlane& plane,
