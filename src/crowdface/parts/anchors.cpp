@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// The vertices of all faces around the corners, ascending.
+/// Returns the vertices of all faces around the corners, ascending.
 std::vector<std::uint32_t> ring_of(const Topology& topology, const FacesAround& faces,
                                    const std::array<std::uint32_t, 3>& corners) {
   std::vector<std::uint32_t> ring;
@@ -58,7 +58,7 @@ Anchors::Anchors(const Topology& topology, const FacesAround& faces, const Posit
 }
 
 Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) const {
-  // From the first corner, so that where the head stands makes no difference to rounding.
+  // Relative to the first corner, so that rounding does not depend on where the head is.
   const Eigen::Vector3d first = row3(positions, sites_[site][0]);
   Eigen::Vector3d along = Eigen::Vector3d::Zero(), across = along;
   for (const RingVertex& ring : rings_.of(site)) {
@@ -128,7 +128,7 @@ Ties::Ties(const Positions& positions, const std::vector<std::span<const std::ui
       ties_.push_back({v, part, share});
       sum += share;
     }
-    // Between two parts a vertex goes with both.
+    // Normalise, so that a vertex between two parts follows both.
     for (std::size_t i = first; i < ties_.size(); ++i) ties_[i].share /= std::max(1.0, sum);
   }
 }

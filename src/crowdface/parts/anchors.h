@@ -14,31 +14,33 @@
 
 namespace crowdface {
 
-/// Where the vertices of bound parts hang on the skin. Each has a place on the nearest triangle of
-/// the skin, and a frame of axes that the skin around that triangle turns: two moments of its
-/// vertices with fixed weights, made perpendicular.
+/// Attaches the vertices of bound parts to the skin. Each vertex is anchored to a point on the
+/// nearest triangle of the skin. Its offset from this point is expressed in a frame that rotates
+/// with the skin around the triangle: two axes are weighted sums of the surrounding vertices (with
+/// fixed weights), made orthonormal.
 class Anchors {
  public:
   Anchors() = default;
-  /// \param positions  of the head on which the nearest skin is looked for
-  /// \param bound      vertices to bind
+  /// \param positions  The head on which the nearest skin is found.
+  /// \param skin       The skin's vertices at these positions.
+  /// \param bound      Vertices to bind, ascending.
   Anchors(const Topology& topology, const FacesAround& faces, const Positions& positions,
           const PointGrid& skin, std::vector<std::uint32_t> bound);
 
   const std::vector<std::uint32_t>& bound() const { return bound_; }
 
-  /// The vertices' places in their frames, #bound.
+  /// Returns the vertices' offsets in their frames on a head, #bound.
   std::vector<Eigen::Vector3d> places(const Positions& head) const;
-  /// Puts the vertices of `result` at places told by `places` of the target. Where none of the skin
-  /// around has moved they get the target's positions to the bit.
+  /// Moves the bound vertices of `result` to offsets that `places` returned for the target.
+  /// Vertices whose surrounding skin is unmoved get exactly the target's positions.
   void put(const Positions& target, std::span<const Eigen::Vector3d> places,
            Positions& result) const;
 
  private:
-  using Frame = std::array<Eigen::Vector3d, 3>;  ///< unit axes
+  using Frame = std::array<Eigen::Vector3d, 3>;  ///< orthonormal axes
   struct RingVertex {
     std::uint32_t vertex;
-    double along, across;  ///< weights in the two moments
+    double along, across;  ///< weights in the sums for the first two axes
   };
 
   Frame frame_at(std::size_t site, const Positions& positions) const;
@@ -46,34 +48,37 @@ class Anchors {
   bool unmoved(std::size_t site, const Positions& before, const Positions& after) const;
 
   std::vector<std::uint32_t> bound_;           ///< ascending
-  std::vector<std::uint32_t> site_of_;         ///< #bound
+  std::vector<std::uint32_t> site_of_;         ///< #bound: index into `sites_`
   std::vector<std::array<double, 3>> shares_;  ///< #bound, barycentric
-  std::vector<Triangle> sites_;                ///< on the skin
-  Grouped<RingVertex> rings_;                  ///< #sites: the skin around
+  std::vector<Triangle> sites_;                ///< triangles of the skin
+  Grouped<RingVertex> rings_;                  ///< #sites: the skin around each triangle
 };
 
-/// What of the bound parts lies at a rigid part and goes along with it: gums with the teeth in them.
+/// Ties bound vertices to the rigid parts next to them: gums follow the teeth in them.
 class Ties {
  public:
   Ties() = default;
-  /// \param positions  of the head on which distances are measured
-  /// \param rigid      the vertices of each rigid part that ties
-  /// \param bound      vertices that may be tied
-  /// \param reach      a vertex this far off is free, one at the part is wholly tied
+  /// \param positions  The head on which distances are measured.
+  /// \param rigid      Vertices of each rigid part.
+  /// \param bound      Vertices that may be tied.
+  /// \param reach      Vertices at this distance from a part are free; vertices at the part follow
+  ///                   it fully.
   Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
        std::span<const std::uint32_t> bound, double reach);
 
-  /// Moves the tied vertices of `result` from where they are bound towards where the motions carry
+  /// Moves the tied vertices of `result` towards the positions to which the rigid motions carry
   /// them.
-  /// \param motions  #rigid
+  ///
+  /// \param target   The head that the face is built on.
+  /// \param motions  #rigid: motion of each part from `target`.
   void pull(const Positions& target, std::span<const RigidMotion> motions, Positions& result) const;
 
  private:
   struct Tie {
     std::uint32_t vertex, part;
-    double share;  ///< those of a vertex add up to one at most
+    double share;  ///< shares of a vertex sum to at most one
   };
-  std::vector<Tie> ties_;  ///< those of a vertex one after the other
+  std::vector<Tie> ties_;  ///< ties of one vertex are consecutive
 };
 
 }  // namespace crowdface

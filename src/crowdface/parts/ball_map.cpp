@@ -8,8 +8,9 @@
 namespace crowdface {
 namespace {
 
-/// Where a ray from the centre meets the surface, by the tangent planes where it is nearest (Newton);
-/// of a surface with holes, on the plane beside the hole.
+/// Returns where a ray from the centre intersects the surface, by Newton steps on the tangent
+/// planes at the nearest points. In a hole of the surface, the result lies on the plane next to the
+/// hole.
 double radius_along(const Topology& topology, const FacesAround& faces, const Positions& head,
                     const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, double radius,
                     std::uint32_t& nearest) {
@@ -47,7 +48,7 @@ BallMap::BallMap(const Topology& topology, const FacesAround& faces, const Posit
       const double q = static_cast<double>(y) * kStep - kWidth;
       const double square = p * p + q * q;
       if (square > kWidth * kWidth * 1.1) continue;
-      // From the plane back to the sphere.
+      // Inverse stereographic projection.
       const Eigen::Vector3d direction =
           (2 * p * side_ + 2 * q * axes_.up + (1 - square) * axes_.front) / (1 + square);
       if (nearest == kNoIndex) nearest = grid.nearest(centre + radius * direction).vertex;
@@ -73,7 +74,7 @@ BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
   const double radius = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
   const double by_p = ((1 - v) * (b - a) + v * (d - c)) * kPerWidth;
   const double by_q = ((1 - u) * (c - a) + u * (d - b)) * kPerWidth;
-  // The gap is F / |∇F| of F(x) = |x| − radius(x / |x|), to the first order.
+  // To first order, the gap is F / |∇F| for F(x) = |x| − radius(x / |x|).
   const Eigen::Vector3d slope =
       down * (by_p * (side_ - p * axes_.front) + by_q * (axes_.up - q * axes_.front));
   const Eigen::Vector3d gradient =

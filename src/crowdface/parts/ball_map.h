@@ -9,34 +9,38 @@
 
 namespace crowdface {
 
-/// How far the surface of an eyeball is from its centre, cornea and all, in directions around the
-/// front: a grid over the stereographic plane, so that the gap to a lid costs a look-up instead of a
-/// search.
+/// The radius of an eyeball, cornea included, in all directions around its front. The radii are
+/// stored on a grid over the stereographic plane, so that measuring the gap to a lid is a table
+/// look-up instead of a search.
 class BallMap {
  public:
   BallMap() = default;
-  /// \param vertices        of the eyeball's surface
-  /// \param centre, radius  of its ball
+  /// \param vertices  Vertices of the eyeball's surface.
+  /// \param centre    Centre of the eyeball.
+  /// \param radius    Radius of the eyeball.
   BallMap(const Topology& topology, const FacesAround& faces, const Positions& head,
           std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre, double radius,
           const HeadAxes& axes);
 
   struct Gap {
-    double gap = 0;          ///< to the surface; negative inside
-    Eigen::Vector3d normal;  ///< outward, unit
+    double gap = 0;          ///< signed distance from the surface; negative: inside
+    Eigen::Vector3d normal;  ///< outward unit normal
   };
-  /// \param from  a point less the centre
+  /// Returns the gap between the surface and a point, to first order.
+  ///
+  /// \param from  Position of the point relative to the centre.
   Gap gap_at(const Eigen::Vector3d& from) const;
 
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
-  /// The largest distance of the surface from the centre.
+  /// Returns the largest radius in any direction.
   double farthest() const { return farthest_; }
 
  private:
-  /// Nodes along one side: half a millimetre apart at an eyeball's equator, one at its front.
+  /// Number of nodes along one side of the grid. Nodes are half a millimetre apart at an eyeball's
+  /// equator, and one millimetre at its front.
   static constexpr std::size_t kNodes = 72;
-  /// The plane's half width: a direction 16° behind the equator.
+  /// Half width of the grid in the stereographic plane; reaches 16° behind the equator.
   static constexpr double kWidth = 1.32;
 
   float at(std::size_t x, std::size_t y) const { return radii_[y * kNodes + x]; }
@@ -44,7 +48,7 @@ class BallMap {
   HeadAxes axes_;
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
   double radius_ = 0, farthest_ = 0;
-  std::vector<float> radii_;  ///< kNodes by kNodes, x along the side axis first
+  std::vector<float> radii_;  ///< kNodes by kNodes; x, along the side axis, varies fastest
 };
 
 }  // namespace crowdface

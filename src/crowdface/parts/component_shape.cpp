@@ -16,10 +16,11 @@
 namespace crowdface {
 namespace {
 
-/// Vertices of a component whose distance to the skin is looked at.
+/// Number of a component's vertices whose distance from the skin is measured.
 constexpr std::size_t kMostProbes = 512;
 
-/// Solves the symmetric system A x = b, 4 by 4, by elimination with pivots; zero where A is singular.
+/// Solves the symmetric 4 by 4 system A x = b by elimination with pivoting; returns zero if A is
+/// singular.
 std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
   for (std::size_t k = 0; k < 4; ++k) {
     std::size_t pivot = k;
@@ -42,7 +43,7 @@ std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
   return x;
 }
 
-/// |p|² = 2 p·c + (r² − |c|²) in the least-squares sense, about the middle of the vertices.
+/// Fits |p|² = 2 p·c + (r² − |c|²) by least squares, relative to the vertices' mean.
 void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& vertices,
                 ComponentShape& shape) {
   const Eigen::Vector3d middle = centre_of(positions, vertices);
@@ -63,7 +64,7 @@ void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& ve
   shape.radius = std::sqrt(std::max(0.0, x[3] + centre.squaredNorm()));
 }
 
-/// Of vertices and middles of faces: the corners of any box lie on a sphere.
+/// Includes face centres, because the corners of any box lie on a sphere.
 void measure_roughness(const Topology& topology, const Components& components,
                        const Positions& positions, std::vector<ComponentShape>& shapes) {
   std::vector<double> sums(shapes.size(), 0.0);
@@ -86,7 +87,8 @@ void measure_roughness(const Topology& topology, const Components& components,
   }
 }
 
-/// The farthest that nine in ten of some evenly chosen vertices are from the skin, up to `reach`.
+/// Returns the 90th percentile of the distances from the skin, at most `reach`, over an even subset
+/// of the vertices.
 double distance_to(const PointGrid& skin, const Positions& positions,
                    const std::vector<std::uint32_t>& vertices, double reach) {
   std::vector<double> distances;
@@ -153,8 +155,8 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
     ++shapes[c].faces;
     area[c] += face_area_vector(topology, f, positions).norm() / 2;
   }
-  // An edge between two vertices of the rim is an open edge, but for a few across narrow strips,
-  // which are open enough as it is.
+  // Treat an edge between two boundary vertices as open. This is wrong for a few edges across
+  // narrow strips, which are open enough anyway.
   for (Index i = 0; i < topology.vertex_count; ++i) {
     if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
     for (const std::uint32_t n : adjacency.of(i)) {

@@ -12,48 +12,50 @@
 
 namespace crowdface {
 
-/// Distances to the skin are looked for so far, as a share of the skin's extent: they are told as this
-/// where it is farther.
+/// Distances from the skin are measured up to this fraction of the skin's extent; larger ones are
+/// reported as this.
 constexpr double kFarFromSkin = 0.05;
 
-/// What a connected component looks like by itself, as far as it tells skin, eyes and lashes apart.
+/// Geometric properties of a connected component that distinguish skin, eyes and lashes.
 struct ComponentShape {
   Index vertices = 0;
   Index faces = 0;
-  double extent = 0;     ///< diagonal of its bounding box
+  double extent = 0;     ///< diagonal of the bounding box
   double thickness = 0;  ///< shortest side of the bounding box
-  /// Perimeter² / (4π · area) of its open edges: 0 of a closed surface, ½ of a hemisphere, 1 of a
-  /// disc, more of a strip; of any number of vertices.
+  /// Perimeter² / (4π · area), with the perimeter of open edges: 0 for a closed surface, ½ for a
+  /// hemisphere, 1 for a disc, more for a strip. Independent of the number of vertices.
   double openness = 0;
-  /// The farthest that nine in ten of its vertices are from the skin, up to kFarFromSkin.
+  /// 90th percentile of the vertices' distances from the skin, at most kFarFromSkin.
   double skin_distance = 0;
-  /// The sphere nearest to its vertices, and how far they are from it (root mean square).
+  /// The least-squares sphere through the vertices. `roughness` is the root mean square distance of
+  /// vertices and face centres from it.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
   double roughness = 0;
 };
 
-/// The shapes of all components; that of the skin, the largest, has a skin_distance of 0.
+/// Returns the shapes of all components. The largest component is the skin; its skin_distance is 0.
+///
 /// \param positions  #V by 3, any unit.
 std::vector<ComponentShape> component_shapes(const Topology& topology, const Adjacency& adjacency,
                                              const Components& components,
                                              const Positions& positions);
 
-/// The vertices of each component, ascending.
+/// Returns the vertices of each component, ascending.
 std::vector<std::vector<std::uint32_t>> members_of(const Components& components);
 
-/// The place of a vertex among some that ascend; kNoIndex: it is none of them.
+/// Returns the index of a vertex in an ascending list, or kNoIndex if it is not in the list.
 std::uint32_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
 
-// Of some vertices, at least one:
+// The following functions need at least one vertex.
 Eigen::AlignedBox3d bounding_box(const Positions& positions,
                                  std::span<const std::uint32_t> vertices);
-/// Their mean.
+/// Returns the mean position of the vertices.
 Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint32_t> vertices);
-/// How far they are from a place, the root mean square.
+/// Returns the root mean square distance of the vertices from a point.
 double radius_about(const Eigen::Vector3d& middle, const Positions& positions,
                     std::span<const std::uint32_t> vertices);
-/// The diagonal of their bounding box.
+/// Returns the diagonal of the vertices' bounding box.
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

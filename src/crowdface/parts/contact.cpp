@@ -14,24 +14,27 @@
 namespace crowdface {
 namespace {
 
-/// Of a part with more vertices than this some are chosen evenly.
+/// Parts with more vertices are subsampled evenly.
 constexpr std::size_t kMostVertices = 2500;
-/// Pairs of a cluster at most, and how much more than in the heads their distances from the skin may
-/// differ in a face.
+/// Largest number of pairs in a cluster; and the factor from the height differences within a
+/// cluster in the heads to those allowed for in a face.
 constexpr std::size_t kClusterPairs = 16;
 constexpr double kMoreSlack = 1.5;
-/// Shares of the reach (some 4 mm): nearer than this by a rough measure a vertex is measured exactly;
-/// and what counts as free.
+/// Fractions of the reach (about 4 mm): a vertex with a rough height below kNear is measured
+/// exactly; a vertex with a height above kFree counts as outside.
 constexpr double kNear = 0.5, kFree = -0.005;
-/// What is farther off after that is left out of further steps; and how much may be missing at last.
+/// Fractions of the reach: vertices farther away are left out of later steps; the violation that is
+/// tolerated in the end.
 constexpr double kFar = 0.15, kDone = 0.002;
-/// What a turn and a change of size cost, as against a shift that moves as much.
+/// Costs of a rotation and of a change of size, relative to a translation that moves vertices as
+/// far.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
-/// Prices, as multiples of the reach: that nothing passes where nothing does comes first.
+/// Prices of violations, as multiples of the reach. Vertices that are outside in all heads have
+/// priority.
 constexpr double kNewPrice = 1000, kDeepPrice = 1;
 
-/// Unknowns of a step; lengths.
+/// Unknowns of a step, all of them lengths.
 enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepSlack, kUnknowns };
 
 }  // namespace
@@ -52,7 +55,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
     pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
     sum += height(pairs_.size() - 1, point, positions).height > 0 ? 1 : -1;
   }
-  // Most lie on the free side; roots that reach into the flesh may.
+  // Most vertices are outside the skin; roots of teeth may be inside.
   side_ = sum < 0 ? -1 : 1;
   find_starts(positions, skin, heads);
   find_clusters(positions, heads);
@@ -66,8 +69,9 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
 
 void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads) {
-  // Starts nearer to each other than this lead to the same place.
+  // Starts nearer to each other than this lead to the same point.
   const double apart = 0.3 * reach_;
+  // Find the skin nearest to each pair in every head.
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
   parallel_for_each(heads.size(), [&](std::size_t i) {
     const Positions& head = heads[i].positions;
@@ -86,6 +90,7 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
+  // Keep those starts that are far enough from each other.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     auto& starts = pairs_[i].starts;
     std::size_t count = 1;
@@ -104,6 +109,7 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
 }
 
 void Contact::find_clusters(const Positions& positions, const std::vector<Head>& heads) {
+  // Split the pairs at the median of the longest axis until each cluster is small.
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, pairs_.size()}};
   while (!open.empty()) {
     const auto [begin, end] = open.back();
@@ -125,6 +131,7 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
     open.emplace_back(middle, end);
     open.emplace_back(begin, middle);
   }
+  // Bound the height differences within a cluster by those in the heads.
   for (Cluster& cluster : clusters_) {
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {

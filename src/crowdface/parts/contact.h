@@ -13,31 +13,37 @@
 
 namespace crowdface {
 
-/// Where a rigid part lies so near to the skin that it may come to pass through it: teeth behind lips
-/// and cheeks. Pairs of a vertex of the part and a triangle of the skin.
+/// Keeps a rigid part out of the skin next to it: teeth behind lips and cheeks. Stores pairs of a
+/// vertex of the part and a triangle of the skin.
 class Contact {
  public:
   Contact() = default;
-  /// \param positions  of the head on which the pairs are looked for
-  /// \param grid       of the skin at these positions
-  /// \param reach      how near
-  /// Topology and faces must outlive it.
+  /// \param topology   Must outlive this object.
+  /// \param faces      Must outlive this object.
+  /// \param positions  The head on which the pairs are found.
+  /// \param grid       The skin's vertices at these positions.
+  /// \param skin       The skin's vertices.
+  /// \param part       The part's vertices.
+  /// \param reach      Largest distance of a pair.
   Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
           const PointGrid& grid, std::span<const std::uint32_t> skin,
           std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
 
-  /// How far a pair's vertex, wherever it is, is off the skin of a head; negative: through it.
+  /// Signed distance of a pair's vertex from the skin of a head; negative: inside the skin.
   struct Height {
     double height = 0;
-    Eigen::Vector3d outward;  ///< off the skin, unit
+    Eigen::Vector3d outward;  ///< outward unit normal of the skin
   };
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// A motion as near as can be to the given one after which no vertex is deeper in the skin than in
-  /// any of the heads, nor in it at all if it is in none. The part is shifted, turned and made a little
-  /// smaller.
-  /// \param target  the part before the motion
-  /// \param margin  what is left of a clearance that all heads have
+  /// Returns the motion nearest to the given one after which no vertex is deeper inside the skin
+  /// than in the head where it is deepest, and no vertex is inside that is outside in all heads.
+  /// The part is translated, rotated and scaled slightly.
+  ///
+  /// \param target  The head with the part before the motion.
+  /// \param motion  Motion of the surrounding skin.
+  /// \param after   The face with the moved skin.
+  /// \param margin  Clearance to keep where all heads have a clearance.
   RigidMotion clear(const Positions& target, const RigidMotion& motion, const Positions& after,
                     double margin) const;
 
@@ -50,13 +56,14 @@ class Contact {
     std::uint32_t vertex;
     Triangle corners;
     std::array<double, 3> shares;
-    /// Vertices to start from when the nearest skin is looked for: of both lips, where both are near.
+    /// Vertices at which the search for the nearest skin starts: on both lips where both are near.
     Starts starts;
-    double least;  ///< height in all heads
+    double least;  ///< smallest height in all heads
   };
-  /// Pairs close together, and by how much one of them may be farther off the skin than another is.
+  /// Pairs that are close together. `slack` is the largest amount by which a pair's height may be
+  /// below that of the middle pair.
   struct Cluster {
-    std::size_t begin, end;  ///< of pairs_; the one that stands for all is in the middle
+    std::size_t begin, end;  ///< range of `pairs_`; the pair in the middle represents all
     double slack;
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
@@ -65,18 +72,21 @@ class Contact {
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
   double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
-  /// \param near  the pairs to look at; those that turn out to be far are taken out
-  /// \return false if nothing is missing
+  /// Improves `motion` by one step.
+  ///
+  /// \param near  Pairs to check; removes pairs that are far from the skin.
+  /// \return      false if no pair violates a limit.
   bool step(const Positions& target, const RigidMotion& start, const Positions& after,
             double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
   const Topology* topology_ = nullptr;
   const FacesAround* faces_ = nullptr;
   double reach_ = 0;
-  double side_ = 1;    ///< −1: the skin's faces look away from the part
-  double radius_ = 0;  ///< of the part: root mean square about its middle
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< of the part where the pairs were found
-  std::vector<Pair> pairs_;                           ///< by cluster
+  double side_ = 1;    ///< −1: the skin's normals point away from the part
+  double radius_ = 0;  ///< of the part: root mean square distance from its middle
+  /// middle of the part on the head where the pairs were found
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  std::vector<Pair> pairs_;  ///< ordered by cluster
   std::vector<Cluster> clusters_;
 };
 

@@ -13,10 +13,11 @@
 namespace crowdface {
 namespace {
 
-/// Pairs within so many spacings of a place tell how the group runs there, and which way is up.
+/// Pairs within this many spacings of a place determine the direction of the group there, and its
+/// `up`.
 constexpr double kCourse = 4, kUp = 1.5;
 
-/// The direction in which the middles of some pairs are spread most, perpendicular to another one.
+/// Returns the principal direction of the midpoints near a point, perpendicular to `up`.
 Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, double reach,
                        const Eigen::Vector3d& up) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -38,8 +39,8 @@ bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b
   return a == b || contains(adjacency.of(a), b);
 }
 
-/// A cut that passes one edge and then the other crosses one face between them: the edges share an end
-/// and the others are neighbours, or they are opposite sides of a quad.
+/// Returns whether two edges can be consecutive in a cut, that is, belong to one face: they share
+/// an end and their other ends are neighbours, or they are opposite sides of a quad.
 bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoint& q) {
   const auto joined = [&](std::uint32_t qa, std::uint32_t qb) {
     return are_neighbours(adjacency, p.a, qa) && are_neighbours(adjacency, p.b, qb);
@@ -60,7 +61,8 @@ double ContactPlace::gap(const Positions& positions) const {
 std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing) {
   std::vector<double> nearest(group.size(), std::numeric_limits<double>::max());
   std::vector<ContactPlace> places;
-  for (std::size_t next = 0; nearest[next] >= spacing;) {  // the farthest from all so far
+  // the pair farthest from all places so far
+  for (std::size_t next = 0; nearest[next] >= spacing;) {
     const Eigen::Vector3d middle = group[next].middle;
     Eigen::Vector3d up = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < group.size(); ++i) {

@@ -15,75 +15,85 @@
 
 namespace crowdface {
 
-/// A point on an edge of a mesh: the same part of the way from a to b in every head.
+/// A point on an edge of a mesh, at the same fraction of the edge in every head.
 struct EdgePoint {
   std::uint32_t a, b;
-  double share;  ///< of b
+  double share;  ///< weight of b
 };
 
-/// A place where a gap is measured: two short profiles, cut across the two sides on the mean head, and
-/// the direction that separates them there.
+/// A place where the gap between two facing sides is measured: two short profiles, cut across both
+/// sides on the mean head, and the direction from one side to the other.
 struct ContactPlace {
-  Eigen::Vector3d middle, up;  ///< on the mean head; unit, from the low side to the high one
-  Eigen::Vector3d along;       ///< unit: normal to the cut
+  /// position on the mean head; unit vector from the low side to the high side
+  Eigen::Vector3d middle, up;
+  Eigen::Vector3d along;  ///< unit normal of the cutting plane
   std::vector<EdgePoint> low, high;
 
-  /// How far the lowest point of the high profile is above the highest of the low one; negative where
-  /// they overlap.
+  /// Returns the height of the lowest point of the high profile above the highest point of the low
+  /// profile; negative if they overlap.
   double gap(const Positions& positions) const;
-  /// Unit: into the contact, within the cut.
+  /// Returns the unit vector into the contact, within the cutting plane.
   Eigen::Vector3d deep() const { return along.cross(up); }
 };
 
-/// Places evenly spread over a group, without profiles.
-/// \param spacing  at least so far from each other; none of the group's pairs is farther from all
+/// Returns places spread evenly over a group, without profiles.
+///
+/// \param spacing  Places are at least this far apart, and no pair of the group is farther than
+///                 this from all places.
 std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing);
 
-/// Cuts the profiles of a place, some may be empty.
-/// \param vertices  those around the group
-/// \param side      #V: positive on the high side, negative on the low one
-/// \param reach     of the profiles, from the place's middle
+/// Cuts the profiles of a place. Either profile may be empty.
+///
+/// \param vertices  Vertices around the group.
+/// \param side      #V: positive on the high side, negative on the low side.
+/// \param reach     Largest distance of the profiles from the place's middle.
 void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
                   double reach, ContactPlace& place);
 
-/// Of an edge's point above the origin, along a direction.
+/// Returns the coordinate of an edge point along a direction.
 inline double height_of(const EdgePoint& point, const Eigen::Vector3d& up,
                         const Positions& positions) {
   return (1 - point.share) * row3(positions, point.a).dot(up) +
          point.share * row3(positions, point.b).dot(up);
 }
 
-/// How far apart the two profiles of a place are where one is above the other. Of an upper lip whose inner
-/// rim hangs down behind the lower one the lowest point tells nothing: the slit in front of it is seen.
+/// Measures the smallest gap between the two profiles of a place, where one is above the other. If
+/// the inner rim of the upper lip hangs behind the lower lip, its lowest point is hidden; this
+/// measures the visible slit in front. Const members may be called from several threads.
 class Clearance {
  public:
   Clearance(const ContactPlace& place, const Adjacency& adjacency);
 
-  /// A point of the low profile and one of the high profile as deep as it, each between two points.
+  /// A point on the low profile and a point on the high profile at the same depth, each
+  /// interpolated between two points.
   struct Opposite {
-    std::array<std::uint32_t, 2> low, high;         ///< low points first, high ones after them
-    std::array<double, 2> low_shares, high_shares;  ///< of the points; sum 1
+    /// point indices; low points come before high points
+    std::array<std::uint32_t, 2> low, high;
+    std::array<double, 2> low_shares, high_shares;  ///< interpolation weights, with sum one
 
-    /// \param heights  of all points
+    /// \param heights  Heights of all points.
     double gap(std::span<const double> heights) const {
       return high_shares[0] * heights[high[0]] + high_shares[1] * heights[high[1]] -
              low_shares[0] * heights[low[0]] - low_shares[1] * heights[low[1]];
     }
   };
-  /// Where the profiles' pieces begin or end above each other; at one of them the gap is smallest, since
-  /// pieces are straight. At least one: where nothing is above anything, the points nearest in depth.
-  /// \param depths  of all points
+  /// Returns the depths at which a segment of one profile begins or ends above a segment of the
+  /// other. Segments are straight, so the gap is smallest at one of these. If no segments overlap
+  /// in depth, returns the pair nearest in depth.
+  ///
+  /// \param depths  Depths of all points.
   std::vector<Opposite> opposites(std::span<const double> depths) const;
-  /// Of all points, low ones first: along `up` and along `deep()` of the place.
+  /// Return the coordinates of all points, low ones first: along the place's `up`, and along its
+  /// `deep()`.
   std::vector<double> heights(const Positions& positions) const { return along(up_, positions); }
   std::vector<double> depths(const Positions& positions) const { return along(deep_, positions); }
-  /// The smallest of some opposites; negative where the profiles cross.
+  /// Returns the smallest gap of the given opposites; negative if the profiles intersect.
   static double gap(std::span<const Opposite> opposites, std::span<const double> heights);
   double gap(const Positions& positions) const;
 
  private:
-  /// Two points next to each other, or one that has none.
+  /// A segment between two neighbouring points, or a single point without neighbours.
   using Piece = std::array<std::uint32_t, 2>;
 
   std::vector<double> along(const Eigen::Vector3d& direction, const Positions& positions) const;

@@ -13,33 +13,34 @@
 namespace crowdface {
 namespace {
 
-/// How far off the eyeball lids may be, as a share of its radius, some 12 mm.
+/// Skin nearer to the eyeball than this belongs to the lids; fraction of the radius (about 12 mm).
 constexpr double kLidReach = 0.3;
-constexpr double kLeastFront = 0.35;  // cosine of the angle to the axis, at the lids' corners
+// smallest cosine between a rim vertex's direction and the front
+constexpr double kLeastFront = 0.35;
 constexpr std::size_t kDirections = 60;
-/// Of more vertices than this some are chosen evenly.
+/// More lid vertices than this are subsampled evenly.
 constexpr std::size_t kMostLids = 2500;
 
-/// What the mean gap of a lid counts beside the mean square of all gaps of the rim, and how far it may be
-/// off: a share of the radius, 0.05 mm.
+/// Weight of a lid's mean gap relative to the mean square of the rim's gaps; and its tolerance as a
+/// fraction of the radius (0.05 mm).
 constexpr double kMeans = 20, kMeanOff = 0.004;
-/// What a shift and a change of size cost beside the gaps.
+/// Costs of translation and change of size, relative to the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
-/// How much smaller or larger the eyeball may become.
+/// Largest decrease and increase of the eyeball's size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
-/// Shares of the radius: what is kept free where no head has a lid inside, and what still counts as
-/// free: 0.025 and 0.04 mm.
+/// Fractions of the radius: clearance to keep where no head has a lid inside (0.025 mm), and depth
+/// that still counts as outside (0.04 mm).
 constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
-/// Lids that are this far off in the first step, and in those after it, are not met by what is still to
-/// come: shares of the radius.
+/// Lids farther away than this, in the first step and in later steps, cannot be reached by the
+/// remaining motion; fractions of the radius.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
-/// A shift, as a share of the radius, after which another step changes nothing that can be seen.
+/// A step that translates by less than this fraction of the radius is the last.
 constexpr double kDoneShift = 1e-3;
-/// Prices, as multiples of the radius, of what cannot be had: that no lid enters where none does comes
-/// first, then the mean gaps, then that none enters farther than in any head.
+/// Prices of violations, as multiples of the radius. Lids that are outside in all heads have
+/// priority, then the mean gaps, then the largest depths.
 constexpr double kNewLidPrice = 100, kMeanGapPrice = 10, kDeepLidPrice = 1;
 
-/// Unknowns of a step; lengths.
+/// Unknowns of a step, all of them lengths.
 enum BallUnknown : std::size_t {
   kBallShift = 0,
   kBallSize = 3,
@@ -49,7 +50,7 @@ enum BallUnknown : std::size_t {
   kBallUnknowns
 };
 
-/// Which of kDirections equal sectors a direction in the plane lies in.
+/// Returns the sector, of kDirections equal ones, that contains a direction in the plane.
 std::size_t sector(double x, double y) {
   constexpr double kTurn = 6.283185307179586, kRound = 1e9;
   const double turn = std::round((std::atan2(y, x) / kTurn + 0.5) * kRound) / kRound;
@@ -80,6 +81,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     Innermost& best = innermost[sector(from.dot(side), from.dot(axes.up))];
     if (cosine > best.cosine) best = {v, cosine};
   }
+  // The rim is complete; the other lids are subsampled.
   Lids lids;
   std::vector<std::uint32_t> rim;
   for (const Innermost& best : innermost) {
@@ -149,7 +151,8 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
                             double far, Size size, std::vector<Lid>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
-  // A gap is measured along the surface's normal: it is a little less than the distance beyond.
+  // A gap is measured along the normal, so it is a little smaller than the distance from the
+  // surface along the ray.
   const double outside = motion.scale * map.farthest() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
   const Eigen::Vector3d shifted = centre - start.apply(map.centre());
@@ -171,7 +174,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     if (r == kNoIndex && gap.gap > far * radius) continue;
     lids[kept++] = lid;
     const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
-    // A shift by x changes the gap by −x · normal.
+    // A translation by x changes the gap by −x · normal.
     SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
     if (size == Size::kFree) {
       a[kBallSize] = -normal.dot(lid.point - gap.gap * normal - centre) / radius;
@@ -189,6 +192,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     a[never ? kNewLidSlack : kDeepLidSlack] = 1;
     program.demand(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
+  // Keep the mean gap of each lid, within a tolerance.
   lids.resize(kept);
 
   for (auto& of : mean) {

@@ -12,38 +12,45 @@
 
 namespace crowdface {
 
-/// The skin close to the front of an eyeball: lids and what lines them. Of these the rim: in each of
-/// some directions around the axis, the vertex that comes nearest to the axis.
+/// The skin close to the front of an eyeball: the lids and their lining. The rim is a subset: in
+/// each of several directions around the axis, the vertex nearest to the axis.
 struct Lids {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  std::vector<std::uint32_t> rim;       ///< places in `vertices`, ascending
-  std::vector<bool> upper;              ///< #rim: of the upper lid
+  std::vector<std::uint32_t> rim;       ///< indices into `vertices`, ascending
+  std::vector<bool> upper;              ///< #rim: whether the vertex belongs to the upper lid
 };
 
-/// \param eyeball         vertices of the eyeball
-/// \param centre, radius  of the eyeball
-/// \param skin            the skin's vertices
+/// Finds the lids of an eyeball.
+///
+/// \param eyeball  Vertices of the eyeball.
+/// \param centre   Centre of the eyeball.
+/// \param radius   Radius of the eyeball.
+/// \param skin     The skin's vertices.
 Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen::Vector3d& centre,
                double radius, const HeadAxes& axes, std::span<const std::uint32_t> skin);
 
-/// How an eyeball lies behind its lids in each of the heads, and how it is put there in a new one.
+/// The position of an eyeball behind its lids in each head, and the fit of this position on a face.
 class EyeSocket {
  public:
   EyeSocket() = default;
-  /// \param maps   of the eyeball in each head
+  /// \param maps  #heads: the eyeball in each head.
   EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads);
 
   const Lids& lids() const { return lids_; }
-  /// Of the rim in one of the heads; negative inside the eyeball.
+  /// Returns the gaps at the rim in a head; negative inside the eyeball.
   const std::vector<double>& gaps(std::size_t head) const { return gaps_[head]; }
 
-  /// Where the eyeball of `target` comes to lie when its face has moved: shifted, and made a little
-  /// smaller or larger, so that its mean gap to each lid becomes what it was, and each gap of the rim as
-  /// nearly as it then can, while no lid enters it farther than in any of the heads, nor at all if it
-  /// enters it in none.
-  /// \param motion  of the skin around the eye
+  /// Fits the eyeball of `target` behind the lids of a face. The eyeball is translated and scaled
+  /// slightly, so that its mean gap to each lid equals the target's, and the gaps at the rim are as
+  /// near to the target's as possible. No lid is deeper inside the eyeball than in the head where
+  /// it is deepest, and no lid is inside that is outside in all heads.
+  ///
+  /// \param motion  Motion of the skin around the eye.
+  /// \param after   The face with the moved skin.
   RigidMotion fit(std::size_t target, const RigidMotion& motion, const Positions& after) const;
-  /// The same by a shift alone. \param fitted  as `fit` gives it, of the size that the eyeball is to have
+  /// Fits the eyeball by translation only.
+  ///
+  /// \param fitted  Result of `fit`, scaled to the wanted size.
   RigidMotion fit_of_size(std::size_t target, const RigidMotion& motion, const RigidMotion& fitted,
                           const Positions& after) const;
   Eigen::Vector3d centre(std::size_t target) const { return maps_[target].centre(); }
@@ -54,7 +61,7 @@ class EyeSocket {
     Eigen::Vector3d point;
     std::uint32_t number;
   };
-  /// \param far  lids farther off than this share of the radius are taken out
+  /// \param far  Removes lids farther away than this fraction of the radius from `lids`.
   RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
                    double far, Size size, std::vector<Lid>& lids) const;
   RigidMotion steps(std::size_t target, const RigidMotion& start, RigidMotion fitted, Size size,
@@ -63,8 +70,8 @@ class EyeSocket {
   Lids lids_;
   std::vector<BallMap> maps_;              ///< #heads
   std::vector<std::vector<double>> gaps_;  ///< #heads by #rim
-  std::vector<double> least_;              ///< #lids: the least gap of all heads
-  std::vector<std::uint32_t> rim_of_;      ///< #lids: number in the rim, or kNoIndex
+  std::vector<double> least_;              ///< #lids: smallest gap in all heads
+  std::vector<std::uint32_t> rim_of_;      ///< #lids: index in the rim, or kNoIndex
 };
 
 }  // namespace crowdface

@@ -24,7 +24,7 @@ std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge
   return std::nullopt;
 }
 
-/// \return false if only one side has a face there
+/// \return  false if only one side has a face there.
 bool MirroredWalk::reach(DirectedEdge here, DirectedEdge there) {
   const auto face = face_along(here);
   const auto image = face_along(there);
@@ -35,7 +35,7 @@ bool MirroredWalk::reach(DirectedEdge here, DirectedEdge there) {
   return true;
 }
 
-/// \return false if either has another partner
+/// \return  false if either vertex already has another partner.
 bool MirroredWalk::pair(MirroredPair pair) {
   std::uint32_t& partner = partner_of_[pair.vertex];
   if (partner != kNoIndex) return partner == pair.partner;

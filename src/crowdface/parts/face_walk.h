@@ -11,34 +11,39 @@
 
 namespace crowdface {
 
-/// An edge from `from` to `to`, as a face runs through it.
+/// A directed edge, in the winding order of a face.
 struct DirectedEdge {
   std::uint32_t from, to;
 };
 
-/// Vertices that answer each other if faces are mirrored.
+/// A vertex and its mirror partner.
 struct MirroredPair {
   std::uint32_t vertex, partner;
 };
 
-/// Walks over the faces of two sides of a mesh; what it needs for that is made once.
+/// Walks over two sides of a mesh simultaneously to find mirror partners. The constructor allocates
+/// the work arrays. One object must not be used by several threads at once.
 class MirroredWalk {
  public:
-  /// Both must outlive this object.
+  /// \param topology  Must outlive this object.
+  /// \param around    Must outlive this object.
   MirroredWalk(const Topology& topology, const FacesAround& around);
 
-  /// Goes from face to face on two sides of a mesh at once, the other way round on the second, for as long
-  /// as faces there have as many corners and vertices meet the same partners as before.
-  /// \param edge   of a face on the first side
-  /// \param other  its image, of a face on the second: runs from the partner of edge.to to that of edge.from
-  /// \param goes_on  asked of each pair when it is met; where it says no, the walk is given up
-  /// \return  all vertices that were met; nothing if the sides are not alike
+  /// Walks from face to face on both sides, in opposite winding on the second side, as long as
+  /// corresponding faces have equally many corners and each vertex meets the same partner again.
+  ///
+  /// \param edge     An edge of a face on the first side.
+  /// \param other    Its mirror image on the second side: from the partner of edge.to to the
+  ///                 partner of edge.from.
+  /// \param goes_on  Called once for each new pair. If it returns false, the walk ends without
+  ///                 result.
+  /// \return         All pairs found, or nothing if the two sides do not match.
   std::optional<std::vector<MirroredPair>> from(
       DirectedEdge edge, DirectedEdge other,
       const std::function<bool(const MirroredPair&)>& goes_on);
 
  private:
-  /// Where a face runs through an edge: its corner at the edge's beginning.
+  /// An edge of a face: the face, and the corner where the edge begins.
   struct FaceEdge {
     std::uint32_t face;
     std::size_t corner;
@@ -57,10 +62,11 @@ class MirroredWalk {
 
   const Topology& topology_;
   const FacesAround& around_;
-  // Of the walk that is under way:
-  std::vector<std::uint32_t> partner_of_, vertex_of_;  ///< #V, kNoIndex where none is met
-  std::vector<bool> met_;                              ///< #F, of the first side
-  std::vector<FacePair> faces_;                        ///< met, in this order
+  // State of the current walk:
+  /// #V; kNoIndex for vertices without partner
+  std::vector<std::uint32_t> partner_of_, vertex_of_;
+  std::vector<bool> met_;        ///< #F of the first side
+  std::vector<FacePair> faces_;  ///< in the order they are found
   std::vector<MirroredPair> pairs_;
 };
 

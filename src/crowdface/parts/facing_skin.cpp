@@ -22,28 +22,30 @@
 namespace crowdface {
 namespace {
 
-// Shares of the skin's extent, some 43 cm.
-constexpr double kReach = 0.008;    // how near is nearly touching
-constexpr double kSpacing = 0.003;  // between vertices that stand for all
-constexpr double kOverlap =
-    0.0005;  // lips that touch cross a little on the mean head; lids are thicker
-constexpr double kAside = 0.0035;       // how far beside each other two places may be
-constexpr double kLeastAway = 0.02;     // along the surface
-constexpr double kTogether = 0.015;     // middles of pairs of one group, or more in a coarse mesh
-constexpr double kTimesAway = 3;        // along the surface, as a multiple of the distance
-constexpr double kOpposed = -0.3;       // cosine between normals
-constexpr double kEdgesTogether = 2.5;  // edges between pairs of one group
-constexpr double kSideways = 0.75;      // of the gap
+// Lengths are fractions of the skin's extent, about 43 cm.
+constexpr double kReach = 0.008;    // largest distance of skin that nearly touches
+constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
+// largest overlap: lips that touch intersect a little on the mean head; lids are thicker
+constexpr double kOverlap = 0.0005;
+constexpr double kAside = 0.0035;    // largest sideways offset of two facing vertices
+constexpr double kLeastAway = 0.02;  // smallest distance along the surface
+// distance of the midpoints in one group; more in a coarse mesh
+constexpr double kTogether = 0.015;
+// smallest distance along the surface, as a multiple of the distance in space
+constexpr double kTimesAway = 3;
+constexpr double kOpposed = -0.3;       // largest cosine between the normals
+constexpr double kEdgesTogether = 2.5;  // the same as kTogether, in edge lengths
+constexpr double kSideways = 0.75;      // largest sideways offset, as a fraction of the gap
 constexpr Index kBlock = 1024, kSearches = 16;
 
-/// One of those vertices that share a cell of a grid, the first, for all cells, ascending.
+/// Returns the first vertex in each cell of a grid, ascending.
 std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
                                    double width) {
   using Cell = std::array<double, 3>;
   const auto mixed = [](const Cell& cell) {
     std::uint64_t bits = 0;
     for (const double at : cell) {
-      // Adding zero makes −0, which equals 0, the same bits.
+      // Adding zero turns −0 into +0, which compares equal and needs the same hash.
       bits = (bits ^ std::bit_cast<std::uint64_t>(at + 0.0)) * 0x9e3779b97f4a7c15ULL;
       bits ^= bits >> 32U;
     }
@@ -61,7 +63,7 @@ std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const s
   return first;
 }
 
-/// 1 if the faces of a mesh look outward, −1 if they look inward.
+/// Returns 1 if the normals of a mesh point outwards, −1 if they point inwards.
 double outward_side(const Positions& positions, const Positions& normals,
                     std::span<const std::uint32_t> skin) {
   const Eigen::Vector3d middle = centre_of(positions, skin);
@@ -78,7 +80,7 @@ struct Candidate {
   Eigen::Vector3d across;
 };
 
-/// What a vertex looks at, nearest first.
+/// Returns the vertices that a vertex faces, nearest first.
 std::vector<Candidate> opposite(const Positions& positions, const Positions& normals, double side,
                                 const PointGrid& grid, std::uint32_t v, double extent) {
   const Eigen::Vector3d here = positions.row(v).transpose(), normal = normals.row(v).transpose();
@@ -101,7 +103,7 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
   return found;
 }
 
-/// Turns all pairs of a group the same way.
+/// Orients all pairs of a group the same way.
 void agree_on_sides(FacingGroup& group) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();
@@ -113,7 +115,7 @@ void agree_on_sides(FacingGroup& group) {
   }
 }
 
-/// The mean length of the edges at the low vertices of some pairs.
+/// Returns the mean length of the edges at the pairs' low vertices.
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {
@@ -159,12 +161,13 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   const PointGrid grid(positions, some);
   std::vector<std::vector<Candidate>> candidates(some.size());
   parallel_for_each(some.size(), kBlock, [&](std::size_t i) {
+    // Candidates are near in space, with opposite normals.
     candidates[i] = opposite(positions, normals, side, grid, some[i], extent);
   });
 
   std::vector<std::optional<FacingPair>> found(some.size());
   const auto count = static_cast<Index>(some.size());
-  // Each search of distances has room for the whole mesh.
+  // Few blocks, because each search for distances allocates arrays for the whole mesh.
   parallel_blocks(count, std::max(kBlock, count / kSearches), [&](Index begin, Index end) {
     EdgeDistances along(adjacency, positions);
     std::vector<std::uint32_t> goals;
@@ -173,6 +176,7 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
       throw_if_interrupted();
       goals.clear();
       for (const Candidate& candidate : candidates[i]) goals.push_back(candidate.vertex);
+      // Keep the nearest candidate that is far away along the surface.
       along.search_for(some[i], goals,
                        std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
       for (const Candidate& candidate : candidates[i]) {

@@ -10,21 +10,24 @@
 
 namespace crowdface {
 
-/// Two places of skin that look at each other through a narrow gap, like the two lips.
+/// Two vertices of the skin that face each other across a narrow gap, as on two lips.
 struct FacingPair {
   std::uint32_t low = 0, high = 0;  ///< vertices
-  Eigen::Vector3d middle;           ///< between them
-  Eigen::Vector3d up;               ///< unit: from the low side to the high one
+  Eigen::Vector3d middle;           ///< midpoint
+  Eigen::Vector3d up;               ///< unit vector from the low side to the high side
 };
 
-/// Pairs near each other; all of them have their low sides on one side.
+/// Pairs near each other; the low sides of all pairs are on the same side.
 using FacingGroup = std::vector<FacingPair>;
 
-/// Where skin nearly touches skin: vertices nearer to each other than a hundredth of the skin's extent or so,
-/// whose normals are opposed, with air between them and not flesh, and at least three times as far
-/// from each other along the surface. A closed mouth is one group; nostrils and open eyes are none.
-/// \param positions  #V by 3, best those of the mean head.
-/// \param skin       its vertices, ascending, at least one. Of many some stand for all, evenly spread.
+/// Finds where skin nearly touches skin: vertices nearer to each other than about a hundredth of
+/// the skin's extent, with opposite normals, air between them instead of flesh, and at least three
+/// times as far apart along the surface. A closed mouth is one group; nostrils and open eyes are
+/// none.
+///
+/// \param positions  #V by 3; preferably the mean head.
+/// \param skin       The skin's vertices, ascending; at least one. A dense skin is subsampled
+///                   evenly.
 std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjacency& adjacency,
                                           const Positions& positions,
                                           std::span<const std::uint32_t> skin);

@@ -18,28 +18,32 @@
 namespace crowdface {
 namespace {
 
-/// By how much a coordinate plane may be the worse mirror and is taken all the same.
+/// A coordinate plane is used if its error is at most this factor larger.
 constexpr double kAsGood = 1.05;
-constexpr std::size_t kSeeds = 24;  ///< walks that are tried for two components
-/// A ball has many ways to be mirrored: one this near, as a share of its own extent, is the right one.
+constexpr std::size_t kSeeds = 24;  ///< number of walks tried for two components
+/// A sphere has many symmetries. A walk with an error below this fraction of the component's extent
+/// is accepted at once.
 constexpr double kSure = 0.01;
-// Shares of the skin's extent, some 43 cm.
-constexpr double kMatchReach = 0.01;  // how far a place may be from a vertex' image
-/// How far partners that faces tell may be from images, in the root mean square: as a share of the
-/// component's own extent, or of the skin's.
+// Lengths are fractions of the skin's extent, about 43 cm.
+// largest distance of a partner from the vertex's mirror image
+constexpr double kMatchReach = 0.01;
+/// Largest root mean square error of a walk: as a fraction of the component's extent, or of the
+/// skin's, whichever is larger.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
-constexpr double kBoxReach = 0.03;  // by how much the boxes of two components may differ
-/// How near to its image a partner must be that only its nearness tells, as a share of the edges there.
+// largest difference between the bounding boxes of two matched components
+constexpr double kBoxReach = 0.03;
+/// Largest distance of a partner matched by nearness, as a fraction of the edge length there.
 constexpr double kNearness = 0.05;
 
-constexpr double kMore = 1 + 1e-9;  ///< than sums that are rounded
+constexpr double kMore = 1 + 1e-9;  ///< tolerance for rounded sums
 
 using Vertices = std::vector<std::uint32_t>;
 
 using Box = Eigen::AlignedBox3d;
 
-/// The component that lies where the image of each lies, kNoIndex where none does: two and two, the nearest
-/// first of those with as many vertices, so that layers of lashes find their own; then the nearest of all.
+/// Matches each component with the one at its mirror image; kNoIndex if there is none. Components
+/// with equally many vertices are matched mutually first, nearest first, so that each layer of
+/// lashes finds its counterpart. The others get the nearest component.
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
@@ -78,7 +82,7 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
   return partners;
 }
 
-/// Finds the places of the vertices of one component on another, or on itself.
+/// Finds the partners of a component's vertices on another component, or on itself.
 class PlaceFinder {
  public:
   PlaceFinder(const Topology& topology, const FacesAround& around, const Positions& mean,
@@ -90,7 +94,9 @@ class PlaceFinder {
         extent_(extent),
         walk_(topology, around) {}
 
-  /// By the faces of both. \return nothing if they are not alike
+  /// Matches vertices by walking over the faces of both components.
+  ///
+  /// \return  Nothing if the components do not match.
   std::optional<std::vector<MirroredPair>> by_faces(const Vertices& here, const Vertices& there) {
     if (here.size() != there.size() || here.size() < 3) return std::nullopt;
     const PointGrid grid(mean_, there);
@@ -114,7 +120,7 @@ class PlaceFinder {
         const auto corner = std::ranges::find(face, seed.vertex);
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
         const std::uint32_t partner_of_to = grid.nearest(image(to)).vertex;
-        // What is farther off than the best already need not be walked to its end.
+        // A walk that is worse than the best so far ends early.
         const double most = kMore * best_rms * best_rms * static_cast<double>(here.size());
         double squares = 0;
         auto pairs = walk_.from(
@@ -134,7 +140,7 @@ class PlaceFinder {
     return best;
   }
 
-  /// By nearness, each vertex for itself.
+  /// Matches each vertex separately, by distance.
   void by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
     const PointGrid grid_there(mean_, there), grid_here(mean_, here);
     const double reach = kMatchReach * extent_;
@@ -165,7 +171,8 @@ class PlaceFinder {
     map.corners[vertex] = {partner, partner, partner};
     map.shares[vertex] = {1, 0, 0};
   }
-  /// The same place, though it is a vertex, which has another for its own.
+  /// Marks a vertex as having no mutual partner: the position stays at the same vertex, but
+  /// MirrorMap::is_vertex becomes false.
   static void no_partner(MirrorMap& map, std::uint32_t vertex) {
     std::swap(map.corners[vertex][0], map.corners[vertex][1]);
     map.shares[vertex] = {0, 1, 0};
@@ -194,7 +201,7 @@ class PlaceFinder {
   MirroredWalk walk_;
 };
 
-/// Mean square of how far the mean head is from its image.
+/// Returns the mean square distance of the mean head from its mirror image.
 double mean_square(const MirrorMap& map, const Positions& mean, double* largest = nullptr) {
   const Positions image = mirrored(map, mean);
   double squares = 0, most = 0;
@@ -207,7 +214,8 @@ double mean_square(const MirrorMap& map, const Positions& mean, double* largest 
   return squares / static_cast<double>(mean.rows());
 }
 
-/// The plane that the partners tell, or the coordinate plane that is nearly as good.
+/// Returns the plane that the partners determine, or the coordinate plane if that is nearly as
+/// good.
 MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positions& mean,
                               const Eigen::Vector3d& side) {
   PlaneFit fit;
@@ -224,8 +232,8 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
   return as_good ? map.plane : fitted;
 }
 
-/// Where nothing answers, the mean head stays as it is; where something is a little too far off, as little
-/// of that as makes no step.
+/// Vertices without partner keep the mean head's form. If the partner is a little too far away,
+/// only the excess is kept, so that there is no step.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.kept.resize(static_cast<Index>(map.without.size()), 3);
@@ -255,10 +263,12 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   map.shares.resize(components.of_vertex.size());
   const Box box = bounding_box(mean, skin);
   const double extent = box.sizes().maxCoeff();
+  // Find the plane on the skin.
   map.plane = find_mirror_plane(topology, around, mean, skin,
                                 {side, side.dot(0.5 * (box.min() + box.max()))});
   {
     PlaceFinder finder(topology, around, mean, map.plane, extent);
+    // Match components, then the vertices of each pair of components.
     const Vertices partners = component_partners(mean, of_component, map.plane, kBoxReach * extent);
     for (std::size_t c = 0; c < of_component.size(); ++c) {
       const Vertices& here = of_component[c];
@@ -276,12 +286,14 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
     }
   }
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
+    // Vertices are partners only if this is mutual.
     const std::uint32_t partner = map.corners[v][0];
     const bool agreed = map.is_vertex(partner) && map.corners[partner][0] == v;
     if (map.is_vertex(v) && !agreed) PlaceFinder::no_partner(map, v);
   }
   std::ranges::sort(map.without);
   map.kept.setZero(static_cast<Index>(map.without.size()), 3);
+  // Improve the plane with the partners.
   map.plane = plane_of_partners(map, skin, mean, side);
   keep_form(mean, kMatchReach * extent, map);
   found.rms = std::sqrt(mean_square(map, mean, &found.largest));

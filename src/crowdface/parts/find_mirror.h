@@ -6,25 +6,30 @@
 
 namespace crowdface {
 
-/// The other side of each vertex, and how well it was found.
+/// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  Index vertices = 0;    ///< whose place is a vertex, which has them for its own
-  Index on_surface = 0;  ///< whose place is another on the surface; all that are left have none
-  /// How far the mean head is from its mirror image where there are places, in its unit.
+  Index vertices = 0;  ///< number of vertices whose partner is a vertex, mutually
+  /// number of vertices whose partner is another point on the surface; the rest have none
+  Index on_surface = 0;
+  /// Distance of the mean head from its mirror image, in its unit: root mean square and maximum
+  /// over all vertices.
   double rms = 0, largest = 0;
 
-  /// Of all vertices.
+  /// Returns the fraction of vertices that have a partner.
   double share() const;
 };
 
-/// Finds the plane in which the mean head is most nearly its own mirror image, the coordinate plane where
-/// that does nearly as well, and the other side of each vertex. Components answer to those that lie where
-/// their image does: eyes to eyes. Where two have the same faces, mirrored, that tells the partners,
-/// however far left and right of the mean head differ; elsewhere two vertices are partners that are
-/// nearest to each other's image and near it, and all others get the nearest place on the surface.
-/// \param mean  #V by 3
-/// \param side  unit vector from the head's right to its left, or the other way
+/// Finds the symmetry plane of the mean head and the partner of each vertex. A coordinate plane is
+/// preferred if it fits nearly as well.
+///
+/// Components are matched by position: the left eye with the right one. If two matched components
+/// have the same faces, mirrored, a walk over the faces gives the partners, however asymmetric the
+/// mean head is. Otherwise, two vertices are partners if each is nearest to the other's mirror
+/// image and close to it. All other vertices get the nearest point on the surface.
+///
+/// \param mean  #V by 3.
+/// \param side  Unit vector between the head's right and left, in either direction.
 FoundMirror find_mirror(const Topology& topology, const Components& components,
                         const Positions& mean, const Eigen::Vector3d& side);
 

@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kPoints = 4000;  ///< of the skin, that tell the plane
+constexpr std::size_t kPoints = 4000;  ///< number of skin vertices that determine the plane
 constexpr int kSteps = 30;
 
 using Vertices = std::vector<std::uint32_t>;
@@ -46,7 +46,9 @@ class PlaneSearch {
   }
 
  private:
-  /// \param place_of  where the surface is nearest to the image of a vertex
+  /// One step: fits the plane to vertices and the surface points nearest to their mirror images.
+  ///
+  /// \param place_of  Returns the surface point nearest to a mirror image.
   template <class PlaceOf>
   MirrorPlane next(const MirrorPlane& plane, const PlaceOf& place_of) {
     parallel_for_each(some_.size(), [&](std::size_t i) {
@@ -75,7 +77,7 @@ class PlaneSearch {
   const MirrorPlane& start_;
   PointGrid grid_;
   Vertices some_;
-  std::vector<Eigen::Vector3d> places_;  ///< of each
+  std::vector<Eigen::Vector3d> places_;  ///< #some: nearest surface point of each vertex
   MirrorPlane best_;
   double least_ = HUGE_VAL;
 };

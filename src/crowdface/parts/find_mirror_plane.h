@@ -10,12 +10,14 @@
 
 namespace crowdface {
 
-/// The plane that pairs of points and their partners' places tell: what joins two is along its normal,
-/// and their middle is on it.
+/// Fits a mirror plane to pairs of points and their partners: the normal is the principal direction
+/// of the differences, and the plane contains the mean midpoint.
 class PlaneFit {
  public:
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner);
-  /// Of at least one pair. \param side  the half space that the normal points to
+  /// Returns the plane; needs at least one pair.
+  ///
+  /// \param side  The normal points to this half space.
   MirrorPlane plane(const Eigen::Vector3d& side) const;
   double count() const { return count_; }
 
@@ -25,12 +27,15 @@ class PlaneFit {
   double count_ = 0;
 };
 
-/// The plane on which a surface most nearly falls onto itself (Besl & McKay 1992, for a reflection): the best
-/// that is met on the way from a first guess, and from where vertices that are nearest to each other's
-/// images lead from there: of a symmetric mesh the very plane.
-/// \param mean   #V by 3
-/// \param skin   the surface's vertices, at least one
-/// \param start  its normal is a unit vector from the head's right to its left, or the other way
+/// Finds the plane in which a surface is most nearly symmetric, by iterative closest points (Besl &
+/// McKay 1992) with a reflection. There are two starts: the given plane, and the plane found by
+/// matching nearest vertices, which is exact for a symmetric mesh. Returns the best plane of all
+/// steps.
+///
+/// \param mean   #V by 3.
+/// \param skin   The surface's vertices; at least one.
+/// \param start  First guess. Its normal is a unit vector between the head's right and left, in
+///               either direction.
 MirrorPlane find_mirror_plane(const Topology& topology, const FacesAround& around,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start);

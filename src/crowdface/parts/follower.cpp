@@ -15,18 +15,18 @@
 namespace crowdface {
 namespace {
 
-/// How far a rigid part's socket reaches: a share of an eyeball's radius (some 12 mm), and of the
-/// skin's extent (some 43 cm) for all else.
+/// Reach of a rigid part's socket: for an eyeball as a fraction of its radius (about 12 mm), for
+/// other parts as a fraction of the skin's extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
-/// Vertices of a part that stand for all of it when its socket is found.
+/// Number of a part's vertices used to find its socket.
 constexpr std::size_t kMostRough = 4000;
-/// How near to the skin a part may come to pass through it, and how much of a clearance is kept at
-/// least: shares of the skin's extent.
+/// Parts nearer to the skin than kContactReach are kept out of it; kContactMargin is the smallest
+/// clearance to keep. Fractions of the skin's extent.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
-/// How far from a tooth gums still go along with it, as a share of the skin's extent.
+/// Gums nearer to a tooth than this follow it, as a fraction of the skin's extent.
 constexpr double kTieReach = 0.01;
 
-/// A share of the area of the faces around each vertex, #V.
+/// Returns the area of each vertex, #V: its share of the adjacent faces.
 std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
   const Positions vectors = face_area_vectors(topology, positions);
   std::vector<double> areas(static_cast<std::size_t>(topology.vertex_count), 0.0);
@@ -39,7 +39,7 @@ std::vector<double> vertex_areas(const Topology& topology, const Positions& posi
   return areas;
 }
 
-/// Whether some skin is where it was, to the bit.
+/// Returns whether the vertices have exactly the same positions.
 bool unmoved(const Positions& before, const Positions& after,
              std::span<const std::uint32_t> vertices) {
   return std::ranges::all_of(vertices,
@@ -48,29 +48,30 @@ bool unmoved(const Positions& before, const Positions& after,
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> ones;  ///< #vertices, for fits of its shape
+  std::vector<double> ones;  ///< #vertices: weights for fits of the part's shape
   Socket socket;
   bool eyeball = false;
-  EyeSocket eye;    ///< of an eyeball
-  Contact contact;  ///< of all else
+  EyeSocket eye;    ///< used for eyeballs
+  Contact contact;  ///< used for other parts
 };
 
-/// What parts are bound to: the mean head and its skin.
+/// The mean head and its skin, to which parts are bound.
 struct SkinOfMean {
   const FaceSet& faces;
   const FacesAround& around;
   const HeadAxes& axes;
   const Positions& mean;
-  std::vector<double> areas;            ///< a share of each vertex, #V
-  std::vector<std::uint32_t> vertices;  ///< of no part, in some face
-  PointGrid grid;                       ///< of those
-  double extent;                        ///< of the largest component
+  std::vector<double> areas;            ///< #V
+  std::vector<std::uint32_t> vertices;  ///< vertices that belong to some face and to no part
+  PointGrid grid;                       ///< of `vertices`
+  double extent;                        ///< extent of the largest component
 };
 
-/// The skin around a rigid part: reached farther for until there is enough, as a part that floats
-/// far from the skin follows what is nearest to it.
+/// Returns the skin around a rigid part. The reach doubles until there is enough skin, because a
+/// part far from the skin follows whatever skin is nearest.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
-  // How far skin is from a part need not be known better than the part's points lie apart.
+  // The distance between skin and part need not be more precise than the spacing of the part's
+  // vertices.
   const PointGrid rough_grid(skin.mean, some_of(part.vertices, kMostRough));
   Socket socket;
   for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {
@@ -116,15 +117,15 @@ struct PartFollower::State {
   const FaceSet& faces;
   FacesAround around;
   PartShape shape;
-  double extent;  ///< of the skin
+  double extent;  ///< extent of the skin
   std::vector<RigidPart> rigid;
   Anchors anchors;
-  std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads, of the bound vertices
+  std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads: offsets of the bound vertices
   Ties ties;                                         ///< of bound vertices to teeth
 
-  /// How the skin around a part moved, and how the part goes along.
+  /// The motion of the skin around a part, and the motion of the part.
   struct Found {
-    bool still = true;  ///< no skin around the part moved
+    bool still = true;  ///< the skin around the part is unmoved
     RigidMotion skin, part;
   };
   Found find_motion(const RigidPart& part, std::size_t target, const Positions& result) const;
@@ -201,7 +202,7 @@ void PartFollower::State::even_sizes(std::size_t target, const Positions& result
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     if (!rigid[p].eyeball) continue;
-    if (found[p].still) return;  // it keeps its bits
+    if (found[p].still) return;  // an unmoved eyeball keeps its exact positions
     sum += found[p].part.scale;
     count += 1;
   }
@@ -228,7 +229,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
     }
     return;
   }
-  // The blended shape, brought to where the target's is.
+  // Align the blended shape with the target's part first.
   const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.ones);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();
@@ -238,7 +239,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
 void PartFollower::follow(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
   const Positions& before = state_->faces.heads[t].positions;
-  // Each looks at skin alone, and moves vertices of its own.
+  // Parts can be processed in parallel: each reads only skin, and writes only its own vertices.
   std::vector<State::Found> found(state_->rigid.size());
   std::vector<RigidMotion> motions;
   parallel_for_each(found.size(), [&](std::size_t p) {

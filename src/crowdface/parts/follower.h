@@ -10,25 +10,26 @@
 
 namespace crowdface {
 
-/// Lets the parts of a head go along with its skin after blending. How they hang on the skin is found
-/// once, on the mean head, and measured once on each head (docs/parts.md says what a face then costs).
+/// Moves the parts of a head with its skin after blending. The constructor finds the binding on the
+/// mean head and measures it on each head (docs/parts.md has costs).
 ///
 /// - A rigid part moves by the best rotation, translation and uniform scale that carries the skin
-///   around it from the target to the result; an eyeball is then shifted until its gaps to the
-///   lids are what they were.
-/// - A vertex of a bound part keeps its place relative to the skin nearest to it.
+///   around it from the target to the face. An eyeball is then shifted and rescaled until its gaps
+///   to the lids equal the target's; other parts are moved out of lips and cheeks.
+/// - A vertex of a bound part keeps its position relative to the nearest skin.
 ///
-/// Where the skin around a part has not moved, the part keeps the target's positions to the bit.
+/// If the skin around a part is unmoved, the part keeps exactly the target's positions.
 class PartFollower {
  public:
-  /// \param faces  must outlive the follower.
+  /// \param faces  Must outlive this object.
   PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
 
-  /// Puts the parts of a blended face in their places.
-  /// \param target  the head it was built on.
-  /// \param result  #V by 3, blended; its skin is not touched.
+  /// Moves the parts of a blended face. May be called from several threads, with different results.
+  ///
+  /// \param target  The head that the face is built on.
+  /// \param result  #V by 3, blended; the skin is left unchanged.
   void follow(Index target, Positions& result) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// Which way a head looks: unit vectors.
+/// Orientation of a head: unit vectors.
 struct HeadAxes {
   Eigen::Vector3d front = {0, 0, 1}, up = {0, 1, 0};
 

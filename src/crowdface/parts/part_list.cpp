@@ -17,17 +17,20 @@
 namespace crowdface {
 namespace {
 
-// Lengths are shares of the skin's extent, the diagonal of its bounding box: some 43 cm for a head
-// with its neck.
-constexpr double kSkinExtent = 0.5;      // a second piece of skin is at least as long as this
-constexpr double kOpen = 0.7;            // a hemisphere has an openness of 0.5, a disc of 1
-constexpr double kBoundDistance = 0.04;  // lashes stand a few per cent off the lids
-constexpr double kTouch = 0.006;         // teeth stand side by side
+// Lengths are fractions of the skin's extent, the diagonal of its bounding box: about 43 cm for a
+// head with its neck.
+constexpr double kSkinExtent = 0.5;      // a further component of skin is at least this long
+constexpr double kOpen = 0.7;            // openness: a hemisphere has 0.5, a disc 1
+constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
+// largest distance of components that nearly touch, such as teeth
+constexpr double kTouch = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
-/// A ball's bounding box is 3.5 radii across, half a ball's 3, and nowhere thinner than a radius. A row of
-/// teeth lies on an arc as well, but is half as thick.
+/// Smallest diagonal and thickness of an eyeball's bounding box, in radii. A ball has a diagonal of
+/// 3.5 radii, half a ball 3, and neither is thinner than one radius. A row of teeth fits a sphere
+/// too, but is half as thick.
 constexpr double kWhole = 2.6, kThick = 0.8;
-constexpr double kRound = 0.1;  // roughness of an eyeball as a share of its radius: the cornea
+// largest roughness of an eyeball, in radii: the cornea deviates from the sphere
+constexpr double kRound = 0.1;
 static_assert(kBoundDistance < kFarFromSkin);
 
 PartClass class_by_shape(const ComponentShape& shape, double extent) {
@@ -43,7 +46,7 @@ bool is_eyeball(const ComponentShape& shape, double extent) {
          shape.roughness < kRound * shape.radius;
 }
 
-/// How a component stands in the head, along the side, up and front.
+/// Bounding box in the head's axes: side, up, front.
 using Box = Eigen::AlignedBox3d;
 
 Box box_of(const Positions& positions, const std::vector<std::uint32_t>& vertices,
@@ -60,14 +63,15 @@ double box_height(const Box& box) {
   return box.center().y();
 }
 
-/// What two boxes share along an axis beyond half the length of the shorter one; negative if less.
+/// Returns by how much the overlap of two boxes along an axis exceeds half the length of the
+/// shorter box; negative if it is less.
 double overlap(const Box& a, const Box& b, Index axis) {
   return a.intersection(b).sizes()(axis) - std::min(a.sizes()(axis), b.sizes()(axis)) / 2;
 }
 
-/// How many of some components, lowest first, are the teeth of the lower jaw: those below the widest
-/// gap between their middles, if the two rows are flat against that gap, stand above each other and
-/// hardly beside. 0: there are no two rows.
+/// Returns how many of some components, sorted by height, are the teeth of the lower jaw: those
+/// below the widest gap between their middles. There are two rows only if each row is flatter than
+/// this gap, and the rows overlap as seen from above but hardly in height. Otherwise returns 0.
 std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;
@@ -90,7 +94,7 @@ std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_f
   return stacked && over ? lower : 0;
 }
 
-/// Joins each eyeball with what has its middle inside.
+/// Joins each eyeball with the components whose centre is inside it.
 void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
                  const std::vector<bool>& eyeball, Grouping& grouping) {
   Positions centres(static_cast<Index>(list.shapes.size()), 3);
@@ -98,7 +102,8 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
   std::iota(self.begin(), self.end(), 0U);
   for (const std::uint32_t c : rigid) {
     centres.row(c) = list.shapes[c].centre.transpose();
-    if (list.shapes[c].centre.allFinite()) found.push_back(c);  // a fit to hardly any extent
+    // a fit to a component without extent may fail
+    if (list.shapes[c].centre.allFinite()) found.push_back(c);
   }
   GroupingTree tree(centres, std::move(found), self, grouping);
   for (const std::uint32_t c : rigid) {
@@ -108,7 +113,7 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
   }
 }
 
-/// Joins components with vertices at most `reach` away from each other, but for eyeballs.
+/// Joins components with vertices at most `reach` apart, except eyeballs.
 void join_touching(const Positions& positions, const Components& components,
                    const std::vector<std::vector<std::uint32_t>>& members,
                    const std::vector<std::uint32_t>& rigid, const std::vector<bool>& eyeball,
@@ -124,7 +129,7 @@ void join_touching(const Positions& positions, const Components& components,
   }
 }
 
-/// Takes groups of teeth apart, jaw by jaw.
+/// Splits groups of teeth into jaws.
 void split_jaws(const Positions& positions, const std::vector<std::vector<std::uint32_t>>& members,
                 const HeadAxes& axes, const std::vector<std::uint32_t>& rigid,
                 const std::vector<bool>& eyeball, Grouping& grouping) {
@@ -180,6 +185,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   join_touching(positions, components, members, rigid, eyeball, kTouch * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);
 
+  // Create one part for each group.
   std::vector<std::size_t> part_of(count, SIZE_MAX);
   for (std::uint32_t c = 0; c < count; ++c) {
     if (list.classes[c] == PartClass::kSkin) continue;

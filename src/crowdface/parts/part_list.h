@@ -11,54 +11,55 @@
 
 namespace crowdface {
 
-/// How a connected component of a mesh goes along when a face is blended.
+/// How a connected component of a mesh moves when a face is blended.
 enum class PartClass : std::uint8_t {
   kSkin,   ///< blended (Eq. 7)
-  kRigid,  ///< as a whole, with the skin around it: eyeballs, teeth
-  kBound,  ///< each vertex with the skin nearest to it: lashes, tear lines
+  kRigid,  ///< moves as a whole with the skin around it: eyeballs, teeth
+  kBound,  ///< each vertex moves with the nearest skin: lashes, tear lines
 };
 
 /// Components that move together.
 struct Part {
   PartClass part_class = PartClass::kRigid;
-  bool eyeball = false;                   ///< round, of the size of an eye
+  bool eyeball = false;                   ///< round, and as large as an eye
   std::vector<std::uint32_t> components;  ///< ascending
   std::vector<std::uint32_t> vertices;    ///< ascending
-  std::uint32_t ball = kNoIndex;          ///< of an eyeball: its outermost component
-  std::vector<std::uint32_t> surface;     ///< of an eyeball: the vertices of that
+  std::uint32_t ball = kNoIndex;          ///< of an eyeball: its largest component
+  std::vector<std::uint32_t> surface;     ///< of an eyeball: the vertices of that component
 };
 
-/// What a mesh consists of.
+/// The parts of a mesh.
 struct PartList {
   std::vector<ComponentShape> shapes;  ///< #components
   std::vector<PartClass> classes;      ///< #components
-  std::vector<Part> parts;             ///< by their first component; the skin is none
+  std::vector<Part> parts;             ///< ordered by first component; the skin is not a part
 };
 
-/// What is said about components by hand.
+/// Classifications set by the user.
 struct PartOverrides {
   std::vector<std::optional<PartClass>> classes;     ///< #components, or empty
-  std::vector<std::vector<std::uint32_t>> together;  ///< components that form one part each
+  std::vector<std::vector<std::uint32_t>> together;  ///< components of each part
 };
 
-/// Sorts the components of a mesh into parts by their shapes:
+/// Classifies the components of a mesh by their shapes and joins them into parts:
 ///
-/// - skin: the largest, those more than half as long as it, and vertices without faces;
+/// - skin: the largest component, components longer than half of its extent, and vertices without
+///   faces;
 /// - bound: open strips and shells near the skin;
-/// - rigid: all else. Round ones of the size of an eye are eyeballs, and what lies inside one is a
-///   part of it; of the others, those that nearly touch are one part, unless it falls in two that
-///   stand one above the other: the teeth of each jaw.
+/// - rigid: all others. Round components as large as an eye are eyeballs; components with their
+///   centre inside an eyeball belong to it. Other components that nearly touch form one part,
+///   unless they stand in two rows one above the other; then the teeth of each jaw are one part.
 ///
-/// \param positions  #V by 3, any unit: best those of the mean head.
+/// \param positions  #V by 3, any unit; preferably the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,
                     const Components& components, const Positions& positions,
                     const PartOverrides& overrides = {}, const HeadAxes& axes = {});
 
-/// The same components with all skin joined into one, whose number is that of its first; for
-/// whoever asks which vertices are skin. Sizes of those joined away are 0.
+/// Returns the components with all skin joined into one, numbered like its first component.
+/// Components that are joined into it have size 0.
 Components join_skin(const Components& components, const PartList& parts);
 
-/// Vertices that are of no part and of some face, ascending.
+/// Returns the vertices that belong to no part but to some face, ascending.
 std::vector<std::uint32_t> skin_of(const PartList& parts, const FacesAround& around);
 
 }  // namespace crowdface

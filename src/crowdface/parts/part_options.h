@@ -3,15 +3,15 @@
 
 namespace crowdface {
 
-/// What a rigid part looks like in a generated face.
+/// The shape of a rigid part in a generated face.
 enum class PartShape {
   kTarget,  ///< as in the target
-  kBlend,   ///< as blended like skin (Eq. 7)
+  kBlend,   ///< blended like skin (Eq. 7)
 };
 
-/// What becomes of lips, and of other skin that nearly touches skin, in a generated face.
+/// How a generated face treats lips and other skin that nearly touches skin.
 enum class Contacts {
-  kAuto,  ///< they are as far apart as in the target and the sources
+  kAuto,  ///< gaps are as wide as in target and sources
   kNone,  ///< as blended (Eq. 7)
 };
 

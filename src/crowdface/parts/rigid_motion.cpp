@@ -7,7 +7,7 @@
 namespace crowdface {
 namespace {
 
-/// Of a quaternion w + xi + yj + zk of any length.
+/// Returns the rotation of a quaternion w + xi + yj + zk of any length.
 Eigen::Matrix3d rotation_of(double w, double x, double y, double z) {
   const double norm = w * w + x * x + y * y + z * z;
   const double f = 2 / norm;
@@ -16,7 +16,7 @@ Eigen::Matrix3d rotation_of(double w, double x, double y, double z) {
                          {f * (x * z - w * y), f * (y * z + w * x), 1 - f * (x * x + y * y)}};
 }
 
-/// The rotation R that makes Σ w b·(R a) largest, for s = Σ w a bᵀ: its quaternion is the
+/// Returns the rotation R that maximises Σ w b·(R a), given s = Σ w a bᵀ. Its quaternion is the
 /// eigenvector of the largest eigenvalue of Horn's matrix.
 Eigen::Matrix3d best_turn(const Eigen::Matrix3d& s) {
   Eigen::MatrixXd n(4, 4);
@@ -79,7 +79,8 @@ RigidMotion fit_rigid_motion(const Positions& from, const Positions& to,
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3d a = row3(from, vertices[i]) - motion.from;
     const Eigen::Vector3d b = row3(to, vertices[i]) - motion.to;
-    const Eigen::Vector3d weighted = weights[i] * a;  // before the product: so it is rounded
+    // round before the product, so that the order is fixed
+    const Eigen::Vector3d weighted = weights[i] * a;
     s += weighted * b.transpose();
     variance += weights[i] * a.squaredNorm();
   }

@@ -13,35 +13,36 @@
 namespace crowdface {
 namespace {
 
-// Shares of the skin's extent, some 43 cm.
-constexpr double kPlaceSpacing = 0.008;  // between places
-constexpr double kProfile = 0.015;       // a profile to either side of a place
-constexpr double kMotionReach = 0.07;    // how far the skin around a place moves
-constexpr double kSide = 0.09;           // how far along the surface a side is told from the other
-constexpr double kRounding = 0.006;      // size of what is smoothed out of a side's edges
-constexpr double kTolerance = 1e-5;      // by which a gap may miss its range
-constexpr double kLeastWeight = 1e-3;    // what moves less does not move
-constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices
-constexpr std::size_t kPointsPerBlock =
-    256;  // of profiles: their motions stay in a core's nearest cache
+// Lengths are fractions of the skin's extent, about 43 cm.
+constexpr double kPlaceSpacing = 0.008;  // spacing of the places
+constexpr double kProfile = 0.015;       // length of a profile to either side of a place
+constexpr double kMotionReach = 0.07;    // radius of the skin that moves around a place
+// distance along the surface within which the two sides are distinguished
+constexpr double kSide = 0.09;
+constexpr double kRounding = 0.006;    // width of the smoothing of the sides' borders
+constexpr double kTolerance = 1e-5;    // tolerance of a gap
+constexpr double kLeastWeight = 1e-3;  // vertices with smaller weights do not move
+constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices per parallel block
+// profile points per parallel block: their derivatives fit into a core's L1 cache
+constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
-/// Share of what is asked for at a place by which its gap may miss its range: evens out what neighbours ask for
-/// differently.
+/// Fraction of the request at a place by which its gap may miss its range. Evens out the requests
+/// of neighbouring places.
 constexpr double kEvenness = 0.001;
-/// What may be asked for at a place, in what is missing where most is.
+/// Largest request at a place, as a multiple of the largest violation.
 constexpr double kMost = 4;
 
-/// Smooth, 1 at 0 and 0 from 1 on (Wendland 1995, C² in space): with it as kernel, places that ask
-/// for different things always find a solution.
+/// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
+/// positive definite, so places with different requests always have a solution.
 double bump(double distance) {
   if (distance >= 1) return 0;
   const double rest = 1 - distance;
   return rest * rest * rest * rest * (4 * distance + 1);
 }
 
-/// The skin around a group, and which side of it each vertex is on: 1/2 at the high side of the
-/// pairs, −1/2 at the low one, changing evenly along the surface between them.
+/// The skin around a group, and the side of each vertex: ½ on the high side, −½ on the low side,
+/// varying linearly along the surface between them.
 struct Sides {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<double> side;             ///< #V
@@ -73,7 +74,8 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
   return sides;
 }
 
-/// Averages with the neighbours, half and half, as often as rounds off edges of a given size.
+/// Smooths `side` by averaging with the neighbours' mean, half and half, as many times as `size`
+/// needs.
 void round_off(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
   double squares = 0, count = 0;
   for (const std::uint32_t v : sides.vertices) {
@@ -88,7 +90,7 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   constexpr double kMostSteps = 1e4;
   const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMostSteps));
 
-  // What is around has no side: it stands behind the last row, and stays 0.
+  // The skin outside has no side: it is represented by an extra row that stays 0.
   const auto rows = sides.vertices.size();
   std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
@@ -223,10 +225,11 @@ std::vector<std::uint32_t> SkinContacts::moved() const {
   return vertices;
 }
 
-/// What to ask for at each place, added to what was asked for already. None is asked to close what is
-/// not too wide or to open what is not too narrow, so that neighbours seldom pull against each other: a
-/// linear complementarity problem, by projected Gauss-Seidel (Cottle, Pang, Stone 1992, chapter 5).
-/// Which points of the profiles are nearest changes on the way, so the gap is told anew each time.
+/// Computes the requests at all places, in addition to the previous ones. No place is asked to
+/// close a gap that is not too wide, or to open one that is not too narrow, so that neighbours
+/// rarely counteract each other. This is a linear complementarity problem, solved by projected
+/// Gauss-Seidel (Cottle, Pang & Stone 1992, chapter 5). The nearest points of the profiles change
+/// during the iteration, so the gap is computed anew each time.
 std::vector<SkinContacts::Change> SkinContacts::ask(const Contact& contact,
                                                     std::span<const Range> ranges, double most,
                                                     Profiles& profiles,
@@ -285,7 +288,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> by,
   });
 }
 
-/// Points that move change which of them lie at one depth, so it takes a few rounds.
+/// Moved points change which points have the same depth, so this needs several rounds.
 void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
   for (const Contact& contact : contacts_) {
     Profiles profiles;
@@ -298,6 +301,7 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
     std::vector<Change> changes;
     double most = 0;
     for (int round = 0; round < kRounds; ++round) {
+      // Update the depths, and find the facing points again.
       move_depths(contact, changes, profiles.depths);
       double missing = 0;
       profiles.opposites.clear();
@@ -309,6 +313,7 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
+      // Solve for the requests with these points.
       if (round == 0) most = kMost * missing;
       changes = ask(contact, ranges, most, profiles, asked);
     }

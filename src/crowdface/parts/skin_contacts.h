@@ -12,61 +12,64 @@
 
 namespace crowdface {
 
-/// Where skin nearly touches skin. Lips are near each other in space and far along the surface, so
-/// blending parts them or pushes one into the other. Their gap is measured at places some millimetres
-/// apart, and brought to what it should be by a smooth displacement of the skin around them.
+/// Preserves the gaps between skin that nearly touches skin. Lips are close in space but far apart
+/// along the surface, so blending moves them apart or through each other. The gap is measured at
+/// places a few millimetres apart, and adjusted by a smooth displacement of the skin around them.
 class SkinContacts {
  public:
-  /// \param faces  heads of one topology, at least one
-  /// \param skin   the skin's vertices, ascending
+  /// \param faces  Heads of one topology; at least one.
+  /// \param skin   The skin's vertices, ascending.
   SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
   std::size_t size() const { return places_.size(); }
   const ContactPlace& place(std::size_t i) const { return places_[i]; }
-  /// Of all places, in the heads' unit.
+  /// Returns the gaps at all places, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// The same of one of the heads.
+  /// Returns the gaps of a head.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// How much wider the widest gap is than that of any head at its place; 0: none is wider.
+  /// Returns by how much a gap exceeds that of every head at the same place, at most; 0 if none
+  /// does.
   double wider(const Positions& positions) const;
 
-  /// The vertices that bring_into may move.
+  /// Returns the vertices that bring_into may move.
   std::vector<std::uint32_t> moved() const;
 
   struct Range {
     double least, most;
   };
-  /// Moves the skin so that the gap of each place lies in its range. Where all do, nothing moves.
-  /// \param ranges     #places
-  /// \param positions  #V by 3
+  /// Moves the skin so that every gap lies in its range. If all do, nothing moves.
+  ///
+  /// \param ranges     #places.
+  /// \param positions  #V by 3; adjusted.
   void bring_into(std::span<const Range> ranges, Positions& positions) const;
 
  private:
-  /// How much a vertex moves by what is asked for at a place.
+  /// How much a vertex moves per unit of a place's request, the wanted change of its gap.
   struct Share {
     std::uint32_t place;
-    double weight;  ///< positive on the high side, negative on the low one
+    double weight;  ///< positive on the high side, negative on the low side
   };
-  /// How the points of all profiles of a contact move: those of one place after another.
+  /// Movement of the profile points of a contact, place after place, per unit of the request at
+  /// one place.
   struct Motions {
     std::vector<double> heights, depths;
   };
-  /// Places that act on the same skin: a mouth.
+  /// Places that affect the same skin, such as a mouth.
   struct Contact {
-    std::size_t begin = 0, end = 0;       ///< of the places
-    std::vector<std::uint32_t> vertices;  ///< that move, ascending
+    std::size_t begin = 0, end = 0;       ///< range of places
+    std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
     Grouped<Share> shares;                ///< #vertices
-    std::vector<Motions> motions;         ///< by what is asked for at each place
+    std::vector<Motions> motions;         ///< one for each place of the contact
   };
 
-  /// The profiles of a contact's places.
+  /// The current profiles at a contact's places.
   struct Profiles {
-    std::vector<double> heights, depths;  ///< of all points, those of one place after another
-    std::vector<std::size_t> begins;      ///< of each place's points among them
+    std::vector<double> heights, depths;                      ///< of all points, place after place
+    std::vector<std::size_t> begins;                          ///< index of each place's first point
     std::vector<std::vector<Clearance::Opposite>> opposites;  ///< of each place
 
     double gap(std::size_t place) const;
@@ -77,12 +80,13 @@ class SkinContacts {
   void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_motions(Contact& contact) const;
-  /// What was asked for at a place, beside what was before.
+  /// An addition to the request at a place.
   struct Change {
-    std::size_t place;  ///< of the contact's
+    std::size_t place;  ///< index within the contact
     double by;
   };
-  /// \return in this order; depths of profiles have not followed.
+  /// \return  Changes in the order in which they were made. The depths of `profiles` are not
+  ///          updated.
   std::vector<Change> ask(const Contact& contact, std::span<const Range> ranges, double most,
                           Profiles& profiles, std::vector<double>& asked) const;
   static void move_depths(const Contact& contact, std::span<const Change> changes,
@@ -91,7 +95,7 @@ class SkinContacts {
 
   double tolerance_ = 0;
   std::vector<ContactPlace> places_;
-  std::vector<Clearance> clearances_;  ///< of all places
+  std::vector<Clearance> clearances_;  ///< #places
   std::vector<Contact> contacts_;
   std::vector<std::vector<double>> head_gaps_;  ///< #heads by #places
 };

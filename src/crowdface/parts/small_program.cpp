@@ -13,14 +13,15 @@ using Vector = SmallProgram::Vector;
 using Matrix = std::array<Vector, SmallProgram::kMost>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A bound's normal less than this off those that are active depends on them (squared, of unit length).
+/// A constraint's normal depends on the active ones if its squared distance from their span is
+/// below this (unit normals).
 constexpr double kDependent = 1e-12;
 
 double dot(const Vector& a, const Vector& b, std::size_t n) {
   return fixed_dot({a.data(), n}, {b.data(), n});
 }
 
-/// L⁻ᵀ b.
+/// Returns L⁻ᵀ b.
 Vector backward(const Matrix& l, const Vector& b, std::size_t n) {
   Vector x{};
   for (std::size_t i = n; i-- > 0;) {
@@ -31,13 +32,13 @@ Vector backward(const Matrix& l, const Vector& b, std::size_t n) {
   return x;
 }
 
-/// The bounds that hold with equality, with the force of each.
+/// The active constraints (those with equality), and the multiplier of each.
 struct Active {
   std::array<Vector, SmallProgram::kMost> normals = {};
   Vector forces = {};
   std::size_t count = 0;
 
-  /// The shares of the active normals in `a`, least squares.
+  /// Returns the least-squares coefficients of `a` in the active normals.
   Vector shares_in(const Vector& a, std::size_t n) const {
     Matrix gram{};
     Vector right{};
@@ -61,8 +62,10 @@ struct Active {
   }
 };
 
-/// Moves x onto the bound a·x ≥ least, dropping active bounds that push against it.
-/// \return false if it cannot be reached.
+/// Moves x onto the constraint a·x ≥ least, dropping active constraints with multipliers that would
+/// become negative.
+///
+/// \return  false if x cannot reach the constraint.
 bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t n) {
   double force = 0;
   for (std::size_t guard = 0; guard <= SmallProgram::kMost; ++guard) {
@@ -84,7 +87,7 @@ bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t
     const double whole = depends ? kInfinity : (least - dot(a, x, n)) / square;
     if (blocked == kInfinity && whole == kInfinity) return false;
     const double length = blocked < whole ? blocked : whole;
-    if (!std::isfinite(length)) return false;  // of positions that are no numbers
+    if (!std::isfinite(length)) return false;  // positions are not finite
     for (std::size_t j = 0; j < active.count; ++j) active.forces[j] -= length * shares[j];
     force += length;
     if (!depends) {
@@ -99,7 +102,7 @@ bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t
   return false;
 }
 
-/// All bounds in y, column by column, so that many are worked on at once.
+/// All constraints, transformed to y, stored by column, so that loops over constraints vectorise.
 template <class Bound>
 class Table {
  public:
@@ -133,7 +136,7 @@ class Table {
     }
   }
 
-  /// By how much each bound is missed, measured along its normal in x.
+  /// Computes the violation of each constraint, measured along its normal in x.
   void missing(const Vector& y, std::vector<double>& result) const {
     result = least_;
     for (std::size_t i = 0; i < unknowns_; ++i) {
@@ -151,7 +154,7 @@ class Table {
 
  private:
   std::size_t unknowns_, count_;
-  std::vector<double> normals_;  ///< #unknowns by #bounds, of unit length
+  std::vector<double> normals_;  ///< #unknowns by #constraints; unit length
   std::vector<double> least_, stretch_;
 };
 
@@ -192,7 +195,7 @@ void SmallProgram::add_slack(std::size_t unknown, double price) {
 SmallProgram::Vector SmallProgram::solve(double tolerance) const {
   constexpr int kMostSteps = 200;
   const std::size_t n = unknowns_;
-  // In y = Lᵀ x the quadratic form is a plain distance, and normals are made of unit length.
+  // In y = Lᵀ x the quadratic form is the Euclidean distance. Constraint normals are normalised.
   const Matrix l = cholesky(quadratic_, n);
   const Table table(bounds_, l, n);
   Vector y = solve_lower(l, linear_, n);
@@ -202,6 +205,7 @@ SmallProgram::Vector SmallProgram::solve(double tolerance) const {
     table.missing(y, missing);
     double worst = tolerance;
     std::size_t which = missing.size();
+    // Pick the most violated constraint.
     for (std::size_t b = 0; b < missing.size(); ++b) {
       if (missing[b] <= worst) continue;
       worst = missing[b];

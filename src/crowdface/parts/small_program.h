@@ -7,31 +7,34 @@
 
 namespace crowdface {
 
-/// A convex quadratic program in a few unknowns and up to thousands of bounds: what pose of a part
-/// misses what is wanted of it least while it breaks no bound.
+/// A convex quadratic program in a few unknowns with up to thousands of constraints. Used to find
+/// the pose of a part that is nearest to the wanted one and violates no constraint.
 ///
 ///   minimise  Σ w/2 (a·x − wanted)² + Σ price·x_i   subject to  a·x ≥ least
 ///
-/// Plain arithmetic in a fixed order, so that the result has the same bits everywhere.
+/// Plain arithmetic in a fixed order: the result has the same bits on every machine.
 class SmallProgram {
  public:
   static constexpr std::size_t kMost = 9;
-  using Vector = std::array<double, kMost>;  ///< those beyond the unknowns are 0
+  using Vector = std::array<double, kMost>;  ///< entries beyond the number of unknowns are 0
 
   explicit SmallProgram(std::size_t unknowns) : unknowns_(unknowns) {}
 
-  /// Adds weight/2 (a·x − wanted)². \param weight  positive.
+  /// Adds the term weight/2 (a·x − wanted)². \param weight  Positive.
   void want(const Vector& a, double wanted, double weight);
   void want(std::size_t unknown, double wanted, double weight);
-  /// Bounds a·x from below.
+  /// Adds the constraint a·x ≥ least.
   void demand(const Vector& a, double least);
   void demand_between(std::size_t unknown, double least, double most);
-  /// Makes an unknown a slack of what demands name it: not negative, for a price a unit.
+  /// Makes an unknown a slack variable: not negative, with a price per unit. Constraints that name
+  /// it may be violated by its value.
   void add_slack(std::size_t unknown, double price);
 
-  /// The solution, by a dual active set (Goldfarb & Idnani 1983). Every unknown must be wanted with
-  /// some weight. Where no x satisfies all bounds: one that satisfies some.
-  /// \param tolerance  how far a bound may be missed, measured along its normal
+  /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown
+  /// needs at least one term of positive weight. If no x satisfies all constraints, the solution
+  /// satisfies some of them.
+  ///
+  /// \param tolerance  Largest violation of a constraint, measured along its normal.
   Vector solve(double tolerance) const;
 
  private:

@@ -6,8 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// More vertices than this change a motion by less than a hundredth of a millimetre; and of so many
-/// near the part it is found out how near they are.
+/// Vertices beyond kMostKept change the motion by less than 0.01 mm. Of larger sockets,
+/// kMostMeasured vertices are measured.
 constexpr std::size_t kMostKept = 1500, kMostMeasured = 16 * kMostKept;
 
 }  // namespace

@@ -9,17 +9,18 @@
 
 namespace crowdface {
 
-/// The skin around a rigid part, or a point: what it moves with.
+/// The skin around a rigid part or a point. Its motion determines theirs.
 struct Socket {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<double> weights;          ///< #vertices: area × nearness
 };
 
-/// Skin within `reach` of a part, on the head whose positions are given; what is nearer counts more,
-/// by (1 − (d/reach)²)². Of many vertices some are chosen evenly.
-/// \param part   the part's vertices
-/// \param skin   the skin's vertices, ascending
-/// \param areas  #V
+/// Returns the skin within `reach` of a part on a head. Weights are area times (1 − (d/reach)²)²,
+/// where d is the distance from the part. A large socket is subsampled evenly.
+///
+/// \param part   The part's vertices.
+/// \param skin   The skin's vertices, ascending.
+/// \param areas  #V.
 Socket find_socket(const Positions& positions, const PointGrid& part,
                    std::span<const std::uint32_t> skin, const std::vector<double>& areas,
                    double reach);

@@ -9,36 +9,37 @@
 
 namespace crowdface {
 
-/// A place on a triangle of a mesh; larger polygons are cut into fans from their first corner.
+/// A point on a triangle of a mesh. Larger polygons are triangulated as fans from their first
+/// corner.
 struct SurfacePoint {
   Triangle corners = {};
-  std::array<double, 3> shares = {};  ///< barycentric, not negative, of sum one
+  std::array<double, 3> shares = {};  ///< barycentric coordinates
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double distance = 0;  ///< from the point that was asked about
+  double distance = 0;  ///< distance from the query point
 };
 
-/// Of a triangle the point with these barycentric coordinates.
+/// Returns the point with these barycentric coordinates on a triangle.
 Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
                          const std::array<double, 3>& shares);
 
-/// The place nearest to a point among the triangles around one vertex and its neighbours.
+/// Returns the nearest point on the faces around a vertex and around its neighbours.
 SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
-/// From `start` on along the mesh for as long as a vertex of a face around comes nearer to the point: a
-/// cheaper way to where nearest_from may start.
+/// Walks from `start` over the mesh as long as a vertex of an adjacent face is nearer to the point.
+/// Cheaper than nearest_from; its result is a good start for it.
 std::uint32_t descend(const Topology& topology, const FacesAround& faces,
                       const Positions& positions, std::uint32_t start,
                       const Eigen::Vector3d& point);
 
-/// The same for points near a vertex already known, without memory of its own: from `start` on, from
-/// triangle to triangle for as long as that comes nearer.
+/// Returns a point near the query point by walking from `start` from triangle to triangle as long
+/// as the distance decreases. Allocates no memory. For query points near a known vertex.
 SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point);
 
-/// Unit normal of the triangle of a place; zero if it has no area.
+/// Returns the unit normal of the point's triangle; zero if the triangle has no area.
 Eigen::Vector3d normal_at(const Positions& positions, const SurfacePoint& place);
 
 }  // namespace crowdface
