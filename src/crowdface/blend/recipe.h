@@ -105,9 +105,9 @@ Matrix target_matrix(const Recipe& recipe, const Of& of) {
 /// The weights ω̂ of a position on the plane (Eqs. 3 and 4).
 ///
 /// - Partition: the target is face 0 and lends its own detail, whether or not it is in `sources`;
-/// the weights sum to one.
+///   the weights sum to one.
 /// - Printed: the target's ω_0 occurs only in the denominator. The result omits it, so its weights
-/// sum to less than one.
+///   sum to less than one.
 ///
 /// \param anchors      #heads
 /// \param sources      heads that lend detail, ascending.

@@ -47,7 +47,8 @@ struct LoadedMask {
     const int column = number % 10, row = number / 10;
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
-  /// One channel at a vertex: the mean over its texture coordinates; nothing if it has none.
+  /// One channel at a vertex: the mean of the samples at its texture coordinates; nothing if it has
+  /// none.
   std::optional<double> at_vertex(Index vertex, std::span<const UvSample> samples,
                                   std::size_t channel) const {
     if (weights) {

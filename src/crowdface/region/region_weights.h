@@ -38,9 +38,9 @@ RegionWeights whole_head(const Topology& topology);
 /// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at
 /// v = 1. A UDIM sample comes from the tile that contains the coordinate; on a tile border the mean
 /// coordinate of the corner's polygon decides. A single picture covers u and v in [0, 1] and is
-/// clamped beyond. A vertex with several distinct texture coordinates gets their mean. The weights
-/// of a vertex are scaled to sum to one; if the sum is zero, or no face uses the vertex, the vertex
-/// belongs to the last region.
+/// clamped beyond. A vertex with several distinct texture coordinates gets the mean of the samples
+/// there. The weights of a vertex are scaled to sum to one; if the sum is zero, or no face uses the
+/// vertex, the vertex belongs to the last region.
 ///
 /// \param masks   may be empty if there is one region.
 /// \param needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
