@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Index;
 
-/// To 10⁻⁹: what differs between C libraries lies far below.
+/// Rounds to 10⁻⁹, far coarser than the differences between C libraries.
 double rounded(double value) {
   const double result = std::round(value * 1e9) / 1e9;
   return result == 0 ? 0.0 : result;  // no negative zero in a plan
@@ -54,7 +54,7 @@ std::vector<PlanePoint> grid_layout(Index heads) {
 std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances) {
   const Index n = distances.rows();
   require(distances.cols() == n, "similarity layout: ", n, " by ", distances.cols(), " distances");
-  // Double centring: the Gram matrix of the points whose distances these are.
+  // Double centring gives the Gram matrix of points with these distances.
   const Eigen::MatrixXd squared = distances.array().square();
   const Eigen::VectorXd row_means = squared.rowwise().mean();
   const double mean = row_means.mean();
@@ -67,9 +67,10 @@ std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
   Eigen::MatrixXd points = Eigen::MatrixXd::Zero(n, 2);
   for (Index c = 0; c < std::min<Index>(2, n); ++c) {
-    const Index k = n - 1 - c;  // eigenvalues ascend
+    const Index k = n - 1 - c;  // eigenvalues are in ascending order
     Eigen::VectorXd direction = solver.eigenvectors().col(k);
-    // An eigenvector's sign is arbitrary: its largest entry points to the right (or up).
+    // An eigenvector's sign is arbitrary: make its largest entry positive, so that this head lies
+    // to the right (or top).
     Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     if (direction(largest) < 0) direction = -direction;
@@ -100,7 +101,7 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
   for (const PlanePoint& p : points) extend(p, 0);
   const std::size_t lower = hull.size() - 1;
   for (auto p = points.rbegin() + 1; p != points.rend(); ++p) extend(*p, lower);
-  hull.pop_back();  // the first point again
+  hull.pop_back();  // the last point repeats the first
   return hull;
 }
 
@@ -113,6 +114,7 @@ PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick,
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     total += cross(polygon[0], polygon[i], polygon[i + 1]);
   }
+  // Find the triangle of the fan that contains the fraction `pick` of the area.
   std::size_t triangle = 1;
   double left = pick * total;
   for (; triangle + 2 < polygon.size(); ++triangle) {
@@ -120,7 +122,7 @@ PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick,
     if (left < area) break;
     left -= area;
   }
-  if (a + b > 1) {  // fold the square's other half back into the triangle
+  if (a + b > 1) {  // reflect the other half of the unit square into the triangle
     a = 1 - a;
     b = 1 - b;
   }

@@ -9,29 +9,31 @@
 
 namespace crowdface {
 
-/// How the heads' anchors are laid out on the plane when the config does not place each by hand.
+/// The layout of the heads' anchors on the weight plane; kManual: the config gives each anchor.
 enum class Layout { kCircle, kGrid, kSimilarity, kManual };
 
-/// Anchors on the unit circle, evenly, counter-clockwise from (1, 0). Rounded to 10⁻⁹, because
-/// sines differ between C libraries.
+/// Anchors evenly spaced on the unit circle, counter-clockwise from (1, 0). Rounded to 10⁻⁹,
+/// because sines differ between C libraries.
 std::vector<PlanePoint> circle_layout(Eigen::Index heads);
 
-/// Anchors row by row on a square grid over [−1, 1]², first row on top. A last row that is not full
-/// is centred.
+/// Anchors row by row on a square grid over [−1, 1]², first row on top. A partial last row is
+/// centred.
 std::vector<PlanePoint> grid_layout(Eigen::Index heads);
 
-/// Anchors whose distances resemble the heads' own: classical multidimensional scaling (Torgerson
-/// 1952) to the two strongest directions, scaled to the unit disc, rounded to 10⁻⁹. Heads that are
-/// alike lie near each other.
+/// Anchors whose distances approximate the given distances between heads, so that similar heads lie
+/// near each other: classical multidimensional scaling (Torgerson 1952) to the two largest
+/// components, scaled to the unit disc and rounded to 10⁻⁹.
 /// \param distances  #heads by #heads, symmetric, zero diagonal, any unit.
 std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances);
 
-/// Corners of the convex hull, counter-clockwise, without collinear points; one or two corners if
-/// the points coincide or lie on a line.
+/// Corners of the convex hull, counter-clockwise, without collinear points. Two corners if all
+/// points lie on a line, one if they coincide.
 std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points);
 
-/// The point of a convex polygon that three uniform numbers in [0, 1) stand for, uniform by area
-/// (by length on a segment): `pick` chooses the triangle of the fan, `a` and `b` the place in it.
+/// Maps three uniform random numbers to a point distributed uniformly by area in a convex polygon
+/// (by length on a segment).
+/// \param pick  in [0, 1): selects the triangle of the polygon's fan.
+/// \param a, b  in [0, 1): select the point in that triangle.
 PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick, double a,
                             double b);
 
