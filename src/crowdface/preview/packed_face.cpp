@@ -20,7 +20,7 @@ void append(std::string& bytes, double value) {
   bytes += static_cast<char>(number >> 8U);
 }
 
-/// A unit vector's place on the octahedron unfolded over [−1, 1]².
+/// The octahedral encoding of a unit vector, in [−1, 1]².
 Eigen::Vector2d unfolded(const Eigen::Vector3d& normal) {
   const Eigen::Vector3d n = normal / normal.lpNorm<1>();
   if (n.z() >= 0) return n.head<2>();
@@ -53,7 +53,7 @@ PackingFrame PackingFrame::around(std::span<const Positions* const> heads) {
 std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
                         const Positions& positions) {
   std::string bytes;
-  bytes.reserve(10 * vertices.size());  // with normals
+  bytes.reserve(10 * vertices.size());  // space for the normals too
   for (const std::uint32_t vertex : vertices) {
     for (int axis = 0; axis < 3; ++axis) {
       append(bytes, (positions(vertex, axis) - frame.low[axis]) / frame.step);

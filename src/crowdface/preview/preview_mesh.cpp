@@ -29,7 +29,8 @@ PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
   const auto look_of = [&](const Triangle& t) { return split.corners[t[0]].look; };
   PreviewMesh mesh;
   std::vector<std::uint32_t> number(split.corners.size(), kNoIndex);
-  std::map<std::uint32_t, std::uint32_t> first;  // of a row of the whole mesh
+  // For each vertex of the whole mesh: its first index.
+  std::map<std::uint32_t, std::uint32_t> first;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (t == 0 || look_of(triangles[t]) != look_of(triangles[t - 1])) {
       mesh.looks.push_back(static_cast<std::uint32_t>(t));

@@ -9,27 +9,32 @@
 
 namespace crowdface {
 
-/// A reduced mesh whose vertices are split where its texture or its look changes: what a graphics card draws.
+/// A reduced mesh for a graphics card: vertices are split at texture seams and at borders between
+/// materials (looks).
 struct PreviewMesh {
-  std::vector<std::uint32_t> vertices;   ///< rows of the whole mesh
-  std::vector<std::uint32_t> twins;      ///< #vertices: the first vertex at the same row
-  std::vector<std::uint32_t> triangles;  ///< three of `vertices` each, one look after the other
-  std::vector<float> uvs;                ///< two a vertex, or empty: there are none
-  std::vector<std::uint32_t> faces;      ///< #vertices: a face of the whole mesh that has it so
-  std::vector<std::uint32_t> looks;      ///< the first triangle of each look that is left
+  std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh
+  /// #vertices: the first index in `vertices` with the same vertex of the whole mesh.
+  std::vector<std::uint32_t> twins;
+  /// Indices into `vertices`, three per triangle, grouped by look.
+  std::vector<std::uint32_t> triangles;
+  std::vector<float> uvs;            ///< two per vertex; empty if there are no texture coordinates
+  std::vector<std::uint32_t> faces;  ///< #vertices: a face of the whole mesh with this corner
+  std::vector<std::uint32_t> looks;  ///< the first triangle of each look that has triangles
 };
 
-/// \param uvs            #uvs by 2 where the faces have texture coordinates: those to be shown
-/// \param typical        #V by 3, by which is judged what may go
-/// \param drawn          one a face, or empty: all
-/// \param most_vertices  about how many may be left before splitting
+/// Builds a reduced mesh; its looks differ by texture tile only.
+/// \param uvs            the texture coordinates to show, two per row; used where faces have
+///                       texture coordinates.
+/// \param typical        #V by 3: positions for measuring the error of edge collapses.
+/// \param drawn          #F: the faces to keep; empty: all.
+/// \param most_vertices  approximate largest number of vertices before splitting.
 PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
                          const Positions& typical, const std::vector<bool>& drawn,
                          std::size_t most_vertices);
 
-/// The same of triangles that are reduced already.
-/// \param triangles  of corners of `split`
-/// \param uvs        that it was split by
+/// Builds the preview mesh from triangles that are already reduced.
+/// \param triangles  indices of corners of `split`.
+/// \param uvs        the texture coordinates that `split` was made with.
 PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
                        const TextureCoordinates& uvs);
 

@@ -11,12 +11,13 @@
 namespace crowdface {
 namespace {
 
-/// \param options  meshoptimizer's
+/// Simplifies index triples to at most `most` triangles.
+/// \param options  flags of meshopt_simplify.
 void reduce(std::vector<unsigned int>& triangles, const Positions& positions, std::size_t most,
             unsigned int options = 0) {
   if (triangles.size() <= 3 * most) return;
   const std::vector<float> points(positions.data(), positions.data() + positions.size());
-  constexpr float kAnyError = 1e30F;  // the count alone decides when to stop
+  constexpr float kAnyError = 1e30F;  // stop at the target count, whatever the error
   triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(),
                                     points.data(), points.size() / 3, 3 * sizeof(float), 3 * most,
                                     kAnyError, options, nullptr));
@@ -31,7 +32,7 @@ std::vector<unsigned int> corners_of(const std::vector<Triangle>& triangles) {
   return corners;
 }
 
-/// As triangles, in an order that suits a graphics card.
+/// Converts indices to triangles, in an order that suits the vertex cache of a graphics card.
 std::vector<Triangle> for_drawing(std::vector<unsigned int> corners, Index vertex_count) {
   meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(),
                               static_cast<std::size_t>(vertex_count));

@@ -9,28 +9,29 @@
 
 namespace crowdface {
 
-/// Collapses edges until at most `most` triangles are left, where least is lost (quadric error metrics,
-/// Garland & Heckbert 1997, by meshoptimizer). Open borders, and seams (borders at which several
-/// vertices have one position), keep their course: their edges collapse along them alone, and what
-/// cannot be collapsed so is kept, be it more than `most`.
+/// Collapses edges until at most `most` triangles are left, in the order of least error (quadric
+/// error metrics, Garland & Heckbert 1997, by meshoptimizer). Edges of open borders, and of seams
+/// (borders where several vertices share one position), collapse along the border only. If these
+/// constraints block further collapses, more than `most` triangles remain.
 /// \param positions  #V by 3, finite.
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
                                        const Positions& positions, std::size_t most);
 
-/// Fewer triangles over some of a mesh's own vertices, numbered in the order in which triangles first use them.
+/// A reduced mesh over a subset of a mesh's vertices, numbered in the order of first use by a
+/// triangle.
 struct ReducedMesh {
-  std::vector<std::uint32_t> vertices;  ///< rows of the whole mesh, each once
-  std::vector<Triangle> triangles;      ///< of `vertices`
+  std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh, each once
+  std::vector<Triangle> triangles;      ///< indices into `vertices`
 };
 
 ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions& positions,
                         std::size_t most);
 
-/// The same as reduce_triangles, but what nobody sees gets few of the triangles. Where seen and hidden triangles meet no
-/// edge collapses, so that no gap opens between them.
-/// \param hidden       #triangles
-/// \param most         of all together.
-/// \param most_hidden  of those that are hidden.
+/// Like reduce_triangles, but with a separate limit for hidden triangles. No edge collapses on the
+/// border between visible and hidden triangles, so that no gap opens there.
+/// \param hidden       #triangles: whether each triangle is hidden.
+/// \param most         largest number of all triangles.
+/// \param most_hidden  largest number of hidden triangles.
 std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
                                     const Positions& positions, const std::vector<bool>& hidden,
                                     std::size_t most, std::size_t most_hidden);

@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// Of rows that hold the same coordinates, the first: a file may write one a corner.
+/// For each row, the first row with equal coordinates: some files repeat coordinates for every
+/// corner.
 std::vector<std::uint32_t> first_of_equal(const TextureCoordinates& uvs) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(uvs.rows()));
   std::iota(order.begin(), order.end(), 0U);
@@ -31,7 +32,7 @@ std::vector<std::uint32_t> first_of_equal(const TextureCoordinates& uvs) {
   return first;
 }
 
-/// The tile of the texture that a face lies in.
+/// The texture tile that contains the mean coordinate of a face; (0, 0) if a corner lacks one.
 std::array<double, 2> tile_of(std::span<const std::uint32_t> corners,
                               const TextureCoordinates& uvs) {
   Eigen::RowVector2d sum(0, 0);
@@ -62,7 +63,7 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
   SplitMesh split;
   std::map<std::pair<std::uint32_t, std::array<double, 2>>, std::uint32_t> known_looks;
   std::vector<SplitMesh::Corner> all;
-  std::vector<std::uint32_t> face_of;  // #all
+  std::vector<std::uint32_t> face_of;  // parallel to `all`
   for (Index f = 0; f < topology.face_count(); ++f) {
     if (looks[static_cast<std::size_t>(f)] == kNoIndex) continue;
     const auto rows = uvs.rows() > 0 ? topology.face_uvs(f) : std::span<const std::uint32_t>();

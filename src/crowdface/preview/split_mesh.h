@@ -11,30 +11,34 @@
 
 namespace crowdface {
 
-/// A mesh as triangles whose vertices are split wherever its texture or its look changes, so that edge
-/// collapses (reduced_mesh.h) keep the course of such seams.
+/// A triangulated mesh whose vertices are split at texture seams and at borders between looks, so
+/// that edge collapses (reduced_mesh.h) preserve these borders. A look is a material label.
 struct SplitMesh {
   struct Corner {
-    std::uint32_t vertex, uv, look;  ///< rows of positions and of texture coordinates (or kNoIndex)
+    /// vertex: row of positions; uv: row of texture coordinates, or kNoIndex; look: number of the
+    /// look.
+    std::uint32_t vertex, uv, look;
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
-  std::vector<Corner> corners;                ///< each once, ascending
-  std::vector<std::uint32_t> face_of_corner;  ///< #corners, the first face that has it
-  std::vector<Triangle> triangles;            ///< of corners
-  std::vector<std::uint32_t> face_of_look;    ///< the first face of each
+  std::vector<Corner> corners;                ///< distinct corners, ascending
+  std::vector<std::uint32_t> face_of_corner;  ///< #corners: the first face with this corner
+  std::vector<Triangle> triangles;            ///< indices into `corners`
+  std::vector<std::uint32_t> face_of_look;    ///< #looks: the first face of each look
 
-  /// \param whole  #V by 3. \return #corners by 3
+  /// The positions of the corners.
+  /// \param whole  #V by 3.
+  /// \return       #corners by 3.
   Positions of(const Positions& whole) const;
 };
 
+/// Splits a mesh. Faces with one label but in different texture tiles become different looks.
 /// \param uvs    may be empty.
-/// \param looks  #F, of each face: what it looks like, by number; of kNoIndex: the face is left out. Tiles of
-///               the texture are told apart beside.
+/// \param looks  #F: the material label of each face; kNoIndex omits the face.
 SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
                      std::span<const std::uint32_t> looks);
 
-/// Triangles of the split mesh, one look after the other, without those that have one vertex twice: a seam
-/// collapsed between them.
+/// Groups triangles of the split mesh by look. Drops triangles that use one vertex twice, which
+/// occur where a seam collapsed.
 std::vector<Triangle> in_order_of_looks(std::vector<Triangle> triangles, const SplitMesh& split);
 
 }  // namespace crowdface
