@@ -9,34 +9,37 @@
 
 namespace crowdface {
 
-/// A mesh of fewer triangles over some of the whole mesh's own vertices, for faces that are seen from
-/// afar: one for a whole crowd, whose faces, and their shapes, are then rows of what they were.
+/// A level of detail: fewer triangles over a subset of the whole mesh's vertices. All faces of a
+/// crowd share one level's topology, so a face or shape at that level is a subset of its rows.
 struct DetailLevel {
-  double share = 1;                     ///< of the whole mesh's triangles: what was asked for
-  std::vector<std::uint32_t> vertices;  ///< rows of the whole mesh, ascending
-  Topology topology;                    ///< triangles over `vertices`, with rows of `uvs`
-  TextureCoordinates uvs;               ///< #T by 2, the whole mesh's own; may be empty
+  double share = 1;                     ///< requested fraction of the whole mesh's triangles
+  std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh, ascending
+  Topology topology;                    ///< triangles over `vertices` and rows of `uvs`
+  TextureCoordinates uvs;               ///< #T by 2, a subset of the whole mesh's; may be empty
   std::vector<std::uint32_t>
-      faces;  ///< of each triangle, a face of the whole mesh that looks alike
+      faces;  ///< for each triangle, a face of the whole mesh with the same look
 
-  /// What a mesh, or displacements of its vertices, are on this level. \param whole  #V by 3.
+  /// Restricts positions or displacements of the whole mesh to this level.
+  /// \param whole  #V by 3.
   Positions of(const Positions& whole) const;
   Displacements of(const Displacements& whole) const;
 };
 
-/// How far vertices of the whole mesh are from the surface of a level.
+/// Distances of the whole mesh's vertices from a level's surface.
 struct LevelError {
   double most = 0;
   double root_mean_square = 0;
 };
 
-/// Levels by edge collapse on the mean head (quadric error metrics, Garland & Heckbert 1997, by
-/// meshoptimizer), each from the whole mesh. Open rims, seams of the texture and the borders of
-/// looks keep their course.
-/// \param looks   #F, of each face: what it looks like, by number; triangles of one look stay together.
-///                Tiles of the texture are told apart beside.
-/// \param shares  of the triangles, each in (0, 1). Where borders need more there are more.
-/// \return        #shares
+/// Makes levels by edge collapse on the mean head (quadric error metrics, Garland & Heckbert 1997,
+/// by meshoptimizer), each directly from the whole mesh. Open borders, texture seams and borders
+/// between looks are preserved. A look is a material label; faces with one label but in different
+/// texture tiles count as different looks.
+/// \param looks   #F: the material label of each face; kNoIndex omits the face. Triangles of one
+///                look are contiguous.
+/// \param shares  fractions of the triangles, each in (0, 1). A level has more triangles if its
+///                borders need them.
+/// \return        #shares levels.
 std::vector<DetailLevel> detail_levels(const FaceSet& faces, std::span<const std::uint32_t> looks,
                                        std::span<const double> shares);
 

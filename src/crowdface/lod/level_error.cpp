@@ -24,7 +24,8 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
   return std::isnan(distance) ? to_corner : distance;
 }
 
-/// Walks on from a triangle, two rings of faces at each step.
+/// Walks along the surface from a vertex towards `point`: each step searches the faces around the
+/// nearest vertex so far. Returns the smallest distance.
 double walk(const DetailLevel& level, const FacesAround& around, const Positions& rows,
             std::uint32_t start, const Eigen::Vector3d& point) {
   constexpr int kMostSteps = 16;

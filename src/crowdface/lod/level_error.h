@@ -10,17 +10,21 @@
 
 namespace crowdface {
 
-/// For each vertex of the whole mesh that a level lacks, the level's triangle nearest to it on one head,
-/// found by walking along the surface.
+/// For each vertex of the whole mesh that a level lacks: the nearest triangle of the level on one
+/// head, found by walking along the surface.
 struct LevelMap {
-  std::vector<std::uint32_t> vertices;  ///< of the whole mesh, ascending; only those that faces use
-  std::vector<Triangle> triangles;      ///< #vertices, of the level's vertices
+  /// Vertices of the whole mesh that faces use and the level lacks, ascending.
+  std::vector<std::uint32_t> vertices;
+  std::vector<Triangle> triangles;  ///< #vertices: a triangle of the level's vertices for each
 };
+/// Finds these triangles.
+/// \param typical  #V by 3: the head on which they are found.
 LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const DetailLevel& level,
                       const Positions& typical);
 
-/// Over all the meshes together, in their unit. Never too small: another triangle might be nearer than
-/// the one that was found; where a vertex is far from that, those around are looked at too.
+/// Error over all meshes together, in their unit. An upper bound: on another mesh a different
+/// triangle may be nearer than the mapped one. If a vertex is far from its mapped triangle,
+/// neighbouring triangles are searched too.
 /// \param meshes  each #V by 3, at least one.
 LevelError level_error(const DetailLevel& level, const LevelMap& map,
                        std::span<const Positions* const> meshes);
