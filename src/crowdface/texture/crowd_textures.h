@@ -10,22 +10,24 @@
 
 namespace crowdface {
 
-/// What each head has in each picture of a layout: #pictures by #heads, of the pictures' sizes; null
-/// where a head has nothing.
+/// The texture maps of all heads: #pictures by #heads, each map with its picture's size; null if a
+/// head has no map for a picture.
 using HeadMaps = std::vector<std::vector<std::shared_ptr<const TextureMap>>>;
 
-/// The textures of a crowd's heads, brought to one layout.
+/// The textures of a crowd's heads in one common layout.
 struct CrowdTextures {
   TextureLayout layout;
   HeadMaps maps;
 };
 
-/// What one face has in one picture: colours, or numbers.
+/// One picture of one face's texture: colours, or numbers such as normals.
 struct BlendedPicture {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> srgb;  ///< height · width · 3, first row on top
-  /// Or height · width · `channels`: number = low + step · word; of normals x, y, z, 0 … 1 as in files.
+  /// Height by width by 3, first row on top; empty if `words` is used.
+  std::vector<std::uint8_t> srgb;
+  /// Height by width by `channels`, instead of `srgb`: number = low + step · word. Normals are
+  /// stored as x, y, z mapped to 0 … 1, as in normal map files.
   std::vector<std::uint16_t> words = {};
   int channels = 3;
   float low = 0, step = 1.0F / 65535;

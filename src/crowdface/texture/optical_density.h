@@ -6,18 +6,20 @@
 
 namespace crowdface {
 
-/// How much light a surface keeps back: −ln of what it reflects, so that the densities of pigments in it
-/// add up. 0 is white; 65,535 black, which has a finite density because a four-thousandth of the light is
-/// added to all. Steps are finer than those of 8-bit sRGB everywhere.
+/// Optical density: −ln of the reflected light, quantized to 16 bits. Densities of pigments add up.
+/// 0 is white and 65,535 black; 1/4096 is added to all light, so that black has a finite density.
+/// The steps are finer than the steps of 8-bit sRGB everywhere.
 using Density = std::uint16_t;
 inline constexpr float kMostDensity = 65535;
 
-/// \param light  linear, 0 … 1; what lies beyond counts as the end.
+/// The density of light.
+/// \param light  linear, 0 … 1; clamped to this range.
 Density density_of_light(float light);
-/// The inverse.
+/// The inverse of density_of_light: linear light, 0 … 1.
 float light_of_density(float density);
 
-/// Of each 8-bit sRGB value, and the 8-bit sRGB value of each density: there and back gives the same.
+/// Lookup tables: the density of each 8-bit sRGB value, and the nearest sRGB value of each density.
+/// Converting an sRGB value to density and back returns the same value.
 const std::vector<Density>& densities_of_srgb8();
 const std::vector<std::uint8_t>& srgb8_of_densities();
 

@@ -16,10 +16,10 @@ namespace {
 constexpr int kPictureRowsPerBlock = 16;
 constexpr std::size_t kGutterPerBlock = 1 << 14;
 
-/// Sums of the covered texels of a row, a channel each.
+/// Sums of the covered texels of a row, one per channel.
 using RowSums = std::array<std::uint64_t, 3>;
 
-/// Texels of a row while they are computed: a float for each field.
+/// Working memory for one row: a float for each texel and field.
 class RowBuffer {
  public:
   RowBuffer(int width, std::size_t fields)
@@ -34,7 +34,8 @@ class RowBuffer {
   std::vector<float*> rows_;
 };
 
-/// Writes the fields of a row's covered texels. What is written beyond a triangle's is written over by the next.
+/// Interpolates the fields at a row's covered texels. A span may write beyond its end; the next
+/// span overwrites these texels.
 void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields,
                  const RowBuffer& buffer) {
   const auto row = static_cast<float>(y);
@@ -63,7 +64,9 @@ std::uint16_t word_of(float share) {
   return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
 }
 
-/// \param sums  the densities of a channel, a texel each. \param out  a row's bytes.
+/// Writes the colours of covered texels. Returns their sums per channel.
+/// \param sums  densities, one row per channel.
+/// \param out   the row of bytes.
 RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
                       std::uint8_t* out) {
   static const std::uint8_t* const srgb8 = srgb8_of_densities().data();
@@ -80,7 +83,7 @@ RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<floa
   return total;
 }
 
-/// Slopes become unit normals.
+/// Like write_colours, but converts slopes to unit normals.
 RowSums write_normals(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
                       std::uint16_t* out) {
   RowSums total = {};
@@ -110,8 +113,9 @@ RowSums write_values(std::span<const SurfaceTexels::Span> spans, std::span<float
   return total;
 }
 
-/// The mean of the covered texels is what all beyond the gutter have.
-/// \param sums    #height. \param values  height · width · `channels`
+/// Fills uncovered texels with the mean of the covered texels, and then copies the gutter.
+/// \param sums    #rows: sums of covered texels.
+/// \param values  height by width by `channels`.
 template <class Value>
 void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, std::size_t channels,
                std::vector<Value>& values) {
@@ -141,7 +145,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
   });
 }
 
-/// A picture of its size, and how its numbers are kept.
+/// A picture with the right size and encoding, not yet painted.
 BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& coding) {
   BlendedPicture picture{texels.width(), texels.height(), {}};
   const std::size_t count =

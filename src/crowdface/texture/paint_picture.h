@@ -8,19 +8,19 @@
 
 namespace crowdface {
 
-/// What a picture is computed from for one face, at the vertices that it shows: numbers to begin with, and
-/// the factor of what each head has stored. Between vertices all of it runs straight.
+/// The input of one picture of one face, at the vertices that the picture shows: a base value per
+/// channel, and a factor for each head's map. Values are interpolated linearly within triangles.
 struct PictureFields {
   std::size_t channels = 3;
-  std::vector<std::size_t> heads;  ///< those that lend anything, ascending
-  std::vector<float> values;       ///< #vertices by #channels + #heads
+  std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending
+  std::vector<float> values;       ///< #vertices by #channels + #heads: base values, then factors
   std::size_t width() const { return channels + heads.size(); }
 };
 
-/// Each covered texel is its numbers to begin with plus each head's factor times what the head has stored there. Beyond
-/// the gutter all texels have the mean of these.
-/// \param coding  what the picture's numbers are, and between which they are kept.
-/// \param maps    #heads, of the picture's size.
+/// Paints a picture: the value of a covered texel is base + Σ_h factor_h · (stored value of head
+/// h's map). Texels beyond the gutter get the mean of the covered texels.
+/// \param coding  meaning of the picture's numbers, and the range to which they are clamped.
+/// \param maps    #heads, all of the picture's size.
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,
                              const PictureFields& fields);

@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/texture/row_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires foreach_target.h first, then the headers that are compiled once per target.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +26,7 @@ void write_ramps(const Ramp* ramps, std::size_t fields, std::size_t count, float
   }
 }
 
-/// 16-bit numbers as floats.
+/// Loads 16-bit numbers and converts them to floats.
 template <class D>
 HWY_INLINE hn::Vec<D> floats_of(D lanes, const Density* stored) {
   const hn::Rebind<Density, D> words;

@@ -9,27 +9,30 @@
 
 namespace crowdface {
 
-// Each product is rounded before it is added: the bits of plain loops, whatever the instruction set.
+// Products are rounded before they are added (no FMA), so that results are bit-identical to plain
+// loops on any instruction set.
 
-/// Rows may be written up to so many floats beyond their end.
+/// Kernels may write up to this many floats beyond the end of a row.
 inline constexpr std::size_t kRowSlack = 16;
 
-/// A straight line: first, first + step, …
+/// The arithmetic sequence first, first + step, …
 struct Ramp {
   float first = 0, step = 0;
 };
 
-/// Writes `count` values of each line, and up to kRowSlack more. \param rows  #ramps
+/// Writes the first `count` values of each ramp, and up to kRowSlack more.
+/// \param rows  #ramps rows.
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
-/// A row of what one head lends.
+/// One row of one head's map.
 struct LentRow {
+  /// The head's factor at each texel.
   const float* factors;
-  std::array<const Density*, 3> stored;  ///< of each channel
+  std::array<const Density*, 3> stored;  ///< stored values of each channel
 };
 
-/// sums[c][x] += factors[x]·stored[c][x] for x in [begin, end), one head after the other.
-/// \param sums  #channels, up to three
+/// sums[c][x] += factors[x]·stored[c][x] for x in [begin, end), head by head.
+/// \param sums  #channels rows, one to three.
 void add_products(std::span<const LentRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums);
 

@@ -15,19 +15,20 @@ namespace {
 
 using Colours = SurfaceStatistics::Colours;
 
-/// More texels than this tell no more about means.
+/// Largest number of sampled texels; more do not improve the means.
 constexpr double kMostSamples = 1 << 21;
 constexpr Index kBlock = 1024;
 
-/// A texel, and where on the surface it lies.
+/// A texel and its point on the surface.
 struct Sample {
   std::uint32_t picture = 0;
   std::uint32_t texel = 0;  ///< row · width + column
+  /// The covering triangle's vertices, and the barycentric coordinates of the texel's centre.
   std::array<std::uint32_t, 3> vertices = {};
   std::array<float, 3> shares = {};
 };
 
-/// The numbers of a texel, 0 where the map has less than three.
+/// The numbers of a texel; 0 for channels that the map does not have.
 Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   const auto channels = static_cast<std::size_t>(map.coding.channels);
   const std::span<const Density> stored = map.stored();
@@ -38,8 +39,9 @@ Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   return numbers;
 }
 
-/// Calls `put(vertex, sample)` for every step-th texel of every step-th row, at the vertex that it lies
-/// nearest to, and for one texel at each vertex that has none of these.
+/// Calls `put(vertex, sample)` for every step-th texel of every step-th row, with the nearest
+/// vertex of the covering triangle. Vertices without a sample then get one texel of an adjacent
+/// triangle, if there is one.
 template <class Put>
 void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_t vertex_count,
                      const Put& put) {
@@ -99,16 +101,17 @@ Grouped<Sample> sample_surface(const std::vector<SurfaceTexels>& texels, std::si
                          [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
 }
 
-/// Smooths rows of three values and a one, or of zeros at vertices that have no values, and hands back the means
-/// of what there is around each vertex: zeros where there is nothing.
-/// \param count   how many such rows each vertex has, smoothed some at a time.
-/// \param row_of  row_of(i, vertex): its row i, asked for by any thread.
-/// \param take    take(i, vertex, row): where the means go, likewise.
+/// Smooths vertex data with missing values by normalized convolution. Input rows are three values
+/// and a one, or zeros if the vertex has no values. Smoothed values are divided by the smoothed
+/// ones; vertices without data nearby get zeros.
+/// \param count   number of rows per vertex.
+/// \param row_of  row_of(i, vertex): input row i. Called by any thread.
+/// \param take    take(i, vertex, row): receives the smoothed row i. Called by any thread.
 template <class RowOf, class Take>
 void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_t count,
                   const RowOf& row_of, const Take& take) {
   constexpr std::size_t kMostAtOnce = 4;
-  constexpr double kTolerance = 1e-6;  // of values that are known to seven digits
+  constexpr double kTolerance = 1e-6;  // the values have seven digits
   constexpr float kLeastKnown = 1e-3F;
   const ChebyshevSeries series = power_series(OperatorKind::kLazy, level, kTolerance);
   const std::span<const std::uint32_t> vertex_of_row = filter.vertex_of_row();
@@ -138,7 +141,8 @@ void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_
   }
 }
 
-/// The mean of a head's numbers at a vertex, and a one; zeros where it has none.
+/// The mean of a head's numbers over the samples at a vertex, and a one; zeros if the head has no
+/// map there.
 Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, std::size_t head) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double count = 0;
@@ -153,12 +157,13 @@ Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, s
   return {mean[0], mean[1], mean[2], 1};
 }
 
-/// The mean products of details, before they are smoothed; not a number where one of the heads has nothing.
+/// Computes the mean product of the details of each pair of heads at each vertex, not yet smoothed;
+/// NaN where one of the heads has no map.
 void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
                       SurfaceStatistics& statistics) {
   const std::size_t heads = statistics.coarse.size(), pairs = statistics.pairs;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
-    // Of each head three differences, and a one where it has something.
+    // For each head: the differences from `coarse` in three channels, and a one if it has a map.
     std::array<std::vector<float>, 4> detail;
     detail.fill(std::vector<float>(heads));
     std::vector<float> sums(pairs), counts(pairs);
@@ -195,10 +200,10 @@ void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
   });
 }
 
-/// Pairs of heads that stand together in the list, at most three, and both of whose heads have something in the
-/// same pictures: where one pair's products are known the others' are.
+/// Groups up to three consecutive pairs of heads that have maps for the same pictures: their
+/// products are known at the same vertices, so they can be smoothed as one row.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
-  std::vector<std::vector<bool>> known;  // of each pair in each picture
+  std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map
   for (std::size_t a = 0; a < maps.front().size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
       known.emplace_back();

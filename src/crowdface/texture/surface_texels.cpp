@@ -10,13 +10,14 @@ namespace crowdface {
 namespace {
 
 using Point = Eigen::Vector2d;
-using Owners = std::vector<std::uint32_t>;  ///< the triangle of each texel, or kNoIndex
+/// Index of the triangle that covers each texel, or kNoIndex.
+using Owners = std::vector<std::uint32_t>;
 
 double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The shares of a triangle's second and third corner as functions of the texel; nothing for a
+/// Computes the barycentric coordinates as linear functions of the texel. Returns false for a
 /// triangle without area.
 bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle) {
   const Point u = at[1] - at[0], v = at[2] - at[0];
@@ -30,7 +31,7 @@ bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle
   return true;
 }
 
-/// Calls `body(x, y)` for the texels whose centres lie in the triangle or on its edge.
+/// Calls `body(x, y)` for each texel whose centre lies in the triangle or on its edge.
 template <class Body>
 void for_each_texel(const std::array<Point, 3>& at, const TextureLayout::Picture& size,
                     const Body& body) {
@@ -49,8 +50,8 @@ void for_each_texel(const std::array<Point, 3>& at, const TextureLayout::Picture
   }
 }
 
-/// How far colours run on beyond the surface: as far as the fifth smaller picture of a mip chain
-/// reaches in a texture of a thousand texels.
+/// Width of the gutter in texels: 1/64 of the longer side, at least 4. Of 1024 texels that is 16,
+/// the size of one texel of mip level 4.
 int gutter_width(const TextureLayout::Picture& size) {
   return std::max(4, std::max(size.width, size.height) / 64);
 }

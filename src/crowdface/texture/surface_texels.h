@@ -10,46 +10,49 @@
 
 namespace crowdface {
 
-/// Which picture of the texture each polygon is painted in.
+/// Assigns each polygon to a picture of the texture.
 struct TextureLayout {
   struct Picture {
     int width = 0;   ///< texels
     int height = 0;  ///< texels
   };
   std::vector<Picture> pictures;
-  std::vector<std::uint32_t> of_face;             ///< #F pictures, or kNoIndex
-  std::vector<std::array<std::int32_t, 2>> tile;  ///< #F, the corner of the unit square it lies in
+  std::vector<std::uint32_t> of_face;  ///< #F: index of the picture, or kNoIndex
+  /// #F: lower corner (u, v) of the unit square that contains the polygon.
+  std::vector<std::array<std::int32_t, 2>> tile;
 };
 
-/// Where the surface lies in one picture: for every texel whose centre is covered the triangle that covers
-/// it, of several the first.
+/// The rasterized surface in one picture: the triangle that covers each texel's centre; where
+/// several triangles overlap, the first.
 class SurfaceTexels {
  public:
-  /// One of a polygon's fan. At the centre of texel (x, y) its second corner has the share
-  /// second[0] + x · second[1] + y · second[2], and so on.
+  /// A triangle of a polygon's fan. The barycentric coordinate of its second corner at the centre
+  /// of texel (x, y) is second[0] + x · second[1] + y · second[2]; likewise `third` for its third
+  /// corner.
   struct Triangle {
-    std::array<std::uint32_t, 3> corners;  ///< vertices, as numbers in `vertices()`
+    std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
     std::array<float, 3> second, third;
     std::uint32_t face = 0;
   };
-  /// Covered texels of one row and triangle: [begin, end).
+  /// The texels [begin, end) of one row that one triangle covers.
   struct Span {
     std::uint32_t triangle;
     std::uint16_t begin, end;
   };
-  /// A texel beside the surface, and the covered one whose colour it takes, so that filtering does not
-  /// bring in what lies beyond.
+  /// An uncovered texel near the surface, and the covered texel whose colour it copies. The gutter
+  /// keeps texture filtering from blending in the background.
   struct Gutter {
     std::uint32_t to, from;  ///< row · width + column
   };
 
-  /// \throws BrokenPrecondition if a side is beyond 65,535.
+  /// \throws BrokenPrecondition if a side of the picture is not within 1 … 65,535 texels.
   SurfaceTexels(const Topology& topology, const TextureCoordinates& uvs,
                 const TextureLayout& layout, std::uint32_t picture);
 
   int width() const { return size_.width; }
   int height() const { return size_.height; }
-  const std::vector<std::uint32_t>& vertices() const { return vertices_; }  ///< ascending
+  /// Vertices of the mesh, ascending.
+  const std::vector<std::uint32_t>& vertices() const { return vertices_; }
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   std::span<const Span> row(int y) const {
     const auto r = static_cast<std::size_t>(y);
@@ -64,7 +67,7 @@ class SurfaceTexels {
   std::vector<std::uint32_t> vertices_;
   std::vector<Triangle> triangles_;
   std::vector<Span> spans_;
-  std::vector<std::size_t> row_begin_;  ///< height + 1
+  std::vector<std::size_t> row_begin_;  ///< #rows + 1: index of each row's first span
   std::vector<Gutter> gutter_;
   std::size_t covered_ = 0;
 };

@@ -18,9 +18,9 @@ namespace {
 
 constexpr Index kVerticesPerBlock = 1024;
 
-using HeadWeights = std::vector<double>;  ///< #heads, summing to one or all zero
+using HeadWeights = std::vector<double>;  ///< #heads; the sum is one, or all are zero
 
-/// Of what a face has without detail: its own colours, or its target's.
+/// The heads' weights in the target: the recipe's colour weights, or else the target's shares.
 HeadWeights shares_by_head(const Recipe& recipe, std::size_t heads) {
   HeadWeights shares(heads, 0.0);
   for (const SourceWeight& share :
@@ -36,7 +36,7 @@ HeadWeights mean_of(const HeadWeights& a, const HeadWeights& b) {
   return mean;
 }
 
-/// W: half the target's, half the mean of the regions'.
+/// W: half the target's weights plus half the area-weighted mean of the regions' weights.
 HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWeights>& regions,
                              const std::vector<double>& region_shares) {
   HeadWeights mean(target.size(), 0.0);
@@ -46,8 +46,8 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
   return mean_of(target, mean);
 }
 
-/// Gives the weight of heads that have no map here to those that have one: of the first of these weights
-/// that leaves any, in proportion; else all of them have the same.
+/// Moves the weight of heads without a map to heads with a map, in proportion to the first of the
+/// given weights that is non-zero for any head with a map; if there is none, equally.
 HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
                           const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -64,11 +64,11 @@ HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
   return weights;
 }
 
-/// What heads lend to one face in one picture.
+/// The heads' weights in one picture of one face.
 struct FaceWeights {
-  HeadWeights of_target;               ///< τ, where the target alone counts
+  HeadWeights of_target;               ///< τ, for vertices of the target alone
   HeadWeights of_face;                 ///< W
-  std::vector<HeadWeights> of_region;  ///< v where a region is alone
+  std::vector<HeadWeights> of_region;  ///< v at vertices of this region only
 };
 
 FaceWeights face_weights(const Recipe& recipe,
@@ -85,7 +85,7 @@ FaceWeights face_weights(const Recipe& recipe,
   return weights;
 }
 
-/// The factor that gives the detail of a mean the strength of its heads' own.
+/// The gain g that restores the contrast of blended detail, limited to 1 … 1/√Σ v_h².
 double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                const std::vector<std::size_t>& heads, const std::vector<double>& weights) {
   double wanted = 0, left = 0, squares = 0;
@@ -103,8 +103,8 @@ double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                                                        : 1 / std::sqrt(squares);
 }
 
-/// What all maps of a picture have in common, and the numbers that a blend of them can have: an overshoot
-/// of detail beyond those of all heads is cut.
+/// The common coding of all maps of a picture. Its range is the union of their ranges, so that a
+/// blend is clamped to the range of the heads.
 MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   std::optional<MapCoding> common;
   float high = 0;
@@ -132,7 +132,7 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   std::vector<std::vector<double>> weights;
   if (!recipe.colours.empty()) return {recipe.regions.size(), of_target};
   for (const RegionRecipe& region : recipe.regions) {
-    // Colour is the skin's, so it goes with the finest band.
+    // Skin colour belongs to the finest band.
     const BandRecipe& finest = band_of(region, band_count(region) - 1);
     std::vector<double> of_region(heads, 0.0);
     double sum = 0;

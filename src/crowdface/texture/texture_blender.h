@@ -15,65 +15,75 @@ namespace crowdface {
 
 struct TextureBlending {
   StatisticsScale scale;
-  /// #V: how much each vertex counts in a face's mean; not all zero.
+  /// #V: weight of each vertex in the mean over the face; not all zero.
   std::vector<double> areas;
-  /// #V: whether the target alone lends its colours there (eyes, teeth); or empty.
+  /// #V, or empty: vertices whose colours come from the target alone (eyes, teeth).
   std::vector<bool> of_target;
 };
 
-/// Gives each face a texture of its own, from those of the heads (docs/textures.md). With the numbers D_h of
-/// the heads' maps, densities of colours or slopes of normals, and their coarse part C_h,
+/// Blends a texture for each face from the textures of the heads (docs/textures.md). Let D_h be the
+/// values of the heads' maps (optical densities of colours, slopes of normals, or plain values) and
+/// C_h their coarse part. The blended value is
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
-/// The weights W_h are one set for the whole face, half the target's and half the mean of the regions';
-/// v_h is half of that and half what the region's weights are at the place. The gain g gives detail the
-/// strength that a mean takes from it: g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi of the details' covariances c, 1
-/// where details agree, 1/√Σ v_h² where they do not (after Heitz & Neyret 2018). Where a head has no
-/// texture the others have its weight. The same bits on any number of threads.
+/// - W_h is constant over the face: half the target's weights plus half the area-weighted mean of the regions'
+///   weights.
+/// - v_h varies over the face: half W_h plus half the weights of the region at that point.
+/// - The gain g restores the contrast of detail that averaging removes: g² = Σ v_h c_hh / ΣΣ v_h
+///   v_i c_hi with the covariances c of detail. It is 1 if the details of the heads agree and at
+///   most 1/√Σ v_h², the value for uncorrelated details (after Heitz & Neyret 2018).
+///
+/// If a head has no texture, its weight goes to the heads that have one. Results are bit-identical
+/// on any number of threads.
 class TextureBlender {
  public:
-  /// Gives what `make()` would: it may have been made before.
+  /// Returns the result of `make()`, possibly from a cache.
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
-  /// \param filter  of the mesh, whatever its kind. \param regions, textures  must outlive this object; so must the maps.
+  /// \param filter             a filter of the mesh, of either operator kind.
+  /// \param regions, textures  must outlive this object; the maps must too.
+  /// \param find               may return cached statistics.
   TextureBlender(
       const Topology& topology, const TextureCoordinates& uvs, const ChebyshevFilter& filter,
       const RegionWeights& regions, const CrowdTextures& textures, TextureBlending options,
       const FindStatistics& find = [](const auto& make) { return make(); });
 
-  /// \param picture  of the layout's. Any thread may ask.
+  /// Blends one picture of a face. Thread-safe.
+  /// \param picture  index of a picture of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// What this object itself takes, and what the blending of the largest picture takes.
+  /// Memory of this object, and additional memory to blend the largest picture, in bytes.
   std::size_t memory_bytes() const;
   std::size_t blend_bytes() const;
 
  private:
+  /// The base values and factors of one picture of a face.
   PictureFields fields(std::size_t picture, const Recipe& recipe) const;
 
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
   TextureBlending options_;
   std::vector<SurfaceTexels> texels_;  ///< #pictures
-  std::vector<MapCoding> codings_;     ///< #pictures: what all maps have in common
+  std::vector<MapCoding> codings_;     ///< #pictures: coding of the blended picture
   SurfaceStatistics statistics_;
-  std::vector<double> region_shares_;  ///< #regions, how much of the face each covers
+  std::vector<double> region_shares_;  ///< #regions: fraction of the face that each region covers
 };
 
-/// How much of the face each region covers. \param areas  #V, of the face
+/// The fraction of the face that each region covers.
+/// \param areas  #V: weight of each vertex.
 std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas);
 
-/// What each head lends of its colours to a face as a whole (W above), and to eyes and teeth.
+/// Colour weights of the heads: `whole` for the face (W above), `of_target` for eyes and teeth.
 struct FaceColourWeights {
   std::vector<double> whole, of_target;  ///< #heads, each summing to one
 };
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_shares);
 
-/// What each head lends of its colours in each region, as the recipe's weights are: those of its sources,
-/// and where these do not sum to one (Normalization::kPrinted) the target has the rest; or in each the recipe's colours,
-/// if it has some of its own.
+/// Colour weights of the heads in each region. If the recipe has colour weights, they hold in every
+/// region. Otherwise the weights are those of the region's finest band; if they sum to less than
+/// one (Normalization::kPrinted), the target gets the rest.
 /// \return #regions by #heads, rows summing to one.
 std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads);
 

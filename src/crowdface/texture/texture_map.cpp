@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kRowsPerBlock = 16;
 
-/// Texels of a row or column that make up one of another size.
+/// Filter weights of one resampled texel: the source texels in a row or column that contribute to
+/// it.
 struct Taps {
   int first = 0;
   std::vector<float> weights;  ///< summing to one
@@ -114,7 +115,7 @@ void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
   const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
                                map.planes.size() * sizeof(Density));
   map.scratch = std::make_shared<const MappedFile>(MappedFile::of_scratch(bytes, folder));
-  map.planes = std::vector<Density>();  // unlike {}, it gives the memory back
+  map.planes = std::vector<Density>();  // frees the memory, unlike assigning {}
 }
 
 }  // namespace crowdface

@@ -16,14 +16,14 @@
 
 namespace crowdface {
 
-/// What the numbers of a map are.
+/// The meaning of a map's numbers.
 enum class MapContent {
   kColours,  ///< optical densities of red, green and blue
-  kSlopes,   ///< of a tangent-space normal: how far it leans to the right and upwards, x/z and y/z
-  kValues,   ///< one or three plain numbers, such as a roughness or a height
+  kSlopes,   ///< slopes x/z and y/z of a tangent-space normal
+  kValues,   ///< one or three plain numbers, such as roughness or height
 };
 
-/// How a map's numbers lie in 16 bits: number = low + step · what is stored.
+/// The 16-bit encoding of a map's numbers: number = low + step · stored.
 struct MapCoding {
   MapContent content = MapContent::kColours;
   int channels = 3;
@@ -31,38 +31,39 @@ struct MapCoding {
   float step = 1;
 
   float number(Density stored) const { return low + step * static_cast<float>(stored); }
-  /// The nearest.
+  /// The nearest stored value; clamped to 0 … 65,535.
   Density stored(float number) const;
 
-  /// Leans of up to 83°, in steps of less than 0.02°; no lean has a step of its own.
+  /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
+  /// representable.
   static MapCoding slopes() { return {MapContent::kSlopes, 2, -8, 16.0F / 65534}; }
-  /// \param channels  1 or 3. \param low, high  what all numbers lie between.
+  /// \param channels   1 or 3.
+  /// \param low, high  range of all numbers.
   static MapCoding values(int channels, float low = 0, float high = 1) {
     return {MapContent::kValues, channels, low, high > low ? (high - low) / 65535 : 1};
   }
 };
 
-/// What one head has in one picture of the texture.
+/// The map of one head for one picture of the texture.
 struct TextureMap {
   int width = 0;
   int height = 0;
-  std::vector<Density> planes;  ///< a channel each: height · width, first row on top: v = 1
+  std::vector<Density> planes;  ///< one plane per channel: height by width, first row at v = 1
   MapCoding coding = {};
-  std::shared_ptr<const MappedFile> scratch =
-      {};  ///< where the planes lie instead, see move_to_disk
+  std::shared_ptr<const MappedFile> scratch = {};  ///< holds the planes instead after move_to_disk
 
   float number(Density stored) const { return coding.number(stored); }
   std::size_t texels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
-  /// All planes, wherever they lie.
+  /// All planes, in memory or on disk.
   std::span<const Density> stored() const {
     if (scratch == nullptr) return planes;
     const std::string_view bytes = scratch->bytes();
     return {reinterpret_cast<const Density*>(bytes.data()), bytes.size() / sizeof(Density)};
   }
   const Density* row(int channel, int y) const { return stored().data() + first_of(channel, y); }
-  /// Of a map that lies in memory.
+  /// A writable row; only for maps in memory.
   Density* row(int channel, int y) { return planes.data() + first_of(channel, y); }
 
  private:
@@ -73,28 +74,29 @@ struct TextureMap {
   }
 };
 
-/// Moves a map's planes out of memory into a nameless file of that folder, from which the system reads what
-/// is asked for. \throws CannotCreate, IoError.
+/// Moves a map's planes from memory to an unnamed, memory-mapped file in `folder`.
+/// \throws CannotCreate, IoError.
 void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 
-/// A picture that is read row by row, by any thread: linear light, or the first numbers of each texel as a
-/// coding has them.
+/// A picture that is read row by row, from any thread. Rows contain linear light, or the numbers
+/// that a coding describes.
 struct LightRows {
   int width = 0;
   int height = 0;
-  std::function<void(int y, std::span<Eigen::Array3f> texels)> row;  ///< writes `width` texels
-  /// Of light alone, and perhaps none: writes row y as densities, what density_of_light says of each number, without
-  /// a logarithm for each. \param planes  red, green, blue
+  /// Reads row y: writes `width` texels.
+  std::function<void(int y, std::span<Eigen::Array3f> texels)> row;
+  /// Optional, for pictures of light only: writes row y directly as densities, equal to
+  /// density_of_light of each value but without computing logarithms.
+  /// \param planes  red, green, blue.
   std::function<void(int y, const std::array<Density*, 3>& planes)> densities = {};
 };
 
-/// The picture at another size: between texels along straight lines where it grows, and where it shrinks
-/// each texel is the weighted mean of those around it (a tent as wide as two of the new texels). Of the
-/// same size it stays as it is.
+/// Resamples a picture to another size: by linear interpolation if it grows, and by a tent filter
+/// with a width of two new texels if it shrinks. A picture of the same size is copied exactly.
 TextureMap make_texture_map(int width, int height, const LightRows& picture,
                             const MapCoding& coding = {});
 
-/// Its colours as 8-bit sRGB, height · width · 3.
+/// The colours of a map as 8-bit sRGB, height by width by 3.
 std::vector<std::uint8_t> srgb8_of(const TextureMap& map);
 
 }  // namespace crowdface

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Index kColouredPerBlock = 4096;
 
-/// The weights of the heads that have colours, summing to one; if none has any weight, all have the same.
+/// Normalizes the weights of the heads that have colours; equal weights if all are zero.
 std::vector<double> among_coloured(std::vector<double> weights,
                                    const std::vector<ColourRows>& heads) {
   double sum = 0, count = 0;

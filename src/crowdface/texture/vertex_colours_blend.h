@@ -8,11 +8,12 @@
 
 namespace crowdface {
 
-/// A face's colours at vertices: the mean of its heads' optical densities. There is one set of weights for the whole
-/// face, so that a forehead is not darker than its chin. Heads without colours lend nothing.
-/// \param heads      #heads colours; some may have no rows, not all
-/// \param of_target  #V: whether the target alone lends there, as to eyes; or empty
-/// \return #V by 3
+/// Blends vertex colours: the weighted mean of the heads' optical densities. The weights are
+/// constant over the face, so that forehead and chin match. Heads without colours get no weight.
+/// \param heads      #heads, each #V by 3 or without rows; at least one has rows.
+/// \param of_target  #V, or empty: vertices that use weights.of_target instead of weights.whole,
+///                   such as eyes.
+/// \return           #V by 3.
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,
                                 const std::vector<bool>& of_target);
