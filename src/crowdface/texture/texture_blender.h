@@ -27,12 +27,13 @@ struct TextureBlending {
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
-/// - W_h is constant over the face: half the target's weights plus half the area-weighted mean of the regions'
-///   weights.
+/// - W_h is constant over the face: half the target's weights plus half the area-weighted mean of
+///   the regions' weights.
 /// - v_h varies over the face: half W_h plus half the weights of the region at that point.
-/// - The gain g restores the contrast of detail that averaging removes: g² = Σ v_h c_hh / ΣΣ v_h
-///   v_i c_hi with the covariances c of detail. It is 1 if the details of the heads agree and at
-///   most 1/√Σ v_h², the value for uncorrelated details (after Heitz & Neyret 2018).
+/// - The gain g restores the contrast of detail that averaging removes:
+///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. It is 1 if the details of
+///   the heads agree and at most 1/√Σ v_h², the value for uncorrelated details (after Heitz &
+///   Neyret 2018).
 ///
 /// If a head has no texture, its weight goes to the heads that have one. Results are bit-identical
 /// on any number of threads.
