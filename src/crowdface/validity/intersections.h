@@ -8,27 +8,32 @@
 
 namespace crowdface {
 
-/// Pairs of triangles whose boxes, grown by `margin` on all sides, overlap, see TriangleScene.
+/// Pairs of triangles whose bounding boxes, grown by `margin` on all sides, overlap; see
+/// TriangleScene::near_pairs.
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 
-/// Those of the pairs that pass through each other.
+/// The given pairs that intersect, see triangles_intersect.
 std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
                                        const Positions& positions,
                                        const std::vector<TrianglePair>& pairs);
 
-/// How many triangles of a face take part in intersections that its target has not. Where the target
-/// intersects itself already, at the corner of a mouth, say, the next triangles may too: pairs that
-/// both touch a vertex there are not counted.
+/// Counts the triangles of a face that take part in intersections that the target does not have.
+/// Where the target already intersects itself, for example at the corner of the mouth, adjacent
+/// triangles may intersect too: a pair is ignored if both its triangles share a vertex with
+/// triangles that intersect in the target.
 class NewIntersections {
  public:
-  /// \param target_pairs  the target's own intersecting pairs.
+  /// \param target_pairs  the intersecting pairs of the target itself.
   NewIntersections(const std::vector<Triangle>& triangles, Index vertex_count,
                    const std::vector<TrianglePair>& target_pairs);
+  /// The number of triangles in new intersections.
+  /// \param face_pairs  all intersecting pairs of the face.
   Index count(const std::vector<TrianglePair>& face_pairs) const;
 
  private:
-  std::vector<bool> excused_;  ///< #T: touches a triangle that intersects another in the target
+  /// #T: whether the triangle shares a vertex with one that intersects in the target.
+  std::vector<bool> excused_;
 };
 
 }  // namespace crowdface

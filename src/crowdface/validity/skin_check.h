@@ -10,38 +10,42 @@
 
 namespace crowdface {
 
-/// From where a face is looked at, and how large it is.
+/// The view directions from which exposed back sides count, and the scale.
 struct Viewing {
-  std::vector<Eigen::Vector3d> directions;  ///< towards viewers, of any length but zero
+  /// Directions towards the viewers, of any non-zero length.
+  std::vector<Eigen::Vector3d> directions;
   double mm_per_unit = 1;
 };
 
-/// What is wrong with a face's skin against that of its target.
+/// Defects of a face's skin compared with its target's skin.
 struct SkinDefects {
   LocalDefects local;
-  Index intersecting = 0;  ///< triangles that pass through others, where the target's do not
-  /// How much farther skin that nearly touches is apart than in any head; measured by whoever knows
-  /// where it touches.
+  Index intersecting = 0;  ///< triangles in intersections that the target does not have
+  /// How much a contact gap of the skin (such as between the lips) exceeds the widest such gap of
+  /// any head. Not set by SkinCheck; the caller who knows the contacts sets it.
   double wider_mm = 0;
-  double exposed_mm2 = 0;  ///< skin that shows its back, beyond the target's
+  double exposed_mm2 = 0;  ///< visible area of the skin's back side, in excess of the target's
 };
 
-/// Judges whole meshes of one topology against their targets, from any thread.
+/// Compares meshes of one topology with their targets. Const methods are thread-safe.
 class SkinCheck {
  public:
-  /// \param heads    #V by 3 each. \throws BrokenPrecondition if there is none.
-  /// \param targets  heads that will be asked about.
+  /// \param heads    each with #V by 3 positions; the first one determines which side of the skin
+  ///                 is outside.
+  /// \param targets  indices of the heads that `compare` may name.
+  /// \throws BrokenPrecondition if there is no head.
   SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
             const std::set<Index>& targets, Viewing viewing);
 
-  /// \param target  one of those named to the constructor.
+  /// Compares positions with a target.
+  /// \param target  one of the targets passed to the constructor.
   SkinDefects compare(const Positions& positions, Index target) const;
-  /// Against a target that is none of the heads, as a mixture of them: twice the work.
+  /// Compares positions with any target, such as a mixture of heads; twice the work.
   SkinDefects compare(const Positions& positions, const Positions& target) const;
 
-  /// What this object itself takes.
+  /// Memory of this object in bytes.
   std::uint64_t memory_bytes() const;
-  /// What one `compare` takes while it runs, at most: boxes and pairs.
+  /// Upper bound of the temporary memory of one `compare` (boxes and pairs), in bytes.
   std::uint64_t compare_bytes() const;
 
  private:
@@ -53,7 +57,7 @@ class SkinCheck {
   Target prepared(const Positions& positions) const;
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
-  std::vector<Triangle> triangles_;  ///< their backs to the inside
+  std::vector<Triangle> triangles_;  ///< oriented with normals pointing outwards
   TriangleTree tree_;
   FacesAround around_;
   Viewing viewing_;

@@ -12,22 +12,23 @@
 
 namespace crowdface {
 
-/// A median split tree of triangles, without those at a vertex of more than a thousand. Made once for a mesh; boxes around
-/// the nodes fit any positions about as the first (TriangleScene).
+/// A median split tree of triangles. Leaves out triangles at vertices with more than a thousand
+/// triangles. Build the tree once per mesh: TriangleScene refits the boxes to any positions, and
+/// they stay tight if the positions are similar to the first.
 struct TriangleTree : MedianSplitTree {
-  /// Triangles of a leaf: all but the last have so many.
+  /// Triangles per leaf; the last leaf may have fewer.
   static constexpr std::uint32_t kLeaf = LeafBoxes::kCount;
-  std::vector<LeafCorners> corners;  ///< of the leaves' triangles
+  std::vector<LeafCorners> corners;  ///< corners of each leaf's triangles
 
   TriangleTree() = default;
-  /// \param apart  by so much triangles count as moved along their normals: sheets that lie on each other come
-  ///               into different leaves
+  /// \param apart  offset along the triangles' normals before the split, in the unit of the
+  ///               positions. Puts sheets that lie on each other into different leaves.
   TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
                double apart = 0);
 
   std::size_t leaf_count() const { return corners.size(); }
   static std::uint32_t leaf_number(const Node& node) { return node.begin / kLeaf; }
-  /// The triangles of a leaf.
+  /// The triangle indices of a leaf.
   std::span<const std::uint32_t> leaf(std::size_t number) const {
     const std::size_t begin = number * kLeaf;
     return std::span(order).subspan(begin, std::min<std::size_t>(kLeaf, order.size() - begin));

@@ -15,8 +15,8 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// How far the corners of `other` are from the plane of `t`, times a factor.
-/// \return false if none of them is beyond it, or all are.
+/// Scaled signed distances of the corners of `other` from the plane of `t`.
+/// \return  whether `other` has corners strictly on both sides of the plane.
 bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
                    std::array<double, 3>& distance) {
   for (std::size_t c = 0; c < 3; ++c) distance[c] = normal.dot(other[c] - t[0]);
@@ -24,11 +24,12 @@ bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
   return least < 0 && most > 0;
 }
 
-/// Where triangle `t`, whose corners have these distances from the other's plane, on both sides of it, meets the
-/// line that both planes share, along `axis`: from and to.
+/// The interval in which triangle `t` meets the line common to both triangles' planes, as
+/// coordinates along `axis`.
+/// \param distance  signed distances of the corners of `t` from the other plane, with both signs.
 std::pair<double, double> interval_on_line(const Corners& t, const std::array<double, 3>& distance,
                                            Index axis) {
-  std::size_t alone = 0;  // the corner that is alone on its side
+  std::size_t alone = 0;  // the corner on its own side of the plane
   for (std::size_t c = 0; c < 3; ++c) {
     const double one = distance[c], two = distance[(c + 1) % 3], three = distance[(c + 2) % 3];
     if ((one > 0 && two <= 0 && three <= 0) || (one < 0 && two >= 0 && three >= 0)) alone = c;
@@ -43,7 +44,7 @@ std::pair<double, double> interval_on_line(const Corners& t, const std::array<do
 }  // namespace
 
 TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target) {
-  constexpr double kSliver = 1e-4;
+  constexpr double kSliver = 1e-4;  // sine of the corner angle below which a triangle is degenerate
   frames_.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     const Vector u = row3(target, t[1]) - row3(target, t[0]);
@@ -70,7 +71,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const bool collapsed =
         normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
     if (turned || collapsed) ++defects.flipped;
-    // The largest singular value, squared, of the map from the frame: images of its two axes.
+    // The squared largest singular value of the map from the frame, from the images x, y of its
+    // axes.
     const Vector x = u / frame.length;
     const Vector y = (v - frame.shift * x) / frame.height;
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();
