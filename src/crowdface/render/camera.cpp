@@ -32,7 +32,8 @@ double turn_degrees(View view) {
   return 0;
 }
 
-/// Heads, not busts, stand in the middle of a picture: what lies higher than this share of all.
+/// Vertices above this fraction of the total height belong to heads. They are centred in the image,
+/// so that shoulders do not shift it.
 constexpr double kNeck = 0.45;
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
@@ -50,9 +51,9 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
   return camera;
 }
 
-/// The furthest planes of a wedge that opens along one image axis: a point at offset x and depth z
-/// (towards the camera) is inside a wedge of slope s, centre c and distance d exactly if
-/// d ≥ z + |x − c|/s.
+/// The smallest wedge of given slope that contains all points added. A point at offset x and depth
+/// z (towards the camera) is inside a wedge with slope s, centre c and distance d if and only if d
+/// ≥ z + |x − c|/s.
 struct Wedge {
   double slope;
   double positive = -std::numeric_limits<double>::infinity();  ///< max of z + x/s
@@ -89,9 +90,9 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
   return heights;
 }
 
-/// The height of the throat: the highest place below the tip of the nose where the surface lies behind the tip by a
-/// quarter of the head's width or more, which no chin does. A mask has no throat, nor has a head that ends at its chin.
-/// \return nothing if the head has no throat.
+/// Height of the throat: the highest slice below the tip of the nose where the surface lies at
+/// least a quarter of the head's width behind the tip. No chin lies that far back.
+/// \return nothing if the head has no throat, as a mask or a head that ends at its chin.
 std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   constexpr std::size_t kSlices = 32, kLowestNose = 9;
   constexpr double kBehind = 0.25;
@@ -120,7 +121,7 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     right = std::max(right, head.row(i).dot(side));
   }
   for (std::size_t s = nose; s-- > 0;) {
-    // With its neighbours: a slice of a coarse mesh may hold no vertex of the midline.
+    // Neighbouring slices count too: on a coarse mesh, a slice may have no vertex on the midline.
     const double nearest = std::max({ahead[s], ahead[s + 1], s > 0 ? ahead[s - 1] : kNone});
     if (nearest != kNone && nearest < ahead[nose] - kBehind * (right - left)) {
       return heights.low + static_cast<double>(s) / scale;
@@ -129,7 +130,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   return std::nullopt;
 }
 
-/// The height from which on heads are shown: necks and shoulders may leave the picture, chins may not.
+/// The lowest height that must be visible. Necks and shoulders may lie outside the image, chins may
+/// not.
 double lowest_shown(std::span<const Positions* const> heads, const HeadFrame& frame,
                     const Heights& heights, double cut_below) {
   double lowest = heights.at(cut_below);
@@ -172,7 +174,7 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
     along.add(height, z);
   }
   require(nearest >= furthest, "camera: no vertex to look at");
-  // The target lies half-way through the heads, so that half_extent() is about a head's size.
+  // Put the target half-way through the heads, so that half_extent() is about the size of a head.
   const double middle = (nearest + furthest) / 2;
   const double x = head_across.centre(), y = along.centre();
   camera.target = x * camera.right + y * camera.up + middle * camera.back;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Index kVertexBlock = 4096;
 
-/// \param first  row of the whole that these begin with
+/// \param first  number of the first vertex in `some`, for the message
 void check_finite(const Eigen::Ref<const Positions>& some, Index first) {
   if (some.allFinite()) return;
   Index i = 0;
@@ -42,7 +42,8 @@ void to_camera(const Positions& positions, const Camera& camera, std::vector<flo
   Eigen::Matrix3d axes;
   axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
   axes /= camera.half_extent();
-  points.reserve(static_cast<std::size_t>(positions.rows()) * 3 + 1);  // RayScene adds one
+  // RayScene appends one number
+  points.reserve(static_cast<std::size_t>(positions.rows()) * 3 + 1);
   points.resize(static_cast<std::size_t>(positions.rows()) * 3);
   parallel_blocks(positions.rows(), kVertexBlock, [&](Index begin, Index end) {
     check_finite(positions.middleRows(begin, end - begin), begin);

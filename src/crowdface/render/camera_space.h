@@ -12,27 +12,28 @@
 
 namespace crowdface {
 
-// A head as the camera sees it: x right, y up, z towards the camera, the target at the origin, and
-// half the side of the image as unit, so that small distances mean the same in any unit of the
-// files.
+// Camera space: x right, y up, z towards the camera, origin at the camera's target. The unit is
+// half the side of the image in the plane through the target, so that tolerances do not depend on
+// the unit of the files.
 
-/// x, y, z of each vertex. \throws InvalidInput if a position is not finite.
+/// Transforms positions to camera space: x, y, z of each vertex. \throws InvalidInput if a position
+/// is not finite.
 std::vector<float> to_camera(const Positions& positions, const Camera& camera);
-/// The same into memory that is there already.
+/// The same, written to existing memory.
 void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points);
 
-/// An axis of the file as a unit vector.
+/// Transforms an axis of the file to a unit vector in camera space.
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 
-/// #V unit normals times `sign`, in single precision: for looking at.
-/// \param fans    of the topology's vertices.
-/// \param points  as to_camera gives them.
+/// #V unit vertex normals times `sign`, in single precision, which is enough for rendering.
+/// \param fans    faces around each vertex of the topology.
+/// \param points  positions from to_camera.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
 
-/// Normals, and the memory that finding them takes.
+/// Computes normals with memory that can be reused.
 struct CameraNormals {
-  std::vector<Eigen::Vector3f> areas;    ///< of the faces
+  std::vector<Eigen::Vector3f> areas;    ///< #F area vectors: twice the area times the normal
   std::vector<Eigen::Vector3f> normals;  ///< #V
 
   void compute(const Topology& topology, const NormalFans& fans, const std::vector<float>& points,

@@ -28,7 +28,7 @@ int lines_of(const std::string& label) {
   return 1 + static_cast<int>(std::count(label.begin(), label.end(), '\n'));
 }
 
-/// One line of a label below the other, the first brightest.
+/// Draws the lines of a label, the first in the brightest colour.
 void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int left,
                 int top) {
   const int line_height = layout.label_height / layout.label_lines;
@@ -62,7 +62,7 @@ void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions
               layout.margin + title_width, 0);
 }
 
-/// \throws InvalidInput if pictures differ in size.
+/// \throws InvalidInput if the pictures differ in size.
 CellSize size_of(std::span<const SheetCell> cells) {
   CellSize size;
   for (const SheetCell& cell : cells) {
@@ -76,7 +76,7 @@ CellSize size_of(std::span<const SheetCell> cells) {
   return size;
 }
 
-/// \param options  with the number of rows.
+/// \param options  `rows` must be set.
 SheetLayout place_cells(const CellSize& cell, const SheetOptions& options) {
   const int size = std::min(cell.height, cell.width);
   const int line = std::clamp(size / (cell.label_lines > 1 ? 12 : 10), 12, 64);
@@ -93,7 +93,7 @@ bool is_small_enough(const SheetLayout& layout) {
   const std::int64_t columns = layout.columns, rows = layout.rows;
   if (columns * layout.cell_width > kLargestSide || rows * layout.cell_height > kLargestSide ||
       rows * layout.label_height > kLargestSide) {
-    return false;  // before anything overflows
+    return false;  // check before the sizes below could overflow
   }
   const std::int64_t width = layout.width(), height = layout.height();
   return width <= kLargestSide && height <= kLargestSide && width * height <= kMostPixels;
@@ -145,7 +145,7 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
                            layout.legend_height - margin, kBackground),
                 layout.margin, layout.height() - layout.margin - layout.legend_height + margin);
   }
-  // Each cell is written by one task only.
+  // Safe in parallel: no two tasks write the same pixels.
   parallel_for_each(static_cast<int>(cells.size()), [&](int cell) {
     const SheetCell& content = cells[static_cast<std::size_t>(cell)];
     const int left = layout.left(cell), top = layout.top(cell);

@@ -11,11 +11,13 @@
 namespace crowdface {
 
 struct SheetCell {
-  Rgb8Image image;    ///< all of a sheet's are of one size
-  std::string label;  ///< stands under the image, line by line, each made to fit
+  /// All images of a sheet have the same size.
+  Rgb8Image image;
+  /// Text under the image. Each line shrinks to fit.
+  std::string label;
 };
 
-/// What the colours of heat maps mean, shown below all cells.
+/// Legend of a heat map, drawn below all cells: a scale from 0 to `most_mm`.
 struct HeatLegend {
   double most_mm = 0;
   std::string title;
@@ -23,13 +25,13 @@ struct HeatLegend {
 
 struct SheetOptions {
   int columns = 6;
-  int rows = 0;            ///< 0: as many as the cells need; more than those leave blanks
-  std::string title = {};  ///< on the left above the cells
+  int rows = 0;            ///< 0: as many as needed; unused cells stay blank
+  std::string title = {};  ///< top left
   std::optional<HeatLegend> legend = std::nullopt;
-  std::string note = {};  ///< on the right above the cells, such as "sheet 2 of 5"
+  std::string note = {};  ///< top right, such as "sheet 2 of 5"
 };
 
-/// Where things lie on a sheet, in pixels.
+/// Positions and sizes on a sheet, in pixels.
 struct SheetLayout {
   int columns, rows;
   int cell_width, cell_height;
@@ -48,38 +50,40 @@ struct SheetLayout {
   }
 };
 
-/// What all cells of a sheet have in common.
+/// Size of a cell, the same for all cells of a sheet.
 struct CellSize {
-  int width = 0, height = 0;  ///< pixels of the picture
+  int width = 0, height = 0;  ///< of the picture, in pixels
   int label_lines = 1;
 };
 
-/// \throws BrokenPrecondition if there is no cell, or there are more of them than columns · rows;
-///         InvalidInput if the sheet would have more than 65,500 pixels a side or 5·10⁸ in all.
+/// Computes the layout.
+/// \throws BrokenPrecondition if there are no cells, or more cells than columns · rows;
+///         InvalidInput if the sheet would exceed 65,500 pixels on a side or 5·10⁸ pixels in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
-/// The same for these cells. \throws InvalidInput also if they differ in size.
+/// The same for given cells. \throws InvalidInput also if their images differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// How many rows of such cells a sheet can have at most; 0: not even one.
+/// Largest number of rows that a sheet of such cells can have; 0 if not even one row fits.
 int most_rows(const CellSize& cell, const SheetOptions& options);
 
-/// Pictures in a grid, row by row, a label under each and a header above them all.
-/// \throws InvalidInput as layout_sheet, MissingInput without the font.
+/// Draws pictures in a grid, row by row, with a label under each and a header above the grid.
+/// \throws InvalidInput like layout_sheet; MissingInput if the font is not installed.
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// The same for pictures of different heights: each stands below those before it in the column that
-/// ends first, so that no cell is left half empty. The rows of the options, and their legend, are not used.
+/// Like contact_sheet, for pictures of different heights: each goes into the column that is
+/// shortest so far. Ignores `rows` and `legend` of the options.
 Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// A picture made smaller, each pixel the mean of those it covers (in linear light).
-/// \param width_px  1 … image.width; the height follows.
+/// Scales a picture down by box filtering in linear light.
+/// \param width_px  1 … image.width; the height keeps the aspect ratio.
 Rgb8Image shrunk(const Rgb8Image& image, int width_px);
 
-/// The picture on a larger sheet of the sheets' background colour, in its upper left corner.
+/// The picture in the upper left corner of a larger one, which has the background colour of the
+/// sheets.
 Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px);
 
-/// Pictures of one height side by side: several views of one face in one cell.
-/// \throws BrokenPrecondition if there is none; InvalidInput if heights differ.
+/// Joins pictures of one height from left to right, for several views of a face in one cell.
+/// \throws BrokenPrecondition if there are no pictures; InvalidInput if heights differ.
 Rgb8Image side_by_side(std::span<const Rgb8Image> images);
 
 }  // namespace crowdface

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Embree 3 (Debian 12) and Embree 4 (Debian 13, Ubuntu 24.04, Fedora) under one set of calls. CMake defines
-// CROWDFACE_EMBREE as the major version that it found.
+// One interface for Embree 3 (Debian 12) and Embree 4 (Debian 13, Ubuntu 24.04, Fedora). CMake sets
+// CROWDFACE_EMBREE to the major version found.
 #if CROWDFACE_EMBREE == 4
 #include <embree4/rtcore.h>
 #elif CROWDFACE_EMBREE == 3
@@ -13,7 +13,7 @@
 
 namespace crowdface::embree {
 
-/// Whether the rays of a packet run alike, which lets Embree trace them faster.
+/// Whether the rays of a packet have similar directions, which lets Embree trace them faster.
 enum class Rays { kIncoherent, kCoherent };
 
 #if CROWDFACE_EMBREE == 4
@@ -25,9 +25,9 @@ inline RTCIntersectArguments intersect_arguments(Rays rays) {
   return arguments;
 }
 
-/// Finds the first surface on each ray of a packet.
-/// \param valid  -1 for each lane with a ray, 0 for the others; aligned to 64 bytes.
-/// \param query  must hold rays and empty hits; receives distances and hits.
+/// Finds the first hit of each ray of a packet.
+/// \param valid  -1 for lanes with a ray, 0 for the others; aligned to 64 bytes.
+/// \param query  on entry rays and empty hits; on return distances and hits.
 inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
   RTCIntersectArguments arguments = intersect_arguments(rays);
   rtcIntersect8(valid, scene, &query, &arguments);
@@ -37,7 +37,7 @@ inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit16& 
   rtcIntersect16(valid, scene, &query, &arguments);
 }
 
-/// Sets `tfar` of each ray of a packet that meets a surface to -infinity.
+/// Sets `tfar` of each ray that hits a surface to -infinity.
 inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays, nullptr);
 }

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// 0 well inside `edge`, 1 well outside.
+/// A smooth step from 0 to 1 of width 2 · kIrisSoftness, centred at `edge`.
 float beyond(float edge, float x) {
   const float t = std::clamp((x - edge + kIrisSoftness) / (2 * kIrisSoftness), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
@@ -68,7 +68,7 @@ Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen:
   const float ahead = from_centre.dot(gaze);
   if (ahead <= 0 || eye.radius <= 0) return white;
   const float radius = (from_centre - ahead * gaze).norm() / eye.radius;
-  // The iris is lightest around the pupil and darkest at its rim.
+  // The iris is lightest next to the pupil and darkest at its rim.
   const float rim = std::clamp((radius - kPupilRadius) / (kIrisRadius - kPupilRadius), 0.0F, 1.0F);
   const Light iris = albedo_of(SurfaceKind::kIris) * (1.6F - 1.25F * rim * rim);
   const Light pupil = Light::Constant(0.008F);

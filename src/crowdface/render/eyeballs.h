@@ -12,35 +12,37 @@
 
 namespace crowdface {
 
-/// The eyeballs of a mesh: connected faces of kind kEye. Without textures an eye is blank, so an
-/// iris is painted where it looks straight ahead.
+/// The eyeballs of a mesh: connected components of the faces of kind kEye. An eye without a texture
+/// would be blank, so an iris is painted on it, facing straight ahead.
 struct Eyeballs {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  std::vector<std::uint32_t> of_vertex;  ///< #V, the eyeball or kNone; empty if there is none
+  /// #V eyeball numbers or kNone; empty if there are no eyeballs
+  std::vector<std::uint32_t> of_vertex;
   std::uint32_t count = 0;
 };
 
-/// \param kinds  one a face, or empty.
+/// \param kinds  #F kinds, or empty.
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
-/// Radii as shares of the eyeball's, about a human eye's in dim light, and how far their edges are
-/// blurred to either side.
+/// Radii of pupil and iris relative to the radius of the eyeball, similar to a human eye in dim
+/// light, and half the width of the blur at their edges.
 inline constexpr float kPupilRadius = 0.17F;
 inline constexpr float kIrisRadius = 0.42F;
 inline constexpr float kIrisSoftness = 0.025F;
 
-/// One eyeball where it stands in a given head.
+/// Position and size of an eyeball in one head.
 struct PlacedEye {
   Eigen::Vector3f centre;
-  float radius = 0;  ///< across the gaze
+  /// Half the larger extent perpendicular to the gaze.
+  float radius = 0;
 };
 
 /// \param points  x, y, z of each vertex.
-/// \param gaze    unit; where the eyes look.
+/// \param gaze    viewing direction of the eyes, a unit vector.
 std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<float>& points,
                                   const Eigen::Vector3f& gaze);
 
-/// What an eyeball reflects at a point of its surface: white, iris or pupil.
+/// Albedo at a point of the eyeball's surface: white, iris or pupil.
 Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen::Vector3f& point);
 
 }  // namespace crowdface

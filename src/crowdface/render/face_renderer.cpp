@@ -30,10 +30,10 @@ namespace crowdface {
 
 namespace {
 
-/// In place of kRayClearance, so that rays start above a reduced surface, too.
+/// Replaces kRayClearance if occluders are reduced, so that rays start outside the reduced surface.
 constexpr float kReducedClearance = 2e-3F;
 
-/// What rendering a face takes: large, and used again for the next face.
+/// Memory for rendering one face. Large, therefore reused for the next face.
 struct Workspace {
   std::vector<float> points;
   CameraNormals normals;
@@ -42,8 +42,8 @@ struct Workspace {
   std::unique_ptr<RayScene> occluders;
 };
 
-/// Workspaces, each for one thread at a time. All have the same tree, that of the typical face, so that it does
-/// not matter which face gets which.
+/// Idle workspaces; each is used by one thread at a time. All build their tree for the typical
+/// face, so that pixels do not depend on which workspace renders a face.
 class WorkspacePool {
  public:
   std::unique_ptr<Workspace> take() {
@@ -63,15 +63,16 @@ class WorkspacePool {
   std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
-/// What keeps light from a face.
+/// The geometry that occludes light.
 struct Occluders {
-  std::vector<std::uint32_t> vertices;  ///< rows of the mesh; empty: all
-  std::vector<Quad> quads;              ///< of `vertices`; empty: all of the mesh's
-  std::vector<float>
-      typical;  ///< their points in the typical face; empty: scenes are built for once
+  std::vector<std::uint32_t> vertices;  ///< vertices of the mesh; empty: all
+  std::vector<Quad> quads;              ///< indices into `vertices`; empty: all quads of the mesh
+  /// Their positions in the typical face; empty: a new scene is built for each face.
+  std::vector<float> typical;
 };
 
-/// Most triangles that light is kept out by: of a larger mesh, what goes is far smaller than a pixel.
+/// Largest number of occluding triangles. Reducing a larger mesh removes only detail far smaller
+/// than a pixel.
 constexpr std::size_t kMostOccluders = 100'000;
 
 Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical) {
@@ -110,7 +111,7 @@ struct FaceRenderer::Prepared {
   RayDevice device;
   Occluders occluders;
   WorkspacePool workspaces;
-  std::optional<float> winding;  ///< of the typical face, which all others share
+  std::optional<float> winding;  ///< winding of the typical face, which all faces share
 
   Prepared(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),
@@ -118,7 +119,7 @@ struct FaceRenderer::Prepared {
         options(choice),
         sampling(choice.samples_per_side, choice.key_rays, choice.sky_rays) {}
 
-  /// Has the workspace's points in its scene.
+  /// Updates the workspace's scene of occluders to its points.
   void put_into_scene(Workspace& workspace) const {
     std::vector<float>& points = workspace.occluder_points;
     if (occluders.vertices.empty()) {
@@ -152,7 +153,7 @@ void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
   }
 }
 
-/// The same fan in texture coordinates.
+/// Splits the texture coordinates of a face like add_fan.
 void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, Index face,
                      std::vector<TexturedQuad>& quads) {
   if (uvs.rows() == 0 || topology.corner_uvs.empty()) return;
@@ -161,7 +162,7 @@ void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, In
   for (const Quad& quad : fan) {
     TexturedQuad textured{static_cast<std::uint32_t>(face), {}};
     for (std::size_t c = 0; c < 4; ++c) {
-      // A face of which a corner has no coordinate bears no texture.
+      // A face with a corner without coordinates gets no texture.
       if (quad[c] == kNoIndex) textured.face = TextureCoat::kNone;
       if (quad[c] != kNoIndex) textured.uvs[c] = uvs.row(quad[c]).transpose().cast<float>();
     }
@@ -209,7 +210,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
                                   paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
   }
   if (typical == nullptr) return;
-  // Whatever the camera: it turns a tree and scales it, no more.
+  // Independent of the camera, which only rotates and scales the points.
   prepared_->occluders = occluders_of(prepared_->quads, *typical);
 }
 FaceRenderer::~FaceRenderer() = default;
@@ -227,7 +228,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   to_camera(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, workspace->points, gaze);
-  // A crowd is wound like its heads: there is no need to find that out for every face.
+  // All faces of a crowd have the winding of the typical face, which is determined once.
   const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
   workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
   const auto distance = static_cast<float>(1 / camera.half_tangent);

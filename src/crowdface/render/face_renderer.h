@@ -16,35 +16,39 @@
 namespace crowdface {
 
 struct RenderOptions {
-  int size_px = 256;         ///< side of the square image
-  int samples_per_side = 3;  ///< antialiasing: this squared samples a pixel where the picture
-                             ///< changes, at fixed places; four where it does not
-  int key_rays = 3;          ///< a pixel towards the key light; pixels share what theirs find
-  int sky_rays = 2;          ///< the same towards the sky, where nothing has sharp edges
-  bool occlusion = true;     ///< whether the sky's light is kept out of hollows
-  Axis front = {2, 1};       ///< where the eyes look: irises are painted there
+  int size_px = 256;  ///< side of the square image, in pixels
+  /// Antialiasing: samples_per_side² samples per pixel, at fixed positions, where the picture has
+  /// edges, and fewer elsewhere.
+  int samples_per_side = 3;
+  /// Rays per pixel towards the key light. Neighbouring pixels share their results.
+  int key_rays = 3;
+  /// The same for the sky, whose light has no sharp shadows.
+  int sky_rays = 2;
+  bool occlusion = true;  ///< whether the sky's light is occluded (ambient occlusion)
+  Axis front = {2, 1};    ///< viewing direction of the eyes, for painted irises
 };
 
-/// Renders faces of one topology as clay in a portrait studio. Prepared once, then any number of
-/// faces, from any thread; the same pixels each time on one machine, whatever the thread count.
-/// Triangles and quads as they are, larger polygons as fans around their first corner, faces with
-/// fewer than three corners not at all.
+/// Renders faces of one topology as clay in a portrait studio. Construct once, then render any
+/// number of faces from any thread. On one machine the pixels are reproducible and do not depend on
+/// the thread count. Triangles and quads are drawn as they are, larger polygons as fans around
+/// their first corner; faces with fewer than three corners are skipped.
 class FaceRenderer {
  public:
-  /// \param typical  #V by 3, how faces look about, and how they are wound. The ray tracer's tree is then built once for it
-  ///                 and fitted to each face, which saves most of a large mesh's time; without it
-  ///                 the tree is built for every face anew.
-  /// \throws BrokenPrecondition if sizes or options make no sense.
+  /// \param typical  #V by 3, an average face. The ray tracer's tree is then built once for it and
+  ///                 refitted to each face, which saves most of the time on large meshes; and all
+  ///                 faces are assumed to have its winding. Without it the tree is rebuilt for
+  ///                 every face.
+  /// \throws BrokenPrecondition if sizes or options are invalid.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);
   ~FaceRenderer();
 
-  /// \param positions  #V by 3, in the camera's unit. If the whole mesh is wound inside out (as a
-  ///                   mirrored one is), it is turned.
-  /// \param colours    #V by 3 instead of the surfaces' own, or nullptr.
-  /// \param coat       textures for the faces they cover, or nullptr.
-  /// \param worn       what is drawn beside the face.
-  /// \throws BrokenPrecondition if a size does not fit, InvalidInput if a position is not finite.
+  /// \param positions  #V by 3, in the unit of the camera. Without `typical`, normals are flipped
+  ///                   if the whole mesh is inside out, as a mirrored mesh is.
+  /// \param colours    #V by 3, override all other colours and textures; or nullptr.
+  /// \param coat       textures, for the faces that have one; or nullptr.
+  /// \param worn       attachments drawn with the face.
+  /// \throws BrokenPrecondition if a size does not match; InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
                    const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr,
                    std::span<const WornMesh> worn = {}) const;

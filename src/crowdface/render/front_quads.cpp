@@ -4,7 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/render/front_quads.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires this order: foreach_target.h first, then the code that is compiled once per
+// target.
 #include <algorithm>
 #include <limits>
 
@@ -18,19 +19,21 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, 16>;
 using Numbers = hn::VFromD<Lanes>;
 
-/// A corner as seen from places of a pixel.
+/// A corner of a quad relative to sample positions.
 struct Corner {
   Numbers x, y;
 };
 
-/// Twice the area of the triangle between two corners and the place; exactly the opposite if they change places, so that no
-/// place lies between two triangles that share an edge. (A fused operation would not be exact that way.)
+/// Twice the signed area of the triangle of two corners and the sample position. Swapping the
+/// corners gives exactly the negative value, so that no sample falls between two triangles with a
+/// common edge. (A fused multiply-add would break this symmetry.)
 HWY_INLINE Numbers turn(const Corner& a, const Corner& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
-/// A triangle in front where it is nearer.
-/// \param a, b, c  parts of its area opposite to its corners, whose nearness is n_a, n_b and n_c.
+/// Depth test of a triangle at several sample positions.
+/// \param a, b, c        partial areas opposite to the corners
+/// \param n_a, n_b, n_c  nearness of the corners
 HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n_b, float n_c,
                              std::uint32_t front, float* nearness, std::uint32_t* fronts) {
   const Lanes lanes;
@@ -43,7 +46,7 @@ HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n
   const Numbers sum =
       hn::Add(hn::Add(hn::Mul(a, hn::Set(lanes, n_a)), hn::Mul(b, hn::Set(lanes, n_b))),
               hn::Mul(c, hn::Set(lanes, n_c)));
-  const Numbers near = hn::Div(sum, area);  // no number where there is no area: never nearer
+  const Numbers near = hn::Div(sum, area);  // NaN if the area is 0: fails the test
   const Numbers before = hn::LoadU(lanes, nearness);
   const auto nearer = hn::And(inside, hn::Gt(near, before));
   hn::StoreU(hn::IfThenElse(nearer, near, before), lanes, nearness);
@@ -52,7 +55,7 @@ HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n
              whole, fronts);
 }
 
-/// Puts quads in front at the places of one pixel.
+/// Rasterizes a quad at the samples of one pixel.
 HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad, const PlacedVertex* placed,
                              float left, float top, const LookedPixel& pixel, float* nearness,
                              std::uint32_t* fronts) {
@@ -83,7 +86,7 @@ void put_in_front(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad
                   float* nearness, std::uint32_t* fronts) {
   constexpr std::ptrdiff_t kQuadsAhead = 16, kCornersAhead = 8;
   for (; begin != end; ++begin) {
-    // On a large mesh what comes lies in no near cache.
+    // Prefetch: on a large mesh, quads and vertices are not in the caches.
     if (end - begin > kQuadsAhead) hwy::Prefetch(quads + begin[kQuadsAhead].quad);
     if (end - begin > kCornersAhead) {
       for (const std::uint32_t vertex : quads[begin[kCornersAhead].quad]) {
@@ -101,20 +104,21 @@ void put_in_front(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad
   }
 }
 
-/// In pixels, more than places are rounded by.
+/// Tolerance in pixels, larger than the rounding errors of positions.
 constexpr float kBlur = 1e-2F;
 
-/// The pixels that some quads may lie on, counted from the corner of the first square's rim.
+/// Bounding boxes of kCount quads in pixels, relative to the rim's corner of the first square.
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
-  alignas(64) std::int32_t square[kCount];     ///< the last it lies in; −1: none
-  alignas(64) std::int32_t alone[kCount];      ///< not 0: it lies in no other
-  alignas(64) std::int32_t no_middle[kCount];  ///< 1: it lies on no pixel's middle
-  alignas(64) std::int32_t in_square[kCount];  ///< a byte each: left, top, right and bottom there
+  alignas(64) std::int32_t square[kCount];  ///< last square that the box overlaps; −1: not visible
+  alignas(64) std::int32_t alone[kCount];   ///< not 0: the box overlaps no other square
+  alignas(64) std::int32_t no_middle[kCount];  ///< 1: the box contains no pixel centre
+  /// box relative to `square`, one byte each: left, top, right, bottom
+  alignas(64) std::int32_t in_square[kCount];
 };
 
-/// \param quads  Boxes::kCount
+/// \param quads  Boxes::kCount quads
 void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes& boxes) {
   const hn::CappedTag<float, Boxes::kCount> lanes;
   const hn::Rebind<std::int32_t, decltype(lanes)> whole;
@@ -135,7 +139,8 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  const auto first_square = [&](auto from) {  // its rim ends so much later than it
+  // a square's rim ends 2 · kRim after the start of the next square's rim
+  const auto first_square = [&](auto from) {
     return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRim)), none));
   };
   const auto last_square = [&](auto to) { return hn::Min(hn::ShiftRight<kSquareBits>(to), last); };

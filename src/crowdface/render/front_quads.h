@@ -12,47 +12,50 @@
 
 namespace crowdface {
 
-/// An image is cut into squares of this side, in pixels; the rim around each belongs to others, too.
+/// The image is divided into squares of kSquare pixels a side. Each is processed with a rim of kRim
+/// pixels, which overlaps its neighbours.
 inline constexpr int kSquareBits = 6;
 inline constexpr int kSquare = 1 << kSquareBits;
 inline constexpr int kRim = 2;
-/// A square with its rim.
+/// Side of a square with its rim.
 inline constexpr int kRimmed = kSquare + 2 * kRim;
 
-/// Lists of numbers end with as many more as a vector of the processor holds at most.
+/// Padding at the end of lists: the largest number of floats that a SIMD vector holds.
 inline constexpr std::size_t kMostLanes = 16;
 
-/// A vertex on the image.
+/// A vertex projected to the image.
 struct alignas(16) PlacedVertex {
-  float x, y;      ///< in pixels; infinite behind the camera
-  float nearness;  ///< reciprocal of the distance in lengths of the ray through it
+  float x, y;  ///< in pixels; x is infinite for vertices behind the camera
+  /// Reciprocal of the distance, measured in lengths of the ray from the camera to the plane z = 0.
+  float nearness;
 };
 
-/// The pixels that a quad may lie on, counted from the corner of a square's rim; both ends are among them.
+/// A quad and its bounding box in pixels, relative to the corner of a square's rim; both ends
+/// inclusive.
 struct QuadOnPixels {
   std::uint32_t quad;
   std::uint8_t left, top, right, bottom;
 };
 
-/// Two lists for each square of an image, by rows: quads that may be seen in the middle of a pixel, and those that may
-/// be only elsewhere.
+/// Two lists for each square of an image, row by row: quads that may cover the centre of a pixel,
+/// and the other quads.
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
-/// Adds quads to all squares in which, or in whose rims, they may be seen.
-/// \param first, end  rows of `quads`
-/// \param a_row       squares
+/// Adds quads to the lists of all squares that they may touch, including rims.
+/// \param first, end  range of `quads`
+/// \param a_row       number of squares in a row
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
                     std::span<const PlacedVertex> placed, int a_row, SquareLists& squares);
 
-/// Where in a pixel the camera looks.
+/// Sample positions in a pixel.
 class PixelPlaces {
  public:
-  /// \param list  each in [0, 1)²
+  /// \param list  positions in [0, 1)²
   explicit PixelPlaces(std::vector<Eigen::Vector2f> list);
 
   const std::vector<Eigen::Vector2f>& list() const { return list_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(list_.size()); }
-  /// x of all, and as many that are no numbers as a vector holds; the same of y.
+  /// All x, followed by kMostLanes NaNs as padding. `y` likewise.
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
 
@@ -61,28 +64,28 @@ class PixelPlaces {
   std::vector<float> x_, y_;
 };
 
-/// Where the camera looks in a pixel, and the first of its places among all.
+/// The samples to take in a pixel, and the index of the first among the samples of all pixels.
 struct LookedPixel {
-  const PixelPlaces* places = nullptr;  ///< or nowhere
+  const PixelPlaces* places = nullptr;  ///< null: no samples in this pixel
   std::uint32_t first = 0;
 };
 
-/// What is in front at places of pixels; each list ends with as many more as a vector holds.
+/// A depth buffer: the nearest quad at each sample. The lists are padded by kMostLanes.
 struct FrontQuads {
   static constexpr std::uint32_t kNothing = 0xffffffffU;
-  std::vector<float> nearness;       ///< 0: nothing is there
-  std::vector<std::uint32_t> front;  ///< 2 · quad, and 1 more for the second of its triangles
+  std::vector<float> nearness;       ///< 0: no quad
+  std::vector<std::uint32_t> front;  ///< 2 · quad, plus 1 for the second triangle of the quad
 
   explicit FrontQuads(std::size_t places);
 };
 
-/// Corners of a quad's two triangles, as Embree cuts it.
+/// Corners of the two triangles into which Embree splits a quad.
 inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1, 3}, {2, 3, 1}}};
 
-/// Puts quads in front where they are nearer than what is there; of two that are equally near the first stays. The
-/// same bits with any instruction set.
-/// \param corner  pixel of the image at the corner of the square's rim
-/// \param pixels  of the square with its rim, by rows
+/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the first stays.
+/// Gives the same bits with every instruction set.
+/// \param corner  image pixel at the corner of the square's rim
+/// \param pixels  kRimmed² pixels of the square and its rim, row by row
 void put_in_front(std::span<const QuadOnPixels> some, std::span<const Quad> quads,
                   std::span<const PlacedVertex> placed, std::array<int, 2> corner,
                   std::span<const LookedPixel> pixels, FrontQuads& fronts);

@@ -5,11 +5,13 @@
 
 namespace crowdface {
 
-/// How light a face's skin is, told from its picture: three tenths of its texels are lighter (mean of the channels).
+/// Brightness of a face's skin, estimated from its texture: 70th percentile over the texels of the
+/// mean of the channels.
 float skin_lightness(const Texture& texture);
 
-/// What part of its gloss skin has where its colour is `albedo`: what is much darker than the skin around is
-/// painted hair, which scatters what falls on it.
+/// Factor for the specular reflection of skin with colour `albedo`, at most 1. Texels much darker
+/// than the skin are painted hair, which has almost no highlight.
+/// \param skin_lightness  from skin_lightness(); 0: unknown, factor 1.
 float skin_gleam(const Light& albedo, float skin_lightness);
 
 }  // namespace crowdface

@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-// Red has another lightness than blue, and yellow is lightest, so that the order is seen in grey, too
-// up to where the scale turns.
+// Yellow is lightest and red differs in lightness from blue, so that in greyscale the order stays
+// visible on each side of yellow.
 constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.16F, 0.22F, 0.56F},
                                                          {0.13F, 0.48F, 0.72F},
                                                          {0.35F, 0.72F, 0.66F},
@@ -54,7 +54,7 @@ std::vector<double> scale_ticks(double most) {
     if (most / step < 5 + 1e-9) break;
   }
   std::vector<double> ticks;
-  // Rounded to a millionth, so that three times 0.2 is 0.6 to the last digit.
+  // Rounding to a millionth makes 3 · 0.2 exactly 0.6.
   for (int i = 0; i * step <= most * (1 + 1e-9); ++i) {
     ticks.push_back(std::round(i * step * 1e6) / 1e6);
   }

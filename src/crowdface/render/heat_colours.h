@@ -9,19 +9,18 @@
 
 namespace crowdface {
 
-/// From blue over green and yellow to red, lighter in the middle than at the ends.
-/// \param share  0 … 1, beyond that clamped. \return  sRGB, each in [0, 1].
+/// A colour scale from blue over green and yellow to red; yellow is lightest.
+/// \param share  position on the scale, clamped to [0, 1]. \return  sRGB, each in [0, 1].
 Eigen::Vector3f heat_colour(double share);
 
-/// How far apart points are, as colours. \param mm  #V. \param most_mm  where the scale ends.
+/// Colours for distances. \param mm  #V distances. \param most_mm  end of the scale.
 VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& mm, double most_mm);
 
-/// The numbers that stand at a scale from 0: round ones, four to six of them, the last below or at
-/// `most` (for most > 0).
+/// Four to six round numbers for a scale from 0 to `most`, starting with 0. \param most  > 0.
 std::vector<double> scale_ticks(double most);
 
-/// The scale as a picture: a bar with its numbers under it and the title on its left.
-/// \throws MissingInput without the font.
+/// Draws the scale: a bar with numbers under it and the title on its left.
+/// \throws MissingInput if the font is not installed.
 Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int height_px,
                      std::array<std::uint8_t, 3> background);
 

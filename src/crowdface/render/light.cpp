@@ -14,7 +14,7 @@ float encode_srgb(float linear) {
   return 1.055F * std::pow(std::min(linear, 1.0F), 1 / 2.4F) - 0.055F;
 }
 
-/// Leaves the darker half as it is and bends the brighter half so that nothing burns out.
+/// Tone curve: identity up to kKnee, compressed above, so that highlights do not clip.
 float soft_shoulder(float x) {
   constexpr float kKnee = 0.6F;
   if (x <= kKnee) return x;
@@ -22,16 +22,17 @@ float soft_shoulder(float x) {
   return kKnee + (1 - kKnee) * over / (1 + 0.55F * over);
 }
 
-/// The byte that a screen shows of a light.
+/// The byte that a screen shows for a linear value.
 int find_byte(float light) {
   return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
 }
 
-/// The bytes of all lights, for looking up: `find_byte` takes two logarithms.
+/// Table that replaces find_byte, whose pow is slow.
 class ByteTable {
  public:
   ByteTable() {
-    // From the bits of floats above 0, which stand in their order, the first that shows a byte.
+    // For each byte, bisect for the least value that maps to it. The bit patterns of positive
+    // floats have the same order as their values.
     for (int byte = 1; byte < 256; ++byte) {
       std::uint32_t below = 0, first = std::bit_cast<std::uint32_t>(kWhite);
       while (first - below > 1) {
@@ -55,9 +56,9 @@ class ByteTable {
   }
 
  private:
-  static constexpr float kWhite = 1.5F;  ///< and all above it
+  static constexpr float kWhite = 1.5F;  ///< least value that maps to 255, or more
   static constexpr std::size_t kSteps = 6144;
-  std::array<float, 257> first_of_{};  ///< lights that show the byte
+  std::array<float, 257> first_of_{};  ///< least value that maps to each byte
   std::array<std::uint8_t, kSteps> at_step_{};
 };
 

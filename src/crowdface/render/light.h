@@ -8,16 +8,16 @@
 
 namespace crowdface {
 
-/// Light, linear, red green blue; 1 is white on the screen.
+/// A linear RGB colour or radiance; 1 is white on the screen.
 using Light = Eigen::Array3f;
 
-/// As a screen shows it: sRGB's transfer curve, rounded to 8 bits.
+/// Converts to 8-bit sRGB. Values above 0.6 are compressed so that highlights do not clip.
 std::array<std::uint8_t, 3> to_srgb8(const Light& light);
-/// The same transfer curve alone: a colour of a surface as it is chosen on a screen.
+/// The sRGB transfer curve without that compression, for colours of surfaces; clamped to [0, 1].
 Eigen::Array3f to_srgb(const Light& colour);
-/// The inverse, for colours chosen on a screen; each in [0, 1].
+/// Inverse of to_srgb. \param srgb  each in [0, 1].
 Light from_srgb(const Eigen::Array3f& srgb);
-/// What from_srgb makes of each value of a channel of 8 bits.
+/// Table of from_srgb for all 8-bit values.
 const std::array<float, 256>& light_of_srgb8();
 
 }  // namespace crowdface

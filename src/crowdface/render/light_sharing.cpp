@@ -4,7 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/render/light_sharing.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires this order: foreach_target.h first, then the code that is compiled once per
+// target.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,7 +19,7 @@ HWY_INLINE Numbers number(float value) {
   return hn::Set(Lanes(), value);
 }
 
-/// Rays of a light, weighted.
+/// Weighted numbers of rays towards a light.
 struct Rays {
   Numbers open, asked;
 
@@ -26,7 +27,7 @@ struct Rays {
     open = hn::Add(open, hn::Mul(weight, others_open));
     asked = hn::Add(asked, hn::Mul(weight, others_asked));
   }
-  /// \param unasked  where there are none
+  /// The fraction of rays that reached the light. \param unasked  the result if there are no rays.
   Numbers share(float unasked) const {
     return hn::IfThenElse(hn::Gt(asked, number(0)), hn::Div(open, asked), number(unasked));
   }
@@ -36,7 +37,8 @@ template <bool kInARow>
 void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
            std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
   using Field = PointLights;
-  // The pixels around a point count its own pixel in; this is for a point unlike all of them.
+  // Small weight of the point's own rays, for a point that matches none of the pixels. Otherwise
+  // its own pixel among the 3 by 3 pixels counts them.
   const Numbers own = number(0.01F);
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {
@@ -60,7 +62,8 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
         const auto along = [&](Numbers a, Numbers b, Numbers c) {
           return hn::Add(hn::Add(hn::Mul(u, a), hn::Mul(v, b)), hn::Mul(w, c));
         };
-        // How far the pixel shows the point's surface: 0 elsewhere, 1 right beside it.
+        // Similarity of pixel and point in normal and position: 0 for another surface, 1 for the
+        // same.
         const Numbers cosine =
             along(there(Field::kNormal), there(Field::kNormal + 1), there(Field::kNormal + 2));
         const Numbers facing =

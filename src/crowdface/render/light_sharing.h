@@ -9,14 +9,14 @@
 
 namespace crowdface {
 
-/// What is known of points of the surface, a list of each number: where they lie, how much of the key light and the
-/// sky arrives as found by rays.
+/// Points of the surface with the results of their shadow rays, as one list per field: position,
+/// normal, and for each light the number of rays that reached the light and the number traced.
 struct PointLights {
   enum Field {
     kPoint,
     kNormal = kPoint + 3,
-    kKeyOpen = kNormal + 3,  ///< rays that reached it
-    kKeyAsked,               ///< of so many
+    kKeyOpen = kNormal + 3,  ///< rays that reached the key light
+    kKeyAsked,               ///< rays traced towards the key light
     kSkyOpen,
     kSkyAsked,
     kFields
@@ -24,17 +24,17 @@ struct PointLights {
   std::array<const float*, kFields> lists;
 };
 
-/// The same of a square's pixels and a rim of one around them: means of what a pixel shows, so that normals are shorter
-/// than 1 where they differ, and sums of its rays.
+/// The same fields for the pixels of a square and a rim of one pixel: means of positions and
+/// normals (shorter than 1 where normals differ), and sums of rays.
 class PixelLights {
  public:
   static constexpr std::size_t kStride =
-      kSquare + 2 + 14;  ///< a row ends with as many as a vector holds
+      kSquare + 2 + 14;  ///< row length, padded to a multiple of 16
 
   PixelLights() { clear(); }
-  /// All pixels empty, which nothing shares with: their normals are 0.
+  /// Marks all pixels as empty. The normal of an empty pixel is 0, so that share_lights ignores it.
   void clear();
-  /// \param x, y  from −1 to kSquare, counted from the square's corner
+  /// \param x, y  from −1 to kSquare, relative to the square's corner
   static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);
   }
@@ -48,12 +48,14 @@ class PixelLights {
   std::vector<float> numbers_;
 };
 
-/// How much of the lights arrives at points, in shares: of the rays that they themselves and the pixels around theirs
-/// have sent, each weighted by how far the pixel shows the point's surface. The same bits with any instruction set.
-/// \param points     lists that end with as many more as a vector holds, whatever they are
-/// \param pixel      that shows the points, or the first of them if each is in the pixel after that of the one before
-/// \param in_a_row   which of the two
-/// \param key, sky   with room for `count` and as many as a vector holds
+/// Estimates the visible fraction of the key light and of the sky at points, by a bilateral filter:
+/// rays of the 3 by 3 pixels around the point, weighted by how well the pixel's normal and position
+/// match the point's surface. Gives the same bits with every instruction set.
+/// \param points     lists padded by kMostLanes entries of any value
+/// \param pixel      index of the pixel of all points, or with `in_a_row` of the first point
+/// \param in_a_row   whether the points lie in consecutive pixels of a row
+/// \param pixel_side in the unit of the positions
+/// \param key, sky   results; room for `count` + kMostLanes
 void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
                   std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky);
 

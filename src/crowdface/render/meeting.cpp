@@ -11,19 +11,19 @@ namespace {
 
 using Vector = Eigen::Vector3f;
 
-/// Which of a layer's pictures is on this quad, or kNone.
+/// The layer's texture on a quad, or kNone.
 std::uint32_t texture_of(const Stage& stage, const TextureLayer& layer, std::uint32_t primitive) {
   if (stage.uvs.empty() || layer.of_face.empty()) return TextureLayer::kNone;
   const TexturedQuad& quad = stage.uvs[primitive];
   return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.of_face[quad.face];
 }
 
-/// Which of the coat's colours.
+/// The colour texture on a quad, or kNone.
 std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
   return stage.coat == nullptr ? TextureLayer::kNone : texture_of(stage, *stage.coat, primitive);
 }
 
-/// What a picture of the layer has at a place of a quad that it is on.
+/// Samples a layer's texture at a point of a quad.
 Light texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
                std::uint32_t primitive, const Eigen::Vector4f& weights) {
   const TexturedQuad& quad = stage.uvs[primitive];
@@ -44,19 +44,19 @@ Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vecto
   return eye_albedo(stage.eyes[eye], stage.gaze, point);
 }
 
-/// A unit normal that does not look away from the viewer: at the edge of a coarse ear the normals of vertices
-/// may, though the face between them is seen.
+/// Makes a unit normal face the viewer. Needed at the edge of a coarse ear, where interpolated
+/// normals may face away although the face is visible.
 Vector towards(const Vector& viewer, const Vector& normal) {
   const float away = normal.dot(viewer);
   return away < 0 ? Vector((normal - away * viewer).normalized()) : normal;
 }
 
-/// A unit normal that leans as slopes say, which are along the texture's axes on this quad.
+/// Tilts a unit normal by slopes along the texture axes (normal mapping).
 Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
                const Light& slopes) {
   const Quad& quad = stage.quads[primitive];
   const TexturedQuad& textured = stage.uvs[primitive];
-  // The triangle at the first corner, which tells where the picture's axes run on all of the quad.
+  // Derive the texture axes from the triangle at the first corner; they hold for the whole quad.
   const std::size_t last = quad[2] == quad[3] ? 2 : 3;
   const Vector origin = stage.point(quad[0]);
   const Vector one = stage.point(quad[1]) - origin;
@@ -76,7 +76,7 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
       .normalized();
 }
 
-/// What a coat says of how the surface reflects.
+/// Applies the normal and roughness maps of the coat.
 void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
             Vector& normal, ShadePoint& surface) {
   if (stage.coat == nullptr || surface.inside) return;
@@ -119,9 +119,10 @@ Meeting meet(const Stage& stage, const RayHit& hit, const Vector& direction) {
   finish(stage, hit.primitive, weights, normal, meeting.surface);
   meeting.surface.normal = towards(meeting.surface.to_eye, side * normal);
   meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
-  // Rays start above the facets, on the smooth surface that the normals speak of, lest facets show
-  // where light grazes them (Hanika 2021, "Hacking the shadow terminator").
-  // At a sharp edge a vertex's normal may look away from the face: such a lift would lead below it.
+  // Start shadow rays on the smooth surface implied by the vertex normals, above the facets, so
+  // that facets do not show at grazing light (Hanika 2021, "Hacking the shadow terminator").
+  // Vertices at sharp edges whose normal faces away from the face are skipped: they would move the
+  // start below it.
   Vector lift = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];

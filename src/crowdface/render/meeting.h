@@ -9,10 +9,10 @@
 
 namespace crowdface {
 
-/// How much of a light arrives, as found by rays towards it.
+/// Shadow rays towards a light: how many reached the light, and how many were traced.
 struct Openness {
-  float open = 0;   ///< rays that reached it
-  float asked = 0;  ///< of so many
+  float open = 0;   ///< rays that reached the light
+  float asked = 0;  ///< rays traced
 
   void add(const Openness& other, float weight) {
     open += weight * other.open;
@@ -20,22 +20,23 @@ struct Openness {
   }
 };
 
-/// A point of the surface that a camera ray has met.
+/// A surface point that a camera ray hits, with the data for shading it.
 struct Meeting {
   Eigen::Vector3f point;
-  Eigen::Vector3f start;  ///< where rays to the lights begin
+  Eigen::Vector3f start;  ///< origin of rays to the lights, slightly above the surface
   ShadePoint surface;
-  float skin_lightness = 0;  ///< of the picture on it, or 0
-  bool asks_key = false;     ///< whether the key light could reach it at all
+  float skin_lightness = 0;  ///< skin_lightness() of its texture, or 0
+  bool asks_key = false;     ///< whether the key light can contribute at all
   Openness key, sky;
 };
 
-/// What is known of a place of the stage that a ray from the viewer has met.
+/// Computes the surface data at a hit on the face. \param direction  of the camera ray.
 Meeting meet(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
-/// The same of what the face wears, which looks alike from both sides.
+/// The same for a hit on an attachment, which looks the same from both sides.
 Meeting meet_worn(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
 
-/// Asks memory for what `meet` will want of the hits that come soon: on a large mesh it lies in no cache.
+/// Prefetches the data that `meet` needs for the hits shortly after `here`; large meshes do not fit
+/// into the CPU caches.
 void fetch_ahead(const Stage& stage, std::span<const std::optional<RayHit>> hits, std::size_t here);
 
 }  // namespace crowdface

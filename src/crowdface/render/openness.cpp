@@ -20,9 +20,9 @@ namespace {
 
 using Vector = Eigen::Vector3f;
 
-constexpr int kRays = 64;  // a vertex
+constexpr int kRays = 64;  // per vertex
 constexpr std::size_t kVerticesPerBlock = 64;
-// Shares of the head's largest extent.
+// As fractions of the head's largest extent.
 constexpr float kReach = 0.3F;
 constexpr float kClearance = 5e-4F;
 

@@ -10,10 +10,12 @@
 
 namespace crowdface {
 
-/// How much of the sky above its surface each of some vertices sees, 0 … 1: small between lips, in nostrils
-/// and at teeth. What pictures do not show hides nothing.
+/// Ambient occlusion of some vertices: the cosine-weighted fraction of the hemisphere above the
+/// surface that is free of obstacles, 0 … 1. Small between lips, in nostrils and at teeth. Faces of
+/// kind kHidden do not occlude.
 /// \param kinds      #F, or empty: all skin.
 /// \param positions  #V by 3, any unit.
+/// \return           one value for each of `vertices`.
 std::vector<float> vertex_openness(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                    const Positions& positions,
                                    std::span<const std::uint32_t> vertices);

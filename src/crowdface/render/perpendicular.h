@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Two unit vectors at right angles to a unit vector and to each other (Duff et al. 2017, "Building
-/// an orthonormal basis, revisited").
+/// Two unit vectors that form an orthonormal basis with the unit vector `n` (Duff et al. 2017,
+/// "Building an orthonormal basis, revisited").
 inline std::pair<Eigen::Vector3f, Eigen::Vector3f> perpendicular(const Eigen::Vector3f& n) {
   const float sign = std::copysign(1.0F, n.z());
   const float a = -1 / (sign + n.z());

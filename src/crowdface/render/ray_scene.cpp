@@ -19,7 +19,7 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-/// Rays that Embree traces together. Packets wider than the processor's vectors it traces ray by ray.
+/// Packet types. Embree traces packets wider than the processor's vectors ray by ray.
 struct EightRays {
   static constexpr std::size_t kCount = 8;
   using Rays = RTCRay8;
@@ -32,11 +32,12 @@ struct SixteenRays {
   using RaysAndHits = RTCRayHit16;
 };
 
-/// \param valid  -1 for each of the packet's rays that is one, 0 for the rest.
+/// \param valid  result: -1 for lanes with a ray, 0 for the others.
 template <class Packet, std::size_t kCount>
 void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
   valid.fill(0);
-  // Where Embree has no packets as wide as these it looks at all lanes: those without a ray must be numbers, and inactive.
+  // Without native support for this packet width, Embree reads all lanes: unused lanes must hold
+  // valid numbers and an empty interval.
   packet = {};
   std::fill_n(packet.tnear, kCount, std::numeric_limits<float>::infinity());
   std::fill_n(packet.tfar, kCount, -std::numeric_limits<float>::infinity());
@@ -60,7 +61,7 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Quads as the two triangles that Embree makes of each; a triangle stays one.
+/// Splits each quad into two triangles as Embree does; a triangle stays one.
 std::vector<Triangle> split(const std::vector<Quad>& quads) {
   std::vector<Triangle> triangles;
   triangles.reserve(2 * quads.size());
@@ -71,8 +72,8 @@ std::vector<Triangle> split(const std::vector<Quad>& quads) {
   return triangles;
 }
 
-/// Lets rays through where there is nothing: of all lots as many as a surface lacks. Surfaces behind
-/// each other let other lots through.
+/// Embree filter for stochastic transparency (see Ray::lot): rejects hits with probability 1 −
+/// opacity. The hash of the primitive makes surfaces behind each other reject different rays.
 void pass_holes(const RTCFilterFunctionNArguments* met) {
   const Opacity& opacity = *static_cast<const Opacity*>(met->geometryUserPtr);
   for (unsigned int i = 0; i < met->N; ++i) {
@@ -85,7 +86,7 @@ void pass_holes(const RTCFilterFunctionNArguments* met) {
   }
 }
 
-/// Calls `body(first, packet of rays)` for as many rays after the other as go into one.
+/// Calls `body(first, rays of the packet)` for consecutive packets of `count` rays.
 template <class Body>
 void for_each_packet(std::span<const Ray> rays, std::size_t count, const Body& body) {
   for (std::size_t first = 0; first < rays.size(); first += count) {
@@ -133,7 +134,7 @@ std::vector<bool> occluded_of(std::span<const Ray> rays, RTCScene scene) {
 
 struct RayDevice::State {
   RTCDevice device;
-  bool takes_sixteen;  ///< rays together
+  bool takes_sixteen;  ///< whether packets of 16 rays are native
 };
 
 RayDevice::RayDevice() : state_(std::make_unique<State>(State{rtcNewDevice(nullptr), false})) {
@@ -149,10 +150,10 @@ struct RayScene::State {
   RTCDevice device;
   bool takes_sixteen;
   std::vector<float> points;
-  std::vector<Triangle> triangles;  ///< of a scene that moves
+  std::vector<Triangle> triangles;  ///< with kForMoves only
   RTCScene scene = nullptr;
-  RTCGeometry geometry = nullptr;  ///< none if there are no quads
-  Opacity opacity;                 ///< none: all is there
+  RTCGeometry geometry = nullptr;  ///< null if there are no quads
+  Opacity opacity;                 ///< empty: opaque
 
   State(const RayDevice::State& embree, std::vector<float> first)
       : device(embree.device), takes_sixteen(embree.takes_sixteen), points(std::move(first)) {}
@@ -183,16 +184,16 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kForMoves;
-  // Robust: no pinholes along edges, which what moves can do without: it only keeps light out.
+  // Robust mode avoids gaps along edges. Scenes that move do without: they only occlude light.
   rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
-  // Embree refits a geometry's tree only in scenes of low quality, which differ from others in what
-  // joins the trees of several geometries; there is one.
+  // Embree refits trees only in scenes of low quality. That quality concerns how the trees of
+  // several geometries are joined; here there is one geometry.
   if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
   if (!quads.empty()) {
     state.geometry =
         rtcNewGeometry(state.device, moves ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_QUAD);
     if (moves) {
-      // Embree 4.3 refits the tree over quads wrongly, so that rays pass through; the one over triangles rightly.
+      // Embree 4.3 has a bug: after refitting a tree over quads, rays pass through. Triangles work.
       state.triangles = split(quads);
       rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
       rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,

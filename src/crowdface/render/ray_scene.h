@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// The ray tracer (Embree), started once and shared by any number of scenes and threads.
+/// An Embree device, shared by any number of scenes and threads.
 class RayDevice {
  public:
   RayDevice();
@@ -32,52 +32,54 @@ struct Ray {
   Eigen::Vector3f direction;
   float nearest = 0;
   float furthest = 1e30F;
-  /// Its place among the rays of a pixel, from 0 to 65535: what is there in part lets pass so many of
-  /// them, always the same.
+  /// Number in 0 … 65535 for stochastic transparency: a surface with opacity α lets the fraction
+  /// 1−α of the numbers through, always the same numbers. The rays of a pixel have evenly spread
+  /// numbers.
   std::uint32_t lot = 0;
 };
 
 struct RayHit {
   std::uint32_t primitive;  ///< row of the scene's quads
-  float u, v;               ///< over a quad bilinear, over a triangle barycentric
+  float u, v;               ///< bilinear coordinates on a quad, barycentric on a triangle
   float distance;           ///< in lengths of the ray's direction
-  Eigen::Vector3f normal;   ///< of the surface, outward by winding, not of unit length
+  Eigen::Vector3f normal;   ///< geometric normal by winding, any length
 };
 
-/// Four vertices a primitive; a triangle names its last vertex twice.
+/// Vertices of a quad; a triangle repeats its last vertex.
 using Quad = std::array<std::uint32_t, 4>;
 
-/// How much of a primitive there is at a point of it: 0 a hole, 1 all.
+/// Opacity at a point of a primitive, from 0 (hole) to 1.
 using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 
-/// Quads that rays can be shot at, from any thread.
+/// Quads for ray queries. Queries are thread-safe; move_points is not.
 class RayScene {
  public:
-  /// How the tree over the quads is built: well, or so that move_points is quick. Then a ray may slip between quads, and
-  /// only `occluded` answers.
+  /// kForOnce: a tree of high quality. kForMoves: a tree that move_points can refit quickly; but
+  /// rays may slip between quads, and only `occluded` is available.
   enum class Tree { kForOnce, kForMoves };
 
-  /// \param points  x, y, z of each vertex. Kept by the scene.
+  /// \param points  x, y, z of each vertex; the scene keeps them.
   /// \param quads   must outlive the scene; every entry < points.size() / 3.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Tree tree = Tree::kForOnce);
-  /// Quads with holes. \param opacity  asked by any thread, for as long as the scene lives.
+  /// Quads with partly transparent surfaces. \param opacity  called from any thread while the scene
+  /// lives.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Opacity opacity);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Puts the vertices elsewhere and keeps the tree, in which only sizes change: at 1.2 million
-  /// vertices a fifteenth of the time of building it, and rays are as quick if the new points lie
-  /// about as the first did. The tree is that of the first points whatever came between.
-  /// \param points  as many as before; gets the memory of those before.
+  /// Moves the vertices and refits the tree. At 1.2 million vertices this takes a fifteenth of the
+  /// time of building it. Rays stay as fast if the new points resemble the first. The structure of
+  /// the tree depends only on the first points, not on earlier calls.
+  /// \param points  as many as before; on return holds the previous points' memory.
   void move_points(std::vector<float>& points);
 
-  /// What each ray meets first, if anything. Rays that stand beside each other in the list are traced together,
-  /// which is quick if they run alike.
+  /// The first hit of each ray, if any. Neighbouring rays in the list are traced together, which is
+  /// fast if their directions are similar. Not available with kForMoves.
   std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
-  /// Whether each ray meets anything.
+  /// Whether each ray hits anything.
   std::vector<bool> occluded(std::span<const Ray> rays) const;
   Eigen::Vector3f point(std::uint32_t vertex) const;
 

@@ -9,11 +9,11 @@
 
 namespace crowdface {
 
-/// An image as a screen shows it: sRGB, 8 bits, three channels, first row on top.
+/// An 8-bit sRGB image with three channels; the first row is the top.
 struct Rgb8Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> pixels;  ///< height · width · 3
+  std::vector<std::uint8_t> pixels;  ///< height · width · 3 values
 
   Rgb8Image() = default;
   Rgb8Image(int width_px, int height_px, std::array<std::uint8_t, 3> colour = {})
@@ -24,7 +24,7 @@ struct Rgb8Image {
   std::uint8_t* at(int x, int y) { return pixels.data() + offset(x, y); }
   const std::uint8_t* at(int x, int y) const { return pixels.data() + offset(x, y); }
   bool operator==(const Rgb8Image&) const = default;
-  /// Puts another image onto this one, which it must not stick out of.
+  /// Copies another image into this one. It must fit completely.
   void paste(const Rgb8Image& other, int left, int top) {
     for (int y = 0; y < other.height; ++y) {
       std::copy_n(other.at(0, y), 3 * other.width, at(left, top + y));

@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// The bits of i behind the point in reverse: 1/2, 1/4, 3/4, 1/8 … (van der Corput).
+/// The binary digits of i mirrored at the point: 1/2, 1/4, 3/4, 1/8 … (van der Corput).
 float radical_inverse(int i) {
   float value = 0;
   float digit = 0.5F;
@@ -18,8 +18,8 @@ float radical_inverse(int i) {
   return value;
 }
 
-/// From the unit square to the unit disc, areas kept (Shirley & Chiu 1997, "A low distortion map
-/// between disk and square").
+/// Area-preserving map from the unit square to the unit disc (Shirley & Chiu 1997, "A low
+/// distortion map between disk and square").
 Eigen::Vector2f to_disc(float a, float b) {
   const float p = 2 * a - 1;
   const float q = 2 * b - 1;
@@ -31,7 +31,7 @@ Eigen::Vector2f to_disc(float a, float b) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// Point i of `count`, all of them together even over the disc (Hammersley's points).
+/// Point i of a Hammersley set of `count` points, mapped to the disc.
 Eigen::Vector2f disc_point(int i, int count) {
   return to_disc(radical_inverse(i), (static_cast<float>(i) + 0.5F) / static_cast<float>(count));
 }

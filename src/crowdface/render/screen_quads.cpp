@@ -94,7 +94,7 @@ RayHit ScreenQuads::hit(std::uint32_t front, const Eigen::Array2f& at) const {
   };
   const Eigen::Array3f areas(cross(from(b), from(c)), cross(from(c), from(a)),
                              cross(from(a), from(b)));
-  // What is straight on the surface is not on the image: shares go with nearness.
+  // Perspective-correct interpolation: weights are areas times nearness.
   const Eigen::Array3f shares = areas * Eigen::Array3f(a.nearness, b.nearness, c.nearness);
   const float sum = shares.sum();
   const float u = shares[1] / sum, v = shares[2] / sum;

@@ -14,34 +14,36 @@
 
 namespace crowdface {
 
-/// Pixels of an image; `right` and `bottom` are the first outside.
+/// A rectangle of pixels; `right` and `bottom` are exclusive.
 struct PixelRectangle {
   int left, top, right, bottom;
 
   int width() const { return right - left; }
   std::size_t count() const { return index(left, bottom); }
-  /// Of a pixel among them, by rows.
+  /// Row-major index of a pixel inside the rectangle.
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>((y - top) * width() + x - left);
   }
 };
 
-/// Quads as a camera sees them that stands at (0, 0, distance) and looks along −z at [−1, 1]² of the plane z = 0. They
-/// are found on the image once; then squares of it are asked for, by any thread. What RayScene finds with a tree of
-/// quads is found here without, quicker than a tree is fitted where quads are smaller than pixels.
+/// A rasterizer for quads, seen by a camera at (0, 0, distance) that looks along −z at the square
+/// [−1, 1]² of the plane z = 0. `put` projects the quads; then any thread may query squares of the
+/// image. Gives the same hits as a RayScene of quads. Faster than refitting a tree where quads are
+/// smaller than pixels.
 class ScreenQuads {
  public:
-  /// Forgets all others. Quads that reach behind the camera are not seen.
-  /// \param points  x, y, z of each vertex; must outlive the use of this object, as `quads` must.
-  /// \param size    of the square image, in pixels
+  /// Replaces the quads. Quads that reach behind the camera are not drawn.
+  /// \param points  x, y, z of each vertex. Like `quads`, they must outlive the queries.
+  /// \param size    side of the image, in pixels
   void put(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
            int size);
 
-  /// What the camera meets first at places of some pixels; distances in lengths of rays to the plane z = 0.
-  /// \param square  column and row
-  /// \param pixels  of the square and its rim
-  /// \param places  of each of these pixels, or null: nobody looks there
-  /// \param hits    gets one for each place, pixel by pixel.
+  /// The first hit at sample positions of some pixels. Distances are in lengths of the ray from the
+  /// camera to the plane z = 0.
+  /// \param square  column and row of the square
+  /// \param pixels  the pixels: inside the square and its rim
+  /// \param places  sample positions of each of these pixels, or null for no samples
+  /// \param hits    result, one for each sample, pixel by pixel
   void nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
                     std::span<const PixelPlaces* const> places,
                     std::vector<std::optional<RayHit>>& hits) const;
@@ -51,9 +53,9 @@ class ScreenQuads {
 
   const float* points_ = nullptr;
   std::span<const Quad> quads_;
-  int a_row_ = 0;                     ///< squares
+  int a_row_ = 0;                     ///< squares in a row
   std::vector<PlacedVertex> placed_;  ///< #V
-  std::vector<SquareLists> blocks_;   ///< of quads that follow each other
+  std::vector<SquareLists> blocks_;   ///< for consecutive blocks of quads
 };
 
 }  // namespace crowdface

@@ -4,7 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/render/shading.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires this order: foreach_target.h first, then the code that is compiled once per
+// target.
 #include <algorithm>
 #include <numbers>
 
@@ -37,16 +38,17 @@ HWY_INLINE Vectors direction_of(const Lamp& lamp) {
   return {number(lamp.direction.x()), number(lamp.direction.y()), number(lamp.direction.z())};
 }
 
-/// Diffuse light with the terminator moved to a cosine of −wrap: the mean of a linear and a quadratic
-/// fall-off, in all five sixths of Lambert's light whatever the wrap.
+/// Wrapped diffuse light: the terminator lies at a cosine of −wrap. Mean of a linear and a
+/// quadratic fall-off; its integral is 5/6 of Lambert's for every wrap.
 HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
   const Numbers whole = hn::Add(number(1), wrap);
   const Numbers lit = hn::Max(hn::Div(hn::Add(cosine, wrap), whole), number(0));
   return hn::Mul(number(0.5F), hn::Div(hn::Add(square(lit), lit), whole));
 }
 
-/// Light that bounces inside a crevice is not lost: it comes out in the surface's colour (fit by
-/// Jimenez et al. 2016, "Practical realtime strategies for accurate indirect occlusion").
+/// Visible fraction of the sky including light that bounces inside a crevice, which takes on the
+/// colour of the surface (fit by Jimenez et al. 2016, "Practical realtime strategies for accurate
+/// indirect occlusion").
 HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
   const auto line = [&](float slope, float at_zero) {
     return hn::Add(hn::Mul(number(slope), albedo), number(at_zero));
@@ -59,8 +61,8 @@ HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
   return hn::Min(hn::Max(sum, visible), number(1));
 }
 
-/// Microfacet reflection (GGX distribution, Walter et al. 2007; Schlick's Fresnel) times the
-/// cosine.
+/// Microfacet reflection (GGX distribution, Walter et al. 2007; Schlick's Fresnel term), multiplied
+/// by the cosine.
 struct Gloss {
   const Vectors &normal, &to_eye;
   Numbers alpha2, reflectance, masking;
@@ -90,7 +92,7 @@ struct Gloss {
   }
 };
 
-/// \param points, lights  of a block, from one point on
+/// \param points, lights  inside a block, starting at the same point
 HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
   const auto field = [&](int f) {
     return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlock);
@@ -150,10 +152,10 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 namespace {
 
-/// Lamps are points: what is smoother than this would show nothing of them but dots.
+/// Lower bound of roughness: lamps are points, and a smoother surface would show them as dots.
 constexpr float kLeastRoughness = 0.14F;
 
-/// What is darker than any skin is painted hair, which scatters what falls on it.
+/// Specular factor for albedos darker than any skin: painted hair has weaker highlights.
 float dark_gleam(const Light& albedo) {
   constexpr float kDarkestSkin = 0.055F;
   return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
@@ -183,7 +185,7 @@ void ShadeBatch::add(const ShadePoint& point, float gleam) {
   put(kReflectance, material.reflectance * (darkens ? dark_gleam(point.albedo) : 1));
   put(kKey, point.key);
   put(kSky, point.sky);
-  // What is worn is mostly hair, which lies in all directions.
+  // Attachments are mostly hair, whose strands point in all directions and weaken highlights.
   put(kGleam, point.kind == SurfaceKind::kWorn ? 0.45F * gleam : gleam);
   put(kShown, point.inside ? 0.3F : 1.0F);
 }

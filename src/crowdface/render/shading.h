@@ -10,37 +10,38 @@
 
 namespace crowdface {
 
-/// A point of the surface in the camera's own axes: x right, y up, z towards the camera.
+/// A surface point to shade, in camera space: x right, y up, z towards the camera.
 struct ShadePoint {
-  Eigen::Vector3f normal;  ///< unit, on the side that is seen
-  Eigen::Vector3f to_eye;  ///< unit
+  Eigen::Vector3f normal;  ///< unit vector, on the visible side
+  Eigen::Vector3f to_eye;  ///< unit vector
   Light albedo;
   SurfaceKind kind = SurfaceKind::kSkin;
-  bool inside = false;   ///< the back of the surface is seen: nostrils, sockets
-  float sky = 1;         ///< share of the ambient light that arrives
-  float key = 1;         ///< share of the key light that arrives
-  float roughness = -1;  ///< of its gloss, 0 … 1; below 0: what its kind has
+  bool inside = false;   ///< the back face is visible, as in nostrils or eye sockets
+  float sky = 1;         ///< visible fraction of the sky
+  float key = 1;         ///< visible fraction of the key light
+  float roughness = -1;  ///< 0 … 1; negative: that of the material
 };
 
-/// Light that comes from a point in the studio. Skin scatters light past the shadow's edge, red
-/// furthest (wrapped diffuse); the highlights are microfacet (Walter et al. 2007).
-/// \param gleam  what part of its gloss the surface has.
+/// Radiance from a point in the studio. Diffuse light is wrapped: skin scatters light past the edge
+/// of shadows, red furthest. Highlights use a microfacet model (Walter et al. 2007).
+/// \param gleam  factor of the specular reflection.
 Light shade(const ShadePoint& point, float gleam = 1);
 
-/// Points that are shaded side by side, as `shade` says. The same bits with any instruction set and in any company.
+/// Shades many points with SIMD, like `shade`. The result of a point is the same with every
+/// instruction set and does not depend on the other points.
 class ShadeBatch {
  public:
   void clear() { count_ = 0; }
   void add(const ShadePoint& point, float gleam);
   void shade();
 
-  /// Light of point `i` in the order of adding, after `shade`.
+  /// Radiance of point `i`, in order of `add`. Call `shade` first.
   Light light(std::size_t i) const {
     const float* at = lights_.data() + i / kBlock * 3 * kBlock + i % kBlock;
     return {at[0], at[kBlock], at[2 * kBlock]};
   }
 
-  /// Numbers of a point; those of kBlock points stand together, field by field.
+  /// Fields of a point. The layout is block by block, field by field, kBlock points each.
   enum Field {
     kNormal,
     kToEye = kNormal + 3,
@@ -51,15 +52,15 @@ class ShadeBatch {
     kKey,
     kSky,
     kGleam,
-    kShown,  ///< of the light
+    kShown,  ///< factor of the total radiance
     kFields
   };
   static constexpr std::size_t kBlock = 16;
 
  private:
   std::size_t count_ = 0;
-  std::vector<float> points_;  ///< blocks, fields, points
-  std::vector<float> lights_;  ///< blocks, red green blue, points
+  std::vector<float> points_;  ///< [block][field][point]
+  std::vector<float> lights_;  ///< [block][channel][point]
 };
 
 }  // namespace crowdface

@@ -19,33 +19,32 @@
 
 namespace crowdface {
 
-/// Where a primitive lies on its texture.
+/// Texture coordinates of a quad.
 struct TexturedQuad {
-  std::uint32_t face;  ///< of the topology, or TextureCoat::kNone
+  std::uint32_t face;  ///< face of the topology, or TextureCoat::kNone
   std::array<Eigen::Vector2f, 4> uvs;
 };
 
-/// A head as the camera sees it: x right, y up, z towards the camera, target at the origin, half
-/// the image's side as unit.
+/// A head in camera space (see camera_space.h), with all data for rendering it.
 struct Stage {
   const std::vector<float>& points;             ///< x, y, z of each vertex
-  const ScreenQuads& screen;                    ///< all quads
-  const RayScene& occluders;                    ///< what keeps light out: all of it, or reduced
-  float clearance;                              ///< rays to the lights start this far above it
-  const std::vector<Eigen::Vector3f>& normals;  ///< #V, outwards
-  float winding;                                ///< −1 where the faces' own normals look inwards
-  const VertexColours* colours;                 ///< #V in place of all others, or nullptr
+  const ScreenQuads& screen;                    ///< rasterizer of all quads
+  const RayScene& occluders;                    ///< occluders for light: the full or a reduced mesh
+  float clearance;                              ///< distance of ray origins from the surface
+  const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
+  float winding;                                ///< +1, or −1 if the winding is inside out
+  const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;            ///< #quads
   const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
-  const TextureCoat* coat;                          ///< or nullptr
-  std::vector<float> skin_lightness;                ///< of each of its pictures
+  const TextureCoat* coat;                          ///< textures, or nullptr
+  std::vector<float> skin_lightness;                ///< for each texture of `coat`
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;
-  const WornStage* worn;  ///< or nullptr
-  bool occlusion;         ///< whether the sky's light is kept out of hollows
+  const WornStage* worn;  ///< attachments, or nullptr
+  bool occlusion;         ///< whether the sky's light is occluded
   Eigen::Vector3f viewer;
 
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {
@@ -53,7 +52,8 @@ struct Stage {
   }
 };
 
-/// Rays to the lights start this far above a surface that is its own occluder, in half the side of the image.
+/// Distance of ray origins from a surface that is its own occluder, in camera space (half the side
+/// of the image is 1).
 inline constexpr float kRayClearance = 2e-4F;
 
 }  // namespace crowdface

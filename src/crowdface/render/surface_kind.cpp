@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-// The first word found decides: what hides is often named after the eye it covers.
+// The first match decides. Hidden parts come first, because they are often named after the eye.
 constexpr auto kWords = std::to_array<std::pair<std::string_view, SurfaceKind>>({
     {"lash", SurfaceKind::kHidden},     {"lacrimal", SurfaceKind::kHidden},
     {"tear", SurfaceKind::kHidden},     {"occlusion", SurfaceKind::kHidden},

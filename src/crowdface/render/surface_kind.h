@@ -12,28 +12,29 @@
 
 namespace crowdface {
 
-/// What a face of the mesh is made of, as far as a render without textures needs to know.
+/// Material of a face of the mesh, for renders without textures.
 enum class SurfaceKind : std::uint8_t {
   kSkin,
   kEye,  ///< the white of the eye
   kIris,
   kTeeth,
-  kGums,    ///< and tongue
-  kWorn,    ///< beside a head: hair, glasses; it has colours of its own
-  kHidden,  ///< not drawn: lashes, tear fluid and shells that need textures to be seen through
+  kGums,  ///< and tongue
+  kWorn,  ///< attachment with colours of its own: hair, glasses
+  /// Not drawn: lashes, tear fluid and shells that would need textures to be transparent.
+  kHidden,
 };
 
-/// What each face of a mesh is made of.
+/// Materials and colours of the faces of a mesh.
 struct Surfaces {
   std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
-  /// #F colours (sRGB) in place of those of the kinds, or empty: none has any.
+  /// #F colours (sRGB) that replace those of the kinds; or empty.
   std::vector<std::optional<Eigen::Array3f>> paints = {};
-  /// #T by 2 texture coordinates of the topology's corners, or empty: no textures.
+  /// #T by 2 texture coordinates, indexed by the topology's corners; or empty: no textures.
   TextureCoordinates uvs = {};
 };
 
-/// The kind that a material's (or group's) name speaks of, in any case and anywhere in the name:
-/// "M_ScleraLeft" is an eye, "M_EyeLashes" is hidden. Skin if nothing is recognised.
+/// The kind that a material or group name suggests. Searches for known words anywhere in the name,
+/// ignoring case: "M_ScleraLeft" is an eye, "M_EyeLashes" is hidden. Skin if no word is found.
 SurfaceKind surface_kind_of_material(std::string_view material_name);
 
 }  // namespace crowdface

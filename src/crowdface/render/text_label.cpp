@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFontFile = "DejaVuSans.ttf";
 
-/// Folders where fonts are installed, the system's first.
+/// Folders with fonts: first those of the system, then the user's.
 std::vector<fs::path> font_folders() {
   std::vector<fs::path> folders = {"/usr/share/fonts", "/usr/local/share/fonts"};
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
@@ -50,13 +50,13 @@ fs::path find_font() {
       "apt install fonts-dejavu-core");
 }
 
-/// \throws std::bad_alloc, or IoError of a font that cannot be used.
+/// \throws std::bad_alloc; IoError if the font cannot be used.
 void check(FT_Error error) {
   if (error == FT_Err_Out_Of_Memory) throw std::bad_alloc();
   if (error != FT_Err_Ok) throw IoError(concat(kFontFile, ": FreeType fails with error ", error));
 }
 
-/// The font, for one thread: FreeType's objects are not shared.
+/// The font. One object per thread, because FreeType's objects are not thread-safe.
 class Font {
  public:
   Font() {
@@ -74,7 +74,7 @@ class Font {
 
   void set_size(int text_px) { check(FT_Set_Pixel_Sizes(face_, 0, static_cast<FT_UInt>(text_px))); }
   bool has(char32_t character) const { return FT_Get_Char_Index(face_, character) != 0; }
-  /// The letter with its picture, until the next is asked for.
+  /// The rendered letter, valid until the next call.
   FT_GlyphSlot letter(char32_t character) {
     check(FT_Load_Char(face_, character, FT_LOAD_RENDER));
     return face_->glyph;
@@ -91,7 +91,7 @@ Font& font() {
   return *of_thread;
 }
 
-/// The characters that are drawn for a text.
+/// Decodes UTF-8 and replaces characters that cannot be drawn.
 std::u32string characters_of(std::string_view text) {
   std::u32string characters;
   while (!text.empty()) {
@@ -115,17 +115,17 @@ std::u32string characters_of(std::string_view text) {
   return characters;
 }
 
-/// Where the ink of a line begins and ends, in pixels from where its pen starts.
+/// Horizontal extent of a line's ink, in pixels from the start of the pen.
 struct Extent {
   int begin = 0, end = 0;
   int width() const { return end - begin; }
 };
 
-/// Calls use(letter, x) for each letter, x where its picture begins.
+/// Calls use(letter, x) for each letter; x is the left edge of its bitmap.
 template <class Use>
 void set_line(const std::u32string& line, int text_px, const Use& use) {
   font().set_size(text_px);
-  FT_Pos pen = 0;  // in 64ths of a pixel
+  FT_Pos pen = 0;  // in 1/64 pixel
   for (const char32_t character : line) {
     const FT_GlyphSlot letter = font().letter(character);
     use(*letter, static_cast<int>(pen >> 6) + letter->bitmap_left);
@@ -145,7 +145,7 @@ Extent extent_of(const std::u32string& line, int text_px) {
   return extent;
 }
 
-/// The longest text that fits, its middle left out.
+/// Replaces the middle of a text by "...", keeping as many characters as fit.
 std::u32string shortened(const std::u32string& line, int width_px, int text_px) {
   const auto keep = [&](std::size_t kept) {
     const std::size_t tail = kept / 2;
@@ -156,7 +156,7 @@ std::u32string shortened(const std::u32string& line, int width_px, int text_px) 
   };
   std::size_t low = 0;
   std::size_t high = line.size() - 1;
-  while (low < high) {  // the most characters that fit, by bisection
+  while (low < high) {  // bisection for the largest number of characters that fit
     const std::size_t middle = (low + high + 1) / 2;
     if (fits(middle)) {
       low = middle;
@@ -205,7 +205,7 @@ void draw(Rgb8Image& image, const FittedLine& fitted, const LabelStyle& style, i
   int start = padding - extent.begin;
   if (style.align == TextAlign::kCentre) start = (image.width - extent.width()) / 2 - extent.begin;
   if (style.align == TextAlign::kRight) start = image.width - padding - extent.end;
-  // One baseline for all labels of a size, whatever letters they hold.
+  // The baseline depends only on the size, so that all labels line up.
   const int baseline = (image.height + fitted.text_px * 7 / 10) / 2;
   set_line(fitted.line, fitted.text_px, [&](const FT_GlyphSlotRec& letter, int x) {
     draw_letter(image, letter.bitmap, start + x, baseline - letter.bitmap_top, style);

@@ -19,27 +19,29 @@ namespace {
 
 using Vector = Eigen::Vector3f;
 
-// Lengths are in half the side of the image, so that these hold for any unit.
-constexpr float kSkyReach = 0.55F;    // how far ambient occlusion looks
-constexpr float kThickness = 0.012F;  // how deep light soaks in: softens where shadows begin
-constexpr float kScattered = 0.2F;    // of the sky's light what hair hands on to where none arrives
-constexpr float kThrough = 0.8F;      // of the light on its other side a thin surface lets through
+// Lengths are in camera space: half the side of the image is 1.
+constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
+// ray offset; softens shadow edges, as light that enters skin does
+constexpr float kThickness = 0.012F;
+// least fraction of the sky's light at hair, which scatters light
+constexpr float kScattered = 0.2F;
+constexpr float kThrough = 0.8F;  // fraction of light that a thin surface transmits
 
-constexpr float kSameNormal = 0.985F;  // cosine: 10 degrees
-constexpr float kReliefNormal = 0.9F;  // 26 degrees
+constexpr float kSameNormal = 0.985F;  // cosine of 10 degrees
+constexpr float kReliefNormal = 0.9F;  // cosine of 26 degrees
 constexpr float kSameAlbedo = 0.03F;
 
-/// A direction given as a point of the disc around `axis`.
+/// The offset from `axis`, perpendicular to it, for a point of the unit disc.
 Vector around(const Vector& axis, const Eigen::Vector2f& disc) {
   const auto [s, t] = perpendicular(axis);
   return disc.x() * s + disc.y() * t;
 }
 
-/// How the samples of a pixel, or a pixel and those beside it, differ: not, in how one surface lies, or in what they
-/// show.
+/// How the samples of a pixel and of its neighbours differ: not at all, in the normal only, or in
+/// surface or colour.
 enum class Change : std::uint8_t { kNone, kRelief, kEdge };
 
-/// Lists of numbers of points.
+/// One list per field of PointLights, for a row of points.
 class PointLists {
  public:
   void resize(std::size_t count) {
@@ -72,7 +74,7 @@ void put(const Meeting& meeting, std::size_t at, Lists& lists) {
   lists.list(PointLights::kSkyAsked)[at] = meeting.sky.asked;
 }
 
-/// Means of what they show, so that the normal is shorter than 1 where they differ, and all their rays.
+/// Mean of positions, normals (shorter than 1 where they differ) and albedos; sums of rays.
 Meeting mean_of(std::span<const Meeting> meetings) {
   Meeting mean = meetings.front();
   for (const Meeting& other : meetings.subspan(1)) {
@@ -89,12 +91,12 @@ Meeting mean_of(std::span<const Meeting> meetings) {
   return mean;
 }
 
-/// Shares of the lights that arrive at points.
+/// Visible fractions of the lights at points.
 struct Shares {
   std::vector<float> key, sky;
 };
 
-/// What a thread works with on its tiles, one after the other: some megabytes, which would be made anew for every tile.
+/// Memory of a thread, some megabytes, reused from tile to tile.
 struct TileMemory {
   std::vector<Ray> rays;
   std::vector<std::optional<RayHit>> hits;
@@ -102,7 +104,7 @@ struct TileMemory {
   std::vector<Meeting*> asking;
   PixelLights pixels;
   PointLists points;
-  std::vector<Meeting> middles;  ///< of a row of pixels
+  std::vector<Meeting> middles;  ///< for a row of pixels
   Shares row_shares, shares;
   ShadeBatch batch;
 };
@@ -112,8 +114,8 @@ TileMemory& tile_memory() {
   return memory;
 }
 
-/// One square of the image; a rim of pixels around it that lend what they know of their lights, and one more that tells
-/// where these change.
+/// One square of the image with a rim of two pixels. The inner ring shares its shadow rays with the
+/// square; the outer ring is only compared with the inner to detect edges.
 class Tile {
  public:
   Tile(const Stage& stage, const Sampling& sampling, int left, int top, int size)
@@ -156,10 +158,10 @@ class Tile {
 
  private:
   struct Pixel {
-    std::uint32_t first = 0, end = 0;  ///< of its meetings
-    std::uint32_t missed = 0;          ///< how many of its samples met nothing
+    std::uint32_t first = 0, end = 0;  ///< range in `meetings_`
+    std::uint32_t missed = 0;          ///< number of samples without a hit
     Change change = Change::kNone;
-    Light backdrop = Light::Zero();  ///< of its samples that met nothing
+    Light backdrop = Light::Zero();  ///< sum over the samples without a hit
   };
 
   Pixel& pixel(int x, int y) { return pixels_[outer_.index(x, y)]; }
@@ -176,8 +178,8 @@ class Tile {
     return (corner + place) / static_cast<float>(size_);
   }
 
-  /// What the camera's rays meet in each pixel.
-  /// \param places_of  where they go in a pixel, or null: what is known of it stays
+  /// Traces camera rays and stores their hits in the pixels.
+  /// \param places_of  sample positions for a pixel; null keeps its earlier samples
   template <class PlacesOf>
   void look(const PlacesOf& places_of) {
     std::vector<const PixelPlaces*> places;
@@ -230,14 +232,14 @@ class Tile {
     return std::span(meetings_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
-  /// Whether a pixel and those beside it show more than one smooth piece of surface in one colour.
+  /// Whether a pixel and its four neighbours differ in surface or colour.
   Change change_at(int x, int y) {
     const Pixel& at = pixel(x, y);
     const std::span<const Meeting> meetings = meetings_of(at);
     if (!meetings.empty() && at.missed > 0) return Change::kEdge;
     Change most = Change::kNone;
     for (const Meeting& other : meetings) most = std::max(most, change(meetings.front(), other));
-    if (stage_.worn != nullptr) return most;  // its samples tell
+    if (stage_.worn != nullptr) return most;  // the pixel's own samples suffice
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
       if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
       const std::span<const Meeting> beside = meetings_of(pixel(i, j));
@@ -261,12 +263,12 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(meeting, disc, lot)` for each direction in which a meeting asks for lights, in the order of
-  /// directions: rays that run alike are sent one after the other. A pixel that shows one thing asks as often as
-  /// there are light rays; where it changes, each of its meetings asks.
+  /// Calls `body(meeting, disc, lot)` for each shadow ray to trace, direction by direction, so that
+  /// consecutive rays are similar. A pixel without change traces `directions.rays()` rays, spread
+  /// over its samples; a pixel with a change traces at least one per sample.
   template <class Body>
   void for_each_ask(const InterleavedDisc& directions, const Body& body) {
-    constexpr std::uint32_t kGoldenLot = 40503;  // lots of rays in a row are evenly spread
+    constexpr std::uint32_t kGoldenLot = 40503;  // spreads the numbers of consecutive rays evenly
     const std::size_t rays = directions.rays();
     std::uint32_t number = 0;
     for (int shift_y = 0; shift_y < kInterleave; ++shift_y) {
@@ -290,9 +292,9 @@ class Tile {
     }
   }
 
-  /// Asks for a light and counts what arrives.
-  /// \param ray_of  of a meeting in a direction, or none: it does not ask for the light
-  /// \return whether each of the thread's rays is blocked
+  /// Traces the shadow rays towards a light and counts the results in `light` of each meeting.
+  /// \param ray_of  ray of a meeting in a direction; nothing if the light cannot reach it
+  /// \return whether each of `memory_.rays` is blocked
   template <class RayOf>
   std::vector<bool> ask(const InterleavedDisc& directions, Openness Meeting::*light,
                         const RayOf& ray_of) {
@@ -324,7 +326,7 @@ class Tile {
         });
   }
 
-  /// Directions are cosine-weighted.
+  /// Rays are cosine-weighted.
   void ask_sky() {
     const std::vector<bool> blocked =
         ask(sampling_.sky, &Meeting::sky,
@@ -336,8 +338,9 @@ class Tile {
     add_light_through(memory_.rays, memory_.asking, blocked);
   }
 
-  /// What is thin and lies in the dark on the side that is seen, such as the inside of a lock at the edge of a
-  /// head of hair, gets some of the light that falls on its other side.
+  /// Transmission through attachments, such as a thin lock of hair seen from its dark side: if a
+  /// sky ray is blocked on the visible side, the mirrored ray on the other side adds part of its
+  /// light.
   void add_light_through(const std::vector<Ray>& rays, const std::vector<Meeting*>& asking,
                          const std::vector<bool>& blocked) {
     std::vector<Ray> behind;
@@ -388,7 +391,7 @@ class Tile {
     }
   }
 
-  /// Finds how much of the lights arrives at points, as share_lights does.
+  /// Computes the visible fractions of the lights at points, see share_lights.
   void share(const PointLists& points, std::size_t count, int x, int y, bool in_a_row,
              Shares& shares) {
     shares.key.resize(count + kMostLanes);
@@ -405,7 +408,7 @@ class Tile {
     memory_.batch.add(surface, skin_gleam(surface.albedo, meeting.skin_lightness));
   }
 
-  /// Each point of a pixel that shows several things.
+  /// Adds each sample of a pixel with changes.
   void add_each(std::span<const Meeting> meetings, int x, int y) {
     memory_.points.resize(meetings.size());
     for (std::size_t m = 0; m < meetings.size(); ++m) put(meetings[m], m, memory_.points);
@@ -440,7 +443,7 @@ class Tile {
     std::size_t next = 0;
     for (int x = left_; x < right_; ++x) {
       const Pixel& at = pixel(x, y);
-      Light light = at.backdrop;  // the mean of a pixel's samples
+      Light light = at.backdrop;  // sum, divided below by the number of samples
       if (shows_one(at)) {
         light = memory_.batch.light(next++);
       } else {

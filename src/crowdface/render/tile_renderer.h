@@ -10,12 +10,13 @@
 
 namespace crowdface {
 
-/// Where rays go.
+/// Sample positions in pixels, and ray directions towards the lights.
 struct Sampling {
-  PixelPlaces middle;  ///< the place in every pixel
-  PixelPlaces
-      coarse;  ///< those where something is worn, which may be there in part, or where relief is
-  PixelPlaces fine;          ///< those where the picture changes
+  /// One sample in the centre of the pixel.
+  PixelPlaces middle;
+  /// For pixels with relief, and for all pixels if there are attachments, which may be transparent.
+  PixelPlaces coarse;
+  PixelPlaces fine;          ///< for pixels with edges
   InterleavedDisc key, sky;  ///< rays of a pixel towards each light
 
   Sampling(int samples_per_side, int key_rays, int sky_rays)
@@ -26,10 +27,10 @@ struct Sampling {
         sky(sky_rays) {}
 };
 
-/// Renders one square of an image, whatever else there is of it. What a pixel knows of its lights
-/// it shares with those around it that show the same surface: each has tried other directions, and
-/// together they leave no grain.
-/// \param left, top  the square's upper left corner; what sticks out of the image is left out.
+/// Renders one square of an image, independently of the other squares. Each pixel traces a few
+/// shadow rays in other directions than its neighbours; pixels that show the same surface share
+/// their results, which removes noise.
+/// \param left, top  upper left corner of the square; parts outside the image are skipped.
 void render_tile(const Stage& stage, const Sampling& sampling, int left, int top, Rgb8Image& image);
 
 }  // namespace crowdface

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-// Okabe & Ito's colours (2008), which colour-blind eyes tell apart too, without black and yellow.
+// The colour-blind safe palette of Okabe & Ito (2008), without black and yellow.
 constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F},
                                                            {0.00F, 0.45F, 0.70F},
                                                            {0.00F, 0.62F, 0.45F},

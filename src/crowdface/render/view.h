@@ -3,7 +3,7 @@
 
 namespace crowdface {
 
-/// Where the camera stands: before the face, turned by 35 degrees, at its side, or behind it.
+/// Viewing direction, turned from the front by 0, 35, 90 or 180 degrees.
 enum class View { kFront, kThreeQuarter, kProfile, kBack };
 
 }  // namespace crowdface

@@ -13,16 +13,16 @@
 
 namespace crowdface {
 
-/// What a mesh beside a face is made of.
+/// Material of an attachment.
 struct WornMaterial {
-  Light colour = Light::Constant(0.5F);         ///< linear, where there is no texture
-  std::shared_ptr<const Texture> texture = {};  ///< or null
-  std::shared_ptr<const Texture> opacity = {};  ///< how much of the surface there is, or null: all
-  float share = 1;                              ///< of that
+  Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
+  std::shared_ptr<const Texture> texture = {};  ///< colours, or null
+  std::shared_ptr<const Texture> opacity = {};  ///< opacity in the first channel, or null: opaque
+  float share = 1;                              ///< factor of the opacity
 };
 
-/// A mesh that is drawn beside a face, from both sides alike: hair, glasses. What is there in part lets
-/// as many rays through.
+/// The mesh of an attachment, such as hair or glasses, drawn with a face. It looks the same from
+/// both sides and may be transparent.
 class WornSurface {
  public:
   /// \param uvs        #T by 2, may be empty.
@@ -36,7 +36,7 @@ class WornSurface {
   const std::vector<Quad>& quads() const { return quads_; }
   const std::vector<WornMaterial>& materials() const { return materials_; }
 
-  /// The colour, and how much of the surface there is, at a place of a quad.
+  /// Colour and opacity at a point of a quad. \param shares  from quad_shares.
   Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
   float opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const;
 
@@ -51,13 +51,13 @@ class WornSurface {
   std::vector<std::array<Eigen::Vector2f, 4>> uvs_;  ///< #quads
 };
 
-/// One on a face.
+/// An attachment placed on a face.
 struct WornMesh {
   const WornSurface* surface;
   const Positions* positions;
 };
 
-/// Shares of a primitive's four vertices in a point on it.
+/// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.
 inline Eigen::Vector4f quad_shares(const Quad& quad, float u, float v) {
   if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
   return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};

@@ -11,19 +11,19 @@
 
 namespace crowdface {
 
-/// All that a face wears, as the camera sees it.
+/// All attachments of a face, in camera space.
 class WornStage {
  public:
-  /// \param worn  at least one; surfaces must outlive this object.
+  /// \param worn  at least one; their surfaces must outlive this object.
   WornStage(const RayDevice& device, std::span<const WornMesh> worn, const Camera& camera);
   WornStage(const WornStage&) = delete;
   WornStage& operator=(const WornStage&) = delete;
 
   const RayScene& scene() const { return *scene_; }
 
-  /// What a ray has met.
+  /// Surface data at a hit.
   struct Place {
-    Eigen::Vector3f normal;  ///< smooth, not of unit length, on either side
+    Eigen::Vector3f normal;  ///< interpolated; any length, on either side
     Light colour;
   };
   Place at(const RayHit& hit) const;
