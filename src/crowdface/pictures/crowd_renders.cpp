@@ -14,17 +14,19 @@
 namespace crowdface {
 namespace {
 
-/// Of a bust, shoulders may leave the picture: it is for judging faces.
+/// Fraction of the heads' height that may lie outside the image: shoulders are not needed for
+/// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Where what heads may wear reaches farthest: of each attachment some vertices, carried from the head that
-/// it was fitted to onto each head as boxes around heads are. Cheap, and near enough for a frame.
+/// Extreme points of the attachments on all heads. Some vertices of each attachment are mapped from
+/// the bounding box of the head it was fitted to to the box of each head: fast, and exact enough
+/// for framing.
 std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const FaceSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
     const Positions& points = item.file.positions;
     if (points.rows() == 0) continue;
-    for (int i = 0; i < 27; ++i) {  // to the sides, edges and corners of a cube
+    for (int i = 0; i < 27; ++i) {  // directions to the sides, edges and corners of a cube
       const Eigen::Vector3i towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       Index best = 0;
       (points * towards.cast<double>()).maxCoeff(&best);
@@ -48,7 +50,8 @@ std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const Fa
   return reach;
 }
 
-/// How far each vertex is moved where it is lowest of all shapes: open jaws reach beyond a mask.
+/// For each vertex the displacement of the shape that moves it lowest, because an open jaw reaches
+/// below the neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {
@@ -61,7 +64,7 @@ Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   return lowest;
 }
 
-/// Colours at vertices as a render takes them; nothing if there are none, or textures lie over them.
+/// Converts vertex colours for rendering; nothing if there are none or if textures cover them.
 std::optional<VertexColours> shown_colours(const ColourRows& colours, const TextureCoat* coat) {
   constexpr float kMostByte = 255;
   if (colours.rows() == 0 || coat != nullptr) return std::nullopt;

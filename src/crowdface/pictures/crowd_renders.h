@@ -22,9 +22,9 @@ namespace crowdface {
 
 class CrowdRenders;
 
-/// A crowd whose pictures lie in its folder. What it refers to must outlive it.
+/// A crowd with pictures in its folder. All members must outlive this object.
 struct PicturedCrowd {
-  const Config& config;  ///< with contact sheets
+  const Config& config;  ///< must have contact sheets
   const Inputs& inputs;
   const CrowdDirectory& directory;
   const CrowdRenders& renders;
@@ -33,54 +33,57 @@ struct PicturedCrowd {
   const Likeness& likeness;
 };
 
-/// What is shown of one face: files' bytes.
+/// Pictures of one face, as the bytes of files.
 struct FacePictures {
   std::string picture;                 ///< PNG
-  std::optional<std::string> preview;  ///< for the gallery, if there is one
+  std::optional<std::string> preview;  ///< script with the mesh for the gallery, if there is one
 };
 
-/// Pictures of one crowd: one camera a view, fitted once to the input heads, so that sizes compare.
+/// Renders the faces of a crowd. There is one camera per view, fitted to the input heads, so that
+/// sizes are comparable. Thread-safe, except add_gallery.
 class CrowdRenders {
  public:
   /// \param inputs  must outlive this object.
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs);
 
-  /// From now on `draw` makes a face's mesh for the gallery, too. Must outlive this object.
+  /// After this call, `draw` also makes gallery meshes. \param meshes  must outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
-  /// Whether `draw` needs a face's shapes.
+  /// Whether `draw` needs the shapes of a face.
   bool show_shapes() const { return gallery_ != nullptr; }
 
   const WornSurfaces& worn_surfaces() const { return worn_surfaces_; }
 
-  /// A face's picture, and what the gallery shows of it.
-  /// \param positions  in single precision, as mesh files hold them.
-  /// \param moves     its displacements in each shape, if they are shown.
-  /// \param own       of own_coat, or null: it bears its target's textures, if there are any.
-  /// \param worn      its attachments.
-  /// \param colours   at its vertices, shown if it bears no textures; or no rows.
+  /// Renders a face and makes its gallery script.
+  /// \param target     the head whose textures the face shows if `own` is null.
+  /// \param positions  in single precision, as in mesh files.
+  /// \param moves      displacements of each shape, for the gallery.
+  /// \param own        textures of the face itself, from own_coat, or null.
+  /// \param worn       its attachments.
+  /// \param colours    vertex colours, shown if there are no textures; may have no rows.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
                     std::span<const Displacements> moves, const OwnCoat* own,
                     const std::vector<WornAttachment>& worn = {},
                     const ColourRows& colours = {}) const;
 
-  /// What a head wears in pictures; nothing if it has no texture, or none is shown.
+  /// Textures of a head; nothing if it has none or if textures are not shown.
   std::optional<TextureCoat> coat_of(Index head) const;
-  /// To be given the own pictures of a face; nothing if none are shown.
+  /// An empty set of textures for a face, to be filled; nothing if faces have no textures of their
+  /// own or if textures are not shown.
   std::optional<OwnCoat> own_coat(Index target) const;
-  /// The same with the pictures of a face.
+  /// The same, filled with the textures of a face.
   std::optional<OwnCoat> own_coat(const FaceTextures& textures, const Recipe& recipe) const;
 
-  /// All views of a face side by side, as a PNG file's bytes.
+  /// Renders all views of a face side by side, as the bytes of a PNG file.
   std::string render_png(const Positions& positions, const FaceTextures& textures,
                          const Recipe& recipe) const;
-  /// \param head  whose texture it bears, if there are textures.
+  /// \param head  the head whose textures the face shows, if there are any.
   std::string render_png(const Positions& positions, Index head) const;
-  /// \param colours  of the vertices, or null: those of the surfaces.
-  /// \param coat     its textures, or null.
+  /// \param colours  vertex colours, or null: those of the surfaces.
+  /// \param coat     textures, or null.
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureCoat* coat = nullptr,
                          const std::vector<WornAttachment>& worn = {}) const;
-  /// The first of the views alone.
+  /// Renders only the first view.
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
@@ -93,7 +96,7 @@ class CrowdRenders {
   const GalleryMeshes* gallery_ = nullptr;
 };
 
-/// A picture written earlier, read back. \throws MissingInput, InvalidInput.
+/// Reads a picture from the crowd's folder. \throws MissingInput, InvalidInput.
 Rgb8Image read_render(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gallery's scripts of a crowd's recipes.
+// The gallery's scripts with the recipes of a crowd.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -22,10 +22,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// How many faces the plane shows of a crowd whose recipes are not all at hand.
+/// Largest number of faces in the plane view if the recipes are split into several scripts.
 constexpr std::size_t kMostOnPlane = 2000;
 
-/// All but the faces.
+/// All data except the faces.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness) {
   const PlanNames names = config.plan_names();
   Json json;
@@ -69,7 +69,7 @@ Json whole_crowd(Json json, const std::vector<CastFace>& crowd, const PlanNames&
   return json;
 }
 
-/// "[a,b,…]" of what `of` says of each face by its place.
+/// "[a,b,…]" with of(i) for each face i.
 template <class Of>
 std::string list_of(std::size_t faces, const Of& of) {
   std::string text = "[";
@@ -77,7 +77,7 @@ std::string list_of(std::size_t faces, const Of& of) {
   return text + ']';
 }
 
-/// {"12":…}: of the faces, by their places, of which `of` says anything.
+/// {"12":…} with of(face) for each face, keyed by index; faces whose value is null are left out.
 template <class Of>
 Json some_of_them(const std::vector<CastFace>& crowd, const Of& of) {
   Json json = Json::object();
@@ -88,7 +88,7 @@ Json some_of_them(const std::vector<CastFace>& crowd, const Of& of) {
   return json;
 }
 
-/// What filters, orders and the grid need of each face, column by column.
+/// The data for filtering, sorting and the grid, column by column.
 std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness) {
   std::string text;
   const auto add = [&](const char* name, const auto& of) {
@@ -133,7 +133,7 @@ std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness
                        ",\n\"note\":", notes.dump(), '}');
 }
 
-/// The recipes of the plan's faces [begin, end), and who is nearest to each.
+/// The recipes and nearest faces of the faces [begin, end).
 std::string page_script(const std::vector<CastFace>& crowd, std::size_t begin, std::size_t end,
                         std::size_t page, const PlanNames& names, const Digest& settings,
                         const Likeness& likeness) {
@@ -146,7 +146,7 @@ std::string page_script(const std::vector<CastFace>& crowd, std::size_t begin, s
                 ");\n");
 }
 
-/// Faces that stand for all on the plane, evenly from the plan.
+/// A regular sample of at most kMostOnPlane faces for the plane view.
 Json on_plane(const std::vector<CastFace>& crowd, const PlanNames& names, const Digest& settings) {
   Json json = Json::object();
   const std::size_t step = (crowd.size() + kMostOnPlane - 1) / kMostOnPlane;

@@ -19,7 +19,8 @@ namespace {
 
 using With = Config::Comparison::With;
 
-/// \throws MissingInput if it cannot be said, as of what is in a folder that may not be read.
+/// Like std::filesystem::exists. \throws MissingInput if that cannot be determined, for example in
+/// a folder without read permission.
 bool is_surely_there(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -27,7 +28,7 @@ bool is_surely_there(const std::filesystem::path& path) {
   throw MissingInput(concat(path.string(), ": cannot be read: ", error.message()));
 }
 
-/// In which format a crowd has a face. \throws MissingInput if in none.
+/// The format of a face's mesh in a crowd. \throws MissingInput if there is no mesh.
 MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
   for (const MeshFormat format : all_mesh_formats()) {
     const bool is_read = traits_of(format).read != nullptr;
@@ -37,7 +38,7 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
 }
 
-/// A crowd's folder as its config says that it is laid out.
+/// The folder of a crowd, with the layout that its config file states.
 CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   CrowdDirectory directory{folder};
   if (!is_surely_there(directory.config())) return directory;
@@ -74,7 +75,7 @@ Positions FaceComparison::mesh_of(std::size_t face) const {
                    crowd_.inputs.faces.topology.vertex_count);
 }
 
-/// Nothing if the face has no neighbour.
+/// Nothing if faces are not compared, or if the face has no neighbour.
 std::optional<Positions> FaceComparison::other(std::size_t face) const {
   switch (comparison_.with) {
     case With::kTarget:
@@ -103,7 +104,7 @@ ComparedFace FaceComparison::compare(std::size_t face) const {
 
 std::string FaceComparison::label(const ComparedFace& compared) const {
   const Eigen::VectorXd& mm = compared.mm;
-  const int digits =  // as many behind the point as the scale calls for
+  const int digits =  // more decimals for smaller scales
       std::clamp(2 - static_cast<int>(std::floor(std::log10(comparison_.scale_mm))), 2, 6);
   const double rms = mm.size() > 0 ? mm.norm() / std::sqrt(static_cast<double>(mm.size())) : 0;
   return concat("rms ", format_fixed(rms, digits), " mm, largest ",

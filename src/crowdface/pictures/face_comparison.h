@@ -11,23 +11,24 @@
 
 namespace crowdface {
 
-/// A face, and how far each of its points is from the same point of what it is compared with, moved
-/// onto it; 0 if it is compared with nothing, as the only face of a crowd is with its nearest.
+/// A face and the distance of each of its vertices to the same vertex of another mesh, after a
+/// rigid fit of that mesh to the face. All distances are 0 if there is no other mesh, as for the
+/// only face of a crowd.
 struct ComparedFace {
   Positions mesh;
-  Eigen::VectorXd mm;  ///< #vertices
+  Eigen::VectorXd mm;  ///< #V distances
 };
 
-/// Compares the faces of a crowd as a sheet's `compare` says.
+/// Compares the faces of a crowd with other meshes, as `compare` of the contact sheet says.
 class FaceComparison {
  public:
-  /// \throws Error  of a file to compare with.
+  /// \throws Error if a file to compare with cannot be read.
   explicit FaceComparison(const PicturedCrowd& crowd);
 
   ComparedFace compare(std::size_t face) const;
-  /// "rms 0.12 mm, largest 3.40 mm".
+  /// Summary of the distances: "rms 0.12 mm, largest 3.40 mm".
   std::string label(const ComparedFace& compared) const;
-  /// Of the colours that show the distances; nothing where nothing is compared.
+  /// Legend for the colours of the distances; nothing if faces are not compared.
   std::optional<HeatLegend> legend() const;
 
  private:
@@ -36,15 +37,16 @@ class FaceComparison {
 
   const PicturedCrowd& crowd_;
   const Config::Comparison& comparison_;
-  CrowdDirectory others_;  ///< the crowd that `comparison` names, if it names one
-  Positions reference_;    ///< the one mesh that all are compared with, or empty
+  CrowdDirectory others_;  ///< the crowd that `comparison` names, if any
+  Positions reference_;    ///< the mesh to compare all faces with, or empty
 };
 
-/// Adds what is wrong with the mesh, if it is one, that the faces are to be compared with.
+/// Checks the mesh file that the config names to compare with, if any, and adds errors to
+/// `problems`.
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
 
-/// \throws MissingInput if they are to be compared with those of a crowd that lacks one of them:
-/// better told before the faces are made than after.
+/// Checks before any face is made that the crowd to compare with has a mesh for every face.
+/// \throws MissingInput if a mesh is missing.
 void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd);
 
 }  // namespace crowdface

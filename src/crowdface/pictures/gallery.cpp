@@ -25,16 +25,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// 24,000 triangles have some 12,000 vertices of ten bytes each: as text 160 kB a face.
+/// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMostTriangles = 24'000;
-/// Of these what is behind closed lips gets few: teeth and the mouth's lining are finer than the face itself.
+/// Limit for triangles behind closed lips: teeth and the lining of the mouth are finer than the
+/// face.
 constexpr std::size_t kMostHidden = 2'000;
-constexpr int kMostTexels = 1024;  ///< of a side of a face's pictures; of more than two, half of it
-constexpr double kLeastMoveMm = 0.02;  ///< of an expression shape: less is not shown
-constexpr float kLeastLight = 0.004F;  ///< where shapes let more in
-constexpr float kUnseen = 0.02F;       ///< what sees no more of the sky is not seen
+/// Side of a face's textures; half of that if there are more than two textures.
+constexpr int kMostTexels = 1024;
+constexpr double kLeastMoveMm = 0.02;  ///< shorter displacements of shapes are left out
+constexpr float kLeastLight = 0.004F;  ///< least occlusion value if there are shapes
+constexpr float kUnseen = 0.02F;       ///< vertices that see no more of the sky count as hidden
 
-/// How much light arrives at the vertices of triangles of a split mesh. \return #V, elsewhere 0
+/// Ambient occlusion at the vertices of `triangles`, a part of a split mesh. \return #V; 0 for
+/// other vertices.
 std::vector<float> openness_at(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                const Positions& mean, const SplitMesh& split,
                                const std::vector<Triangle>& triangles) {
@@ -49,8 +52,9 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
   return open_at;
 }
 
-/// What a face looks like, by number: those of one look are in one picture, whichever head is shown, or in none.
-/// What is not drawn has kNoIndex.
+/// Groups faces by look: faces with the same look share the same texture, or have none, on every
+/// head.
+/// \return #F numbers of looks; kNoIndex for faces that are not drawn.
 std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
                                     const std::vector<SurfaceKind>& kinds) {
   std::map<std::vector<std::uint32_t>, std::uint32_t> known;
@@ -75,7 +79,8 @@ std::vector<const Positions*> positions_of(const FaceSet& faces) {
   return heads;
 }
 
-/// Around the heads and what is fitted to them: long hair goes beyond a head's box.
+/// The coordinate frame for packing positions: the box around all heads and attachments, because
+/// long hair reaches outside the heads' box.
 PackingFrame frame_of(const Inputs& inputs) {
   std::vector<const Positions*> all = positions_of(inputs.faces);
   for (const Attachment& item : inputs.attachments.items) all.push_back(&item.file.positions);
@@ -92,17 +97,17 @@ Json to_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// A call with one JSON value, which is JavaScript too.
+/// A JavaScript call with one argument. (JSON is valid JavaScript.)
 std::string call(const char* function, const Json& value) {
   return concat("crowdface.", function, "(", value.dump(), ");\n");
 }
 
-/// What the page paints irises by, finer than the reduced mesh's vertices could.
+/// Adds eye coordinates, from which the page paints irises more finely than vertex colours could.
 void add_eyes(const Config& config, const Inputs& inputs, const PreviewMesh& mesh, Json& json) {
   const auto eyes = eye_coordinates(inputs.faces.topology, surfaces_of(config, inputs),
                                     mean_head(inputs.faces), config.faces.front);
   if (!eyes) return;
-  constexpr float kSteps = 65536;  // to a radius
+  constexpr float kSteps = 65536;  // per radius
   std::vector<std::uint32_t> values;
   for (const std::uint32_t vertex : mesh.vertices) {
     for (int c = 0; c < 3; ++c) {
@@ -199,7 +204,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   Positions acting = mean;
   shapes[widest_].moves.add_to(acting);
   open_in_widest_ = vertex_openness(inputs_.faces.topology, surfaces.kinds, acting, mesh_.vertices);
-  // What no light reaches at rest would stay black however wide a mouth opens.
+  // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
   for (float& open : open_) open = std::max(open, kLeastLight);
 }
 
@@ -214,7 +219,7 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
 }
 
 std::string GalleryMeshes::skin(const TextureCoat& coat) const {
-  std::vector<std::uint32_t> worn;  // each once
+  std::vector<std::uint32_t> worn;  // indices of textures, without duplicates
   Json pictures = Json::array(), of_look = Json::array();
   for (const std::uint32_t first : mesh_.looks) {
     const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * first]];
@@ -237,7 +242,7 @@ std::string GalleryMeshes::skin(const TextureCoat& coat) const {
 std::string GalleryMeshes::roughness(const TextureCoat& coat) const {
   std::string bytes;
   if (coat.roughness.of_face.empty()) return bytes;
-  constexpr float kSkin = 0.56F;  // as the page has it of skin without a map
+  constexpr float kSkin = 0.56F;  // the page's value for skin without a roughness map
   for (const TexturePlace& place : places_) {
     const float rough = roughness_at(coat, place).value_or(kSkin);
     bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
@@ -249,7 +254,8 @@ std::string GalleryMeshes::shades(const VertexColours& colours) const {
   std::string bytes;
   for (Index v = 0; v < colours.rows(); ++v) {
     const Light light = from_srgb(colours.row(v).transpose().array());
-    // The page's lamps cast no shadows: the root keeps what one of them still reaches, under the chin, say.
+    // The page's lamps cast no shadows, so occlusion darkens the colours. The square root keeps
+    // some light where a lamp still reaches, for example under the chin.
     const Light left = light * std::sqrt(open_[static_cast<std::size_t>(v)]);
     for (const std::uint8_t byte : bytes_of(left)) bytes += static_cast<char>(byte);
   }

@@ -19,31 +19,32 @@
 
 namespace crowdface {
 
-/// The meshes of a gallery: reduced, and packed into scripts, because a page opened from disk may
-/// load nothing else. What all faces share is prepared once.
+/// The meshes of a gallery: reduced, and encoded as scripts, because a page opened from disk may
+/// load only scripts. The data that all faces share is computed once.
 class GalleryMeshes {
  public:
   /// \param inputs  must outlive this object.
   GalleryMeshes(const Config& config, const Inputs& inputs);
 
-  /// data/mesh.js: triangles, colours, texture coordinates, the frame of the positions.
+  /// The file data/mesh.js: triangles, colours, texture coordinates and the coordinate frame of
+  /// packed positions.
   std::string shared_script() const;
-  /// data/faces/NAME.js or data/heads/NAME.js.
-  /// \param moves  the face's displacements in each shape.
-  /// \param coat   the face's textures, or null: it has the colours that all share.
+  /// The file data/faces/NAME.js or data/heads/NAME.js.
+  /// \param moves  displacements of each shape of the face.
+  /// \param coat   textures of the face, or null: it has the colours shared by all faces.
   /// \param worn   its attachments.
   std::string face_script(const std::string& name, const Positions& positions,
                           std::span<const Displacements> moves, const TextureCoat* coat,
                           const std::vector<WornAttachment>& worn = {}) const;
-  /// data/attachments/NAME.js
+  /// The file data/attachments/NAME.js.
   std::string attachment_script(const std::string& name, const WornSurfaces& surfaces) const;
 
  private:
-  /// Colours as the page shows them, three bytes a vertex, darker where little light arrives.
+  /// Three bytes (sRGB) per vertex, darkened by ambient occlusion.
   std::string shades(const VertexColours& colours) const;
-  /// A coat's pictures, and which of them each look of the reduced mesh shows, as JSON.
+  /// The textures of a coat, and which texture each look of the reduced mesh shows, as JSON.
   std::string skin(const TextureCoat& coat) const;
-  /// A byte a vertex; of a coat without roughness none.
+  /// One byte per vertex; empty if the coat has no roughness maps.
   std::string roughness(const TextureCoat& coat) const;
   double least_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
@@ -55,19 +56,20 @@ class GalleryMeshes {
   FacesAround around_;
   PackingFrame frame_;
   ShownAttachments attachments_;
-  VertexColours colours_;    ///< of the surfaces themselves, one a vertex of the reduced mesh
-  std::vector<float> open_;  ///< how much light arrives there, on the mean head
-  std::vector<TexturePlace> places_;  ///< #vertices in textures; or empty: there are none
-  Eigen::Vector3d low_, high_;        ///< of the heads' boxes
+  VertexColours colours_;    ///< of the surfaces without textures, per vertex of the reduced mesh
+  std::vector<float> open_;  ///< ambient occlusion of these vertices on the mean head
+  /// #V of the reduced mesh; empty if there are no textures.
+  std::vector<TexturePlace> places_;
+  Eigen::Vector3d low_, high_;  ///< bounding box of all heads
 
-  /// What the reduced mesh has of a shape's vertices.
+  /// The vertices of the reduced mesh that a shape moves.
   struct ShownMoves {
-    std::vector<std::uint32_t> rows;      ///< of the shape's displacements
-    std::vector<std::uint32_t> vertices;  ///< of the reduced mesh
+    std::vector<std::uint32_t> rows;      ///< rows of the shape's displacements
+    std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
   std::vector<ShownMoves> shown_;      ///< #shapes
-  std::size_t widest_ = 0;             ///< the shape that moves most: a jaw that opens
-  std::vector<float> open_in_widest_;  ///< as `open_`, in that shape
+  std::size_t widest_ = 0;             ///< number of the shape that moves most, such as an open jaw
+  std::vector<float> open_in_widest_;  ///< like `open_`, with that shape applied
 };
 
 }  // namespace crowdface

@@ -9,17 +9,19 @@
 
 namespace crowdface {
 
-/// Where pages lie once they are built or installed: share/crowdface/gallery beside the program's bin;
-/// the environment's CROWDFACE_GALLERY, if set, instead. Nothing if that cannot be told.
+/// The folder of the built or installed web pages: the environment variable CROWDFACE_GALLERY if
+/// set, otherwise share/crowdface/gallery beside the program's bin folder. Nothing if the path of
+/// the program is unknown.
 std::optional<std::filesystem::path> gallery_page_folder();
 
-/// The same folder if it holds the gallery's page, or nothing.
+/// The same folder, or nothing if it does not contain the gallery's page.
 std::optional<std::filesystem::path> find_gallery_page();
 
-/// Whether a crowd of this config gets a gallery here.
+/// Whether a crowd with this config gets a gallery with this installation.
 bool has_gallery(const Config& config);
 
-/// The hash of the page that a crowd of this config gets; of nothing, if it gets none.
+/// The hash of the gallery page that a crowd with this config gets; the hash of no data if it gets
+/// none.
 Digest gallery_page_digest(const Config& config);
 
 }  // namespace crowdface

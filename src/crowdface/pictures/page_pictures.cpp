@@ -21,9 +21,9 @@ Texture small_texture(const Texture& texture, int most_px) {
                         });
 }
 
-/// sRGB's byte of light from 0 to 1, by a table: a face's picture has a million texels.
+/// Converts light in [0, 1] to an sRGB byte with a table, because a texture has a million texels.
 std::uint8_t srgb_byte(float light) {
-  constexpr std::size_t kSteps = 4096;  // of the square root, which is close to sRGB's own curve
+  constexpr std::size_t kSteps = 4096;  // steps of the square root, which resembles the sRGB curve
   static const std::vector<std::uint8_t> bytes = [] {
     std::vector<std::uint8_t> table;
     for (std::size_t i = 0; i < kSteps; ++i) {

@@ -7,12 +7,12 @@
 
 namespace crowdface {
 
-/// Pictures as addresses that hold them (data:image/…;base64,…): a page opened from disk may load no files
-/// into textures. Larger ones are made smaller, to `most_px` texels a side.
+/// Pictures encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
+/// load textures from files. Larger pictures are reduced to `most_px` texels a side.
 
-/// As JPEG, sRGB.
+/// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int most_px);
-/// The first channel, as PNG of one.
+/// The first channel as a PNG with one channel.
 std::string opacity_picture(const Texture& texture, int most_px);
 
 }  // namespace crowdface

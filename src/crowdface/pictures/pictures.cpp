@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The page, if this crowd is to have one; says what is missing.
+/// The folder of the gallery's page, if the crowd gets a gallery. Logs a message if the page is not
+/// built.
 std::optional<std::filesystem::path> page_for(const Config& config) {
   if (config.output.gallery == Gallery::kNone) return std::nullopt;
   auto page = find_gallery_page();
@@ -28,7 +29,7 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
   return page;
 }
 
-/// Removes scripts of faces that the crowd no longer has.
+/// Removes scripts whose name is not in `names`, such as those of faces no longer in the crowd.
 void remove_others(const fs::path& folder, const std::set<std::string>& names) {
   for (const fs::path& path : list_files(folder, has_ending(".js"))) {
     if (!names.contains(path.stem().string())) remove_if_there(path);
@@ -94,7 +95,7 @@ void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
   parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
     const auto& [name, positions] = inputs_.faces.heads[h];
     const std::optional<TextureCoat> coat = renders_.coat_of(static_cast<Index>(h));
-    // A face may bear a head's name.
+    // The prefix avoids a clash with a face of the same name.
     write_file(
         directory_.gallery_head(name),
         gallery_->face_script(concat("head ", name), positions,

@@ -13,34 +13,36 @@
 
 namespace crowdface {
 
-/// Everything of a crowd that is for looking at: renders, contact sheets, the gallery.
+/// Writes all pictures of a crowd: renders, contact sheets, gallery.
 class CrowdPictures {
  public:
-  /// \param config, inputs, directory  must outlive this object; the config has contact sheets.
-  /// \param settings  see settings_digest; the gallery shows it.
-  /// \param textures  of faces' own, if they have any; likewise.
-  /// \param shapes    of faces; likewise.
+  /// \param config, inputs, directory  must outlive this object; the config must have contact
+  ///                sheets.
+  /// \param settings  from settings_digest; the gallery shows it.
+  /// \param textures  textures of the faces themselves, if any; must outlive this object.
+  /// \param shapes    shapes of the faces; must outlive this object.
   CrowdPictures(const Config& config, const Inputs& inputs, const Digest& settings,
                 const CrowdDirectory& directory, const FaceTextures& textures,
                 const FaceShapes& shapes);
 
   const CrowdRenders& renders() const { return renders_; }
 
-  /// The pictures of the heads, once however often it is called.
+  /// Renders the heads. Further calls do nothing.
   void write_heads();
-  /// The picture of a family's founder, whom no mesh file of the crowd holds.
+  /// Renders the founder of a family, who has no mesh file in the crowd.
   void write_founder(const std::string& family, const Positions& positions,
                      const Recipe& recipe) const;
 
-  /// Sheets and gallery, from the pictures in the folder.
+  /// Writes the contact sheets and the gallery from the renders in the folder.
   WrittenSheets finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
 
  private:
-  /// Everything of the gallery but its faces' scripts: the page, the crowd's recipes, the heads.
+  /// Writes the gallery except the scripts of faces: the page, the recipes, the heads.
   void write_gallery(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
-  /// What the gallery knows of a crowd's recipes, as scripts: data/crowd.js, and of a crowd in numbered
-  /// subfolders there only what filters and orders need of each face; the recipes lie in data/pages,
-  /// as many faces a script as a subfolder, which the page loads as it shows them.
+  /// Writes the gallery's scripts with the recipes of the crowd. A crowd without numbered
+  /// subfolders gets one script, data/crowd.js. With subfolders, data/crowd.js has only the columns
+  /// for filtering and sorting; the recipes are in data/pages, one script per subfolder, which the
+  /// page loads on demand.
   void write_scripts(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
 
   const Config& config_;
@@ -50,13 +52,14 @@ class CrowdPictures {
   const FaceTextures& textures_;
   const FaceShapes& shapes_;
   CrowdRenders renders_;
-  std::optional<std::filesystem::path> page_;  ///< of the gallery, if there is to be one
+  /// folder of the gallery's page, if there is a gallery
+  std::optional<std::filesystem::path> page_;
   std::unique_ptr<GalleryMeshes> gallery_;
   bool heads_are_written_ = false;
 };
 
-/// All files in the folder that `finish` and what goes before it wrote, sorted; not the faces' own
-/// pictures and meshes. \throws IoError if a folder cannot be read.
+/// The files in the folder that `finish` and the steps before it wrote, sorted, except the renders
+/// and meshes of the faces. \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets);
 

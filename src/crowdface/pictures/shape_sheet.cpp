@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages of faces and their shapes.
+// Contact sheet pages of faces and their shapes.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -15,10 +15,10 @@
 namespace crowdface {
 namespace {
 
-/// Shapes side by side on one page.
+/// Largest number of columns on a page, including the neutral face.
 constexpr std::size_t kMostColumns = 16;
 
-/// What columns of a page show: a shape, or one with that to which it is made to be added.
+/// A column of a page: a shape, or a shape together with its companion (see companions_of).
 struct Column {
   std::string name;
   std::vector<std::size_t> shapes;
@@ -37,7 +37,7 @@ std::vector<Column> columns_of(const ShapeSet& set, const FaceShapes& shapes) {
   return columns;
 }
 
-/// A face at rest and in some of its shapes.
+/// Adds a row: the neutral face, then the face with each column's shapes.
 void add_row(const CrowdRenders& renders, std::span<const Column> columns, const std::string& name,
              const Positions& face, const std::vector<Displacements>& moves,
              std::vector<SheetCell>& cells) {

@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// "ann", or of a mixture "ann 60 %, bob 40 %".
+/// The target head, "ann", or of a mixture "ann 60 %, bob 40 %".
 std::string target_label(const Recipe& recipe, const std::vector<std::string>& heads) {
   if (recipe.mixture.empty()) return heads[static_cast<std::size_t>(recipe.target)];
   std::vector<std::string> parts;
@@ -26,7 +26,8 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
   return join(parts);
 }
 
-/// The regions that `parent` gave: "brow", or of a region of which both gave bands "brow/skin".
+/// The regions inherited from `parent`: "brow", or "brow/skin" if the parents share the region's
+/// bands.
 std::vector<std::string> given_by(std::string_view parent, const CastFace& face,
                                   const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});
@@ -58,7 +59,7 @@ std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFac
   std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
     const auto& left = crowd[a].*kin;
     const auto& right = crowd[b].*kin;
-    return left && (!right || *left < *right);  // those of none last
+    return left && (!right || *left < *right);  // faces without a family or group come last
   });
   return faces;
 }

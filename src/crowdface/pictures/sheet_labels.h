@@ -11,19 +11,21 @@
 
 namespace crowdface {
 
-/// How the faces follow each other: indices into the crowd.
+/// The order of the faces on a sheet, as indices into `crowd`.
 std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
                                      const Likeness& likeness);
 
-/// What stands under a face, a line for each label.
-/// \param heads, tags  of each head.
+/// The text under a face, one line per label.
+/// \param heads  names of the heads.
+/// \param tags   tags of each head.
 std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
                         std::size_t face, const Likeness& likeness,
                         const std::vector<std::string>& heads,
                         const std::vector<std::vector<std::string>>& tags);
 
-/// What stands under a child on its family's sheet: its id, how much of the form is its mother's, and
-/// which regions each parent gave. A region of which each gave bands is told by band.
+/// The text under a child on its family's sheet: id, percentage of the form that comes from the
+/// mother, and the regions from each parent. Regions with bands from both parents are listed by
+/// band.
 std::string inheritance_label(const CastFace& face, const PlanNames& names);
 
 }  // namespace crowdface

@@ -15,14 +15,15 @@
 namespace crowdface {
 namespace {
 
-constexpr int kIndexWidth = 480, kIndexHeight = 960;  // pixels of one page in the index, at most
+// largest size of a page in the index, in pixels
+constexpr int kIndexWidth = 480, kIndexHeight = 960;
 constexpr std::size_t kPagesAVolume = 64;
 
 std::string to_png(const Rgb8Image& image) {
   return encode_png(image.width, image.height, 3, image.pixels);
 }
 
-/// In linear light, as that format wants it.
+/// Converts to linear light, as EXR requires.
 std::string to_exr(const Rgb8Image& image) {
   const std::array<float, 256>& linear = light_of_srgb8();
   std::vector<float> pixels(image.pixels.size());
@@ -36,7 +37,7 @@ std::string to_exr(const Rgb8Image& image) {
 SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
-  pngs_.reserve(kPagesAVolume);  // none moves while it is made
+  pngs_.reserve(kPagesAVolume);  // background tasks point to elements, which must not move
 }
 
 std::filesystem::path SheetWriter::add_file(const std::string& name) {
@@ -44,7 +45,7 @@ std::filesystem::path SheetWriter::add_file(const std::string& name) {
 }
 
 void SheetWriter::write_beside(const std::string& stem, Rgb8Image page) {
-  if (pages_beside_ == thread_count()) wait();  // that many are in memory at most
+  if (pages_beside_ == thread_count()) wait();  // limits the number of pages in memory
   ++pages_beside_;
   const auto png_file = add_file(stem + ".png");
   std::filesystem::path exr_file;

@@ -11,21 +11,23 @@
 
 namespace crowdface {
 
-/// Writes pages of contact sheets into one folder, in the formats asked for. Every 64 pages have an
-/// index and, if asked for, a PDF of their own, so that memory does not grow with the crowd.
+/// Writes pages of contact sheets to a folder, in the formats asked for. Every 64 pages form a
+/// volume with its own index and, if asked for, its own PDF, so that memory does not grow with the
+/// crowd.
 class SheetWriter {
  public:
-  /// \param folder  must be there. \param title  of each index.
+  /// \param folder  must exist. \param title  title of each index.
   SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
               std::string title);
 
-  /// \param stem     the file's name without ending. \param caption  under its picture in the index.
+  /// Adds a page. \param stem  file name without extension. \param caption  text under the page in
+  /// the index.
   void add(const std::string& stem, const std::string& caption, Rgb8Image page);
-  /// Writes the index, if there are several pages, and the PDF. \return all files written.
+  /// Writes the last index and PDF. A single page gets no index. \return all files written.
   std::vector<std::filesystem::path> finish();
 
  private:
-  /// Packs and writes a page beside what the caller does next.
+  /// Encodes and writes a page in the background.
   void write_beside(const std::string& stem, Rgb8Image page);
   void wait();
   std::filesystem::path add_file(const std::string& name);
@@ -35,12 +37,13 @@ class SheetWriter {
   std::filesystem::path folder_;
   std::vector<SheetFormat> formats_;
   std::string title_;
-  std::size_t volumes_ = 0;        ///< finished
-  std::vector<std::string> pngs_;  ///< of this volume's pages, if there is to be a PDF
-  std::vector<SheetCell> index_;   ///< of this volume
+  std::size_t volumes_ = 0;        ///< number of finished volumes
+  std::vector<std::string> pngs_;  ///< pages of the current volume, if PDF is asked for
+  std::vector<SheetCell> index_;   ///< index of the current volume
   std::vector<std::filesystem::path> written_;
   int pages_beside_ = 0;
-  BackgroundTasks beside_;  // after what it uses, so that it ends first
+  // Last member, so that its tasks end before the members they use are destroyed.
+  BackgroundTasks beside_;
 };
 
 }  // namespace crowdface

@@ -20,13 +20,13 @@
 namespace crowdface {
 namespace {
 
-constexpr int kMostRows = 64;  // of heads or of a family's members on one page
+constexpr int kMostRows = 64;  // heads or family members on one page
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
 }
 
-/// The sheets of one crowd.
+/// Writes the sheets of one crowd.
 class CrowdSheets {
  public:
   explicit CrowdSheets(const PicturedCrowd& crowd)
@@ -62,7 +62,8 @@ class CrowdSheets {
     return cell;
   }
 
-  /// "sheet_001", below its subfolder if there is one.
+  /// The file name without extension, such as "sheet_001", with its subfolder if there is one.
+  /// Creates the subfolder.
   std::string stem_of_page(std::size_t page) const {
     const std::filesystem::path path = crowd_.directory.sheet(page);
     make_directories(path.parent_path());
@@ -103,8 +104,8 @@ class CrowdSheets {
     return pages;
   }
 
-  /// Cells in as many rows as they need; on several pages if one would be too large.
-  /// \param stem  of a page's file, from its number, from 1.
+  /// Adds cells in as many rows as they need; on several pages if one would be too large.
+  /// \param stem  file name of a page, given its number from 1.
   void add_tall_pages(const std::function<std::string(std::size_t)>& stem,
                       const std::string& caption, const std::string& title, const std::string& note,
                       std::size_t count, const std::function<SheetCell(std::size_t)>& cell) {
@@ -139,7 +140,7 @@ class CrowdSheets {
                    });
   }
 
-  /// Each family on a sheet of its own, after those whom its members take after.
+  /// Each family has a sheet of its own: parents or founder first, then the members.
   void write_families() {
     std::map<std::string, std::vector<std::size_t>> families;
     for (std::size_t face = 0; face < crowd_.faces.size(); ++face) {
@@ -148,7 +149,8 @@ class CrowdSheets {
     for (const auto& family : families) write_family(family.first, family.second);
   }
 
-  /// With parents a tree, a generation a row: grandparents, parents, children. Else the founder first.
+  /// With parents, the sheet is a family tree with a row per generation: grandparents, parents,
+  /// children. Otherwise the founder comes first.
   void write_family(const std::string& family, const std::vector<std::size_t>& members) {
     const std::vector<std::string>& parents = crowd_.faces[members.front()].parents;
     std::vector<Relative> cells;
@@ -178,7 +180,7 @@ class CrowdSheets {
       const Rgb8Image face = read_render(crowd_.directory.render(crowd_.faces[members.front()].id));
       return {padded({}, face.width, face.height), ""};
     };
-    // No family's name holds a '+'.
+    // Unambiguous, because names of families contain no '+'.
     const auto stem = [&](std::size_t page) {
       return concat("family_", family, page > 1 ? concat('+', page) : std::string());
     };
@@ -186,7 +188,7 @@ class CrowdSheets {
                    counted(members.size(), "member", "members"), cells.size(), cell);
   }
 
-  /// A cell of a family's sheet; without a picture a blank one.
+  /// A cell of a family's sheet; blank if `picture` is empty.
   struct Relative {
     std::filesystem::path picture;
     std::string label;
@@ -196,7 +198,7 @@ class CrowdSheets {
     while (cells.size() % static_cast<std::size_t>(sheet_.columns) != 0) cells.emplace_back();
   }
 
-  /// The face of that id, if it is one of the crowd and no head.
+  /// The face with this id, or null if the crowd has none or if the name is that of a head.
   const CastFace* face_called(const std::string& name) const {
     if (contains(crowd_.config.faces.names, name)) return nullptr;
     const auto found = std::ranges::find(crowd_.faces, name, &CastFace::id);
@@ -209,7 +211,7 @@ class CrowdSheets {
             concat(name, '\n', role)};
   }
 
-  /// Who gave what, or for those of no parents who is nearest.
+  /// Inheritance of a child; for other members the nearest face.
   std::string label_of_member(std::size_t member) const {
     const CastFace& face = crowd_.faces[member];
     if (face.parents.empty()) {
@@ -219,7 +221,8 @@ class CrowdSheets {
     return inheritance_label(face, crowd_.config.plan_names());
   }
 
-  /// The picture of a family's founder, if there is one that can stand beside the members'.
+  /// The picture of a family's founder; nothing if there is none or if its size differs from the
+  /// members' pictures.
   std::optional<std::filesystem::path> founder_of(const std::string& family,
                                                   std::size_t member) const {
     const std::filesystem::path path = crowd_.directory.founder_render(family);

@@ -8,22 +8,23 @@
 
 namespace crowdface {
 
-/// What write_sheets left in the folder.
+/// Result of write_sheets.
 struct WrittenSheets {
-  std::size_t pages = 0;  ///< that the faces take
+  std::size_t pages = 0;  ///< number of pages with faces
   std::vector<std::filesystem::path> files;
 };
 
-/// Writes the contact sheets of a crowd from the pictures in its folder: the faces, the heads, each
-/// family, an index; removes what an earlier run left over.
+/// Writes the contact sheets of a crowd from the renders in its folder: faces, heads, families and
+/// an index. Removes outdated sheets of earlier runs.
 WrittenSheets write_sheets(const PicturedCrowd& crowd);
 
-/// Adds pages `shapes_001` … of faces and their shapes: a row a face, first at rest, then each shape,
-/// from the front. The template stands above them all.
-/// \param crowd  its first faces are shown, as many as the sheet asks for, from their meshes in the folder.
+/// Adds pages `shapes_001` … with one row per face: the neutral face, then each shape, from the
+/// front. The first row shows the template.
+/// \param crowd  its first faces are shown, as many as the config asks for; their meshes are read
+///               from the folder.
 void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages);
 
-/// How many pages a crowd's contact sheets have.
+/// Number of pages with faces in a crowd's contact sheets.
 std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces);
 
 }  // namespace crowdface

@@ -15,12 +15,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of all materials together; a vertex is 8 bytes of text a face.
+/// For all materials together; a vertex takes 8 bytes of text per face.
 constexpr std::size_t kMostWornTriangles = 24'000;
 constexpr int kMostWornTexels = 512;
 
-/// The vertices that move at least so far, four bytes each, then how far.
-/// \param shown  rows of what moves
+/// The numbers of the vertices that move by at least `least`, 4 bytes each, followed by their
+/// displacements.
+/// \param shown  rows of the full mesh that the page shows
 std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
                          const PackingFrame& frame, double least) {
   std::vector<std::uint32_t> vertices;

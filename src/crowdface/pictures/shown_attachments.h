@@ -12,21 +12,22 @@
 
 namespace crowdface {
 
-/// Attachments on the pages: each one's triangles and pictures are told once, reduced, and of a face
-/// the positions. Any thread may ask.
+/// Attachments for the web pages. The reduced triangles and textures of an attachment are encoded
+/// once; each face only adds positions. Thread-safe.
 class ShownAttachments {
  public:
-  /// What pages need to show one on any face, as JSON: for each material triangles and how it looks.
+  /// The part that does not depend on the face, as JSON: triangles and appearance for each
+  /// material.
   std::string look(const Attachment& item, const WornSurface& surface) const;
-  /// Positions on a face, as JSON, 16 bits a coordinate: the vertices of one material after the other; and
-  /// how far the face's shapes move which of those.
-  /// \param least  a move that is shown
+  /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
+  /// of the face the vertices that move and their displacements.
+  /// \param least  shortest displacement to store, in the unit of the positions
   std::string packed(const WornAttachment& worn, const PackingFrame& frame, double least) const;
-  /// The same as numbers, three a vertex.
+  /// The same positions as numbers, three per vertex.
   std::vector<float> points(const WornAttachment& worn) const;
 
  private:
-  /// One a material; of no triangles if no face is of it.
+  /// One mesh per material; without triangles if no face has the material.
   using Parts = std::vector<PreviewMesh>;
   const Parts& parts(const Attachment& item) const;
 

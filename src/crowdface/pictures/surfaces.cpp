@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// How much of some faces a picture's channel covers, by samples within each face.
-/// \param value  of an image at a pixel
+/// Mean of an image channel over some faces, estimated from samples within each face.
+/// \param value  value(image, x, y) returns the channel at a pixel
 template <class Value>
 double covered(const Image& image, const Topology& topology, const TextureCoordinates& uvs,
                const std::vector<Index>& faces, const Value& value) {
@@ -43,7 +43,7 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
   return count == 0 ? 1 : sum / static_cast<double>(count);
 }
 
-/// Whether a material lets one see through these faces, as shells over eyes and cards of lashes do.
+/// Whether a material is transparent on these faces, like shells over the eyes and lash cards.
 bool is_see_through(const SurfaceMaterial& material, const FaceSet& faces,
                     const std::vector<Index>& of_material) {
   constexpr double kSolid = 0.9;
@@ -61,11 +61,11 @@ bool is_see_through(const SurfaceMaterial& material, const FaceSet& faces,
                      return static_cast<double>(of.at(x, y, channel));
                    }) < kSolid;
   } catch (const RecoverableError&) {
-    return false;  // whoever reads textures tells
+    return false;  // reading the textures reports the error
   }
 }
 
-/// Of materials that no part of the skin has: which let one see through.
+/// For each material, whether it is transparent. Materials that the skin uses count as opaque.
 std::vector<bool> see_through_materials(const Inputs& inputs) {
   const Topology& topology = inputs.faces.topology;
   std::vector<std::vector<Index>> faces(inputs.materials.names.size());
@@ -112,7 +112,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
     surfaces.kinds.push_back(kinds[material]);
     if (any_paint) surfaces.paints.push_back(paints[material]);
   }
-  // What no material names but has an eyeball's shape is an eye too.
+  // Faces with the shape of an eyeball are eyes even if their material's name does not say so.
   std::vector<bool> eyeball(static_cast<std::size_t>(inputs.components.count()), false);
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t c : part.components) eyeball[c] = part.eyeball;

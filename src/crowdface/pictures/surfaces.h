@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-/// What the faces of a crowd's mesh are made of: by the config, by the names of their materials, by shape.
-/// What the material file lets one see through, such as cards of lashes, is hidden.
+/// Determines the material kind of each face of the crowd's mesh: from the config, from material
+/// names, from the shape of eyeballs. Materials that the material file makes transparent, such as
+/// lash cards, are hidden.
 Surfaces surfaces_of(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -11,14 +11,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The layer's picture at a place, or null.
+/// The layer's texture at a place, or null.
 const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
   if (place.face < 0 || layer.of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.of_face[static_cast<std::size_t>(place.face)];
   return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
 }
 
-/// The mean of some texels around a place: of a 512th of the picture's side to either side.
+/// Mean of 3 by 3 samples that extend 1/512 of the texture's side in each direction.
 Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
   constexpr float kReach = 1.0F / 512;
   Light sum = Light::Zero();
@@ -36,7 +36,7 @@ Vector3d leaning_normal(const TextureCoat& coat, const FaceSet& faces, const Tex
                         const Positions& positions, const Vector3d& normal) {
   const Texture* slopes = picture_at(coat.slopes, place);
   if (slopes == nullptr) return normal;
-  // The triangle of the face's first corners tells where the picture's axes run.
+  // Derive the texture axes from the triangle at the face's first corner.
   const auto vertices = faces.topology.face(place.face);
   const auto uvs = faces.topology.face_uvs(place.face);
   const std::size_t last = vertices.size() - 1;

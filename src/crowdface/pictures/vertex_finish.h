@@ -10,19 +10,20 @@
 
 namespace crowdface {
 
-/// Where a vertex of a reduced mesh lies in a face's texture.
+/// Position of a vertex of a reduced mesh in the textures.
 struct TexturePlace {
-  Index face = -1;  ///< of the whole mesh, at the vertex; −1: it is in no texture
+  Index face = -1;  ///< face of the full mesh at the vertex; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 
-/// The normal at a vertex, leaning as a coat's map says on average around it: what is finer than a reduced mesh
-/// would be grain there. \param positions  #V by 3 of the face
+/// The vertex normal, tilted by the coat's normal map. The map is averaged around the vertex,
+/// because detail finer than the reduced mesh would appear as noise.
+/// \param positions  #V by 3 of the face
 Eigen::Vector3d leaning_normal(const TextureCoat& coat, const FaceSet& faces,
                                const TexturePlace& place, const Positions& positions,
                                const Eigen::Vector3d& normal);
 
-/// A coat's roughness there, 0 … 1; nothing where it has none.
+/// The coat's roughness at a vertex, 0 … 1; nothing if there is no roughness map.
 std::optional<float> roughness_at(const TextureCoat& coat, const TexturePlace& place);
 
 }  // namespace crowdface

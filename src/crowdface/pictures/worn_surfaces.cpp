@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-/// How much there is at a texel: the image's alpha, or its first channel.
+/// Opacity at a texel: the alpha channel, or the first channel if there is none.
 float opacity_at(const Image& image, int x, int y) {
   const int channel = image.alpha_channel >= 0 ? image.alpha_channel : 0;
   return std::clamp(image.at(x, y, channel), 0.0F, 1.0F);
@@ -30,7 +30,8 @@ Texture opacity_texture(const Image& image, int most_px) {
   });
 }
 
-/// Colours, of which those count that are to be seen: what holes are painted with shows at no edge.
+/// Weights colours by opacity, so that the paint of transparent texels does not bleed into visible
+/// edges.
 void keep_to_what_is_seen(const Image& image, const LightRows& light, int most_px,
                           const Texture& opacity, Texture& colours) {
   const Texture weighted =
@@ -118,7 +119,7 @@ std::uint64_t worn_picture_bytes(std::span<const Attachment* const> items, int m
       bytes += textures * sizeof(Light) * static_cast<std::uint64_t>(size.width / block + 1) *
                static_cast<std::uint64_t>(size.height / block + 1);
     } catch (const RecoverableError&) {
-      return;  // pictures will do without it
+      return;  // rendering continues without the texture
     }
   };
   for (const Attachment* item : items) {
