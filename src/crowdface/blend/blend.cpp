@@ -74,6 +74,7 @@ void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const Regi
                         {power_series(filter.kind(), bands[f][b].band->iterations)}});
     }
   }
+  // Smooth the differences of all bands of all faces in one pass.
   const auto smoothed = filter.run<double>(inputs);
   const auto* of_face = smoothed.data();
   for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {

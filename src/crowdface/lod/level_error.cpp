@@ -87,6 +87,7 @@ LevelError level_error(const DetailLevel& level, const LevelMap& map,
     parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
       distances[i] = distance_to(rows, map.triangles[i], point(i));
     });
+    // Improve the distances of vertices that are far from their mapped triangle.
     const double far = 4 * std::sqrt(mean_square());
     parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
       if (distances[i] <= far) return;

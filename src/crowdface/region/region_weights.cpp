@@ -192,6 +192,7 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
     }
     channels += static_cast<Index>(masks[i].channels());
   }
+  // With one channel for two regions, the second region gets the remainder.
   const bool leaves_a_rest = channels == 1 && regions == 2;
   if (channels < regions && !leaves_a_rest) {
     throw InvalidInput(concat("expected a mask channel for each of ", regions, " regions, found ",

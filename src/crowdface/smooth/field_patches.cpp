@@ -108,7 +108,8 @@ class PatchMaker {
   void choose_skeleton(std::span<const std::uint32_t> vertices, std::size_t fields) {
     skeleton_.clear();
     factor_.clear();
-    // A larger skeleton would take more memory than storing all vertices.
+    // A larger skeleton of s vertices would cost more than storing all vertices:
+    // s·#fields + s·kPatchVertices > kPatchVertices·#fields.
     const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
     fill_columns(vertices, fields);
     OfVertices left{};
@@ -122,6 +123,8 @@ class PatchMaker {
       const auto pivot = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
       if (left[pivot] <= tolerance_ * tolerance_) return;
       if (skeleton_.size() >= std::min(most, vertices.size() - 1)) break;
+      // Next column of the factor: the Gram matrix's column minus its projection onto earlier
+      // columns.
       OfVertices& next = factor_.emplace_back();
       row_products(columns_.data(), 3 * fields, pivot, next.data());
       for (std::size_t j = 0; j + 1 < factor_.size(); ++j) {

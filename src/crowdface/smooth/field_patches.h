@@ -103,12 +103,12 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
 /// \param heads      at least one head; all of the same mesh.
 /// \param levels     levels at which the error is bounded.
 /// \param order      #V: all vertices, consecutive vertices close to each other (patch_order).
-/// \param tolerance  largest error of any vertex of any head at any of the levels, in the unit of
-///                   the positions, before rounding. The values are also rounded once more, to the
-///                   patch's quantization steps; no such step exceeds the largest step of the tiles
-///                   of the patch's vertices.
-/// \param progress   called by any thread with the number of patches it has finished; an exception
-///                   thrown by it stops the work.
+/// \param tolerance  largest compression error of any vertex of any head at any of the levels, in
+///                   the unit of the positions. Rounding to the patch's quantization steps adds to
+///                   it; no step exceeds the largest step of the tiles that contain the patch's
+///                   vertices.
+/// \param progress   called by any thread with the number of patches it has just finished; an
+///                   exception thrown by it stops the work.
 FieldPatches interpolate_fields(
     std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
     std::span<const std::uint32_t> order, double tolerance,

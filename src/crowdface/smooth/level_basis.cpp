@@ -15,7 +15,8 @@ namespace {
 
 using FieldRows = RowArray<float>;
 
-/// Truncation tolerance of the series of the nodes, relative to the head's size: about 10⁻⁴ mm.
+/// Truncation tolerance of the Chebyshev series of each node, relative to the head's size: about
+/// 10⁻⁴ mm.
 constexpr double kFieldSeriesTolerance = 1e-6;
 /// Number of vertices at which the exact filter is recorded, to measure the error of the basis.
 constexpr std::size_t kProbes = 1024;
@@ -272,6 +273,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   const Probes& probes = node_fields.probes;
   const TestedLevels tested = test_levels(nodes);
   const Columns exact = exact_displacements(probes, filter.kind(), tested.levels);
+  // The nodes alone already have an error; the fields may use the rest of the tolerance.
   const ProbeError of_nodes =
       probe_error(exact, tested.weights, [&](Index v, Index n, Index c) -> double {
         const std::uint32_t vertex = probes.vertices[static_cast<std::size_t>(v)];

@@ -52,8 +52,8 @@ Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd 
   return b;
 }
 
-/// Sums over vertices and coordinates of products of the displacements at two nodes, #nodes by
-/// #nodes.
+/// The second moments of the nodes' displacements: dot products of two nodes, summed over the
+/// sample's vertices, #nodes by #nodes.
 Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
   Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.nodes, sample.nodes);
   const double* vertex = sample.values.data();
@@ -202,6 +202,7 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
     const Eigen::MatrixXd distances = directions.missed;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;
+    // Raise the importance of the levels with the largest errors.
     const auto wanted = distances.col(best.rank - 1);  // errors with one direction fewer
     for (Index l = 0; l < importance.size(); ++l) {
       importance(l) *= std::sqrt(wanted(l) / wanted.maxCoeff() + kFloor);

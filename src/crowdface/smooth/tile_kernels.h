@@ -35,9 +35,10 @@ class RowArray {
 };
 
 /// One step of the Chebyshev recurrence, in place, on the rows covered by the runs:
-/// previous ← scale·(mean of the neighbours in `now`) − previous. With scale 2 this is T_{k+1}(W)
-/// x = 2 W T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 it is the first step, W x.
-/// Neighbours are added in list order, so that the result's bits depend only on the values.
+/// previous ← scale·(mean of the neighbours in `now`) − previous.
+/// With scale 2 this is T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0
+/// it is the first step, W x. Neighbours are added in list order, so that the result's bits depend
+/// only on the values.
 template <class T>
 void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
                      T scale, const Row<T>* now, Row<T>* previous);

@@ -93,6 +93,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
   require(size_.width > 0 && size_.height > 0 && std::max(size_.width, size_.height) <= 65535,
           "a texture of ", size_.width, " x ", size_.height, " texels");
   const auto width = static_cast<std::size_t>(size_.width);
+  // Rasterize all triangles; the first triangle that covers a texel owns it.
   Owners owners(width * static_cast<std::size_t>(size_.height), kNoIndex);
   std::vector<std::uint32_t> corners;
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -130,6 +131,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) triangles_[t].corners[c] = corners[3 * t + c];
   }
+  // Convert each row to spans of texels with the same owner.
   row_begin_ = {0};
   for (int y = 0; y < size_.height; ++y) {
     const std::uint32_t* row = owners.data() + static_cast<std::size_t>(y) * width;

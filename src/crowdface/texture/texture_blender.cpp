@@ -46,8 +46,9 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
   return mean_of(target, mean);
 }
 
-/// Moves the weight of heads without a map to heads with a map, in proportion to the first of the
-/// given weights that is non-zero for any head with a map; if there is none, equally.
+/// Gives the weight of heads without a map to heads with a map: takes the first of `choices` that
+/// has weight on a head with a map, and normalizes it over these heads. If no choice has, all heads
+/// with a map get equal weights.
 HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
                           const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -199,6 +200,7 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
   PictureFields fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
+    // Keep the head only if it lends to some vertex.
     double most = options_.of_target.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);
@@ -220,6 +222,8 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
                          weights.of_region[k][head];
             }
           }
+          // The base value is Σ W_h C_h + g Σ v_h (low_h − C_h) and the factor of head h is g v_h
+          // step_h, because D_h = low_h + step_h · stored.
           const double gain = gain_at(statistics_, vertex, fields.heads, lent);
           const auto coarse = [&](std::size_t head) -> Eigen::Array3d {
             return statistics_.coarse[head]

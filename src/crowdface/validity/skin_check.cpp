@@ -40,8 +40,8 @@ std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& 
   return triangles;
 }
 
-/// A viewer counts only if the cosine between the direction to the viewer and the normal of the back
-/// side exceeds this; flatter views show little.
+/// A viewer counts only if the cosine between the direction to the viewer and the normal of the
+/// back side exceeds this; flatter views show little.
 constexpr double kFlattestCosine = 0.2;
 /// Spacing of the visibility samples on a triangle, and the largest number of samples along an
 /// edge.

@@ -23,7 +23,8 @@ std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vert
   return left_out;
 }
 
-/// Builds the tree from the sums of the triangles' corners, three times their centroids.
+/// Builds the tree from the triangles' centroids, scaled by 3 and offset along the normals by
+/// `apart`.
 MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Positions& positions,
                                 double apart) {
   const std::vector<bool> left_out = around_hubs(triangles, positions.rows());
