@@ -11,8 +11,8 @@ namespace crowdface {
 /// Collects all errors of an input, so that the user sees them at once.
 class Problems {
  public:
-  /// Adds an error. Repeated messages are dropped. \param message  one or more lines that name the
-  /// file, the place, what was expected and what was found.
+  /// Adds an error. Repeated messages are dropped.
+  /// \param message  one or more lines: file, place, what was expected, what was found.
   void add(ExitCode kind, std::string message);
   void add(const Error& error) { add(error.code(), error.what()); }
   bool empty() const { return messages_.empty(); }

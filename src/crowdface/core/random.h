@@ -18,8 +18,8 @@ struct RandomKey {
   std::uint32_t attempt = 0;      ///< number of earlier draws for this face that were rejected
 };
 
-/// Two independent numbers in [0, 1), multiples of 2⁻⁵³. \param lane  which pair of this key; <
-/// 2¹⁶.
+/// Two independent numbers in [0, 1), multiples of 2⁻⁵³.
+/// \param lane  which pair of this key; < 2¹⁶.
 std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane = 0);
 
 /// The first number of `random_pair`.

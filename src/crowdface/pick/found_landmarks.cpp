@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-/// largest distance between a found landmark and the template's in the estimated pose
+/// Largest distance between a found landmark and the template's in the estimated pose.
 constexpr double kFarMm = 25;
 /// Largest distance after a fit to all landmarks. Differences between faces are smaller.
 constexpr double kOffMm = 14;
@@ -52,6 +52,7 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
 std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
                                          const std::map<std::string, std::uint32_t>& here,
                                          const Scan& scan, const PoseHint& hint) {
+  // Estimate the pose of the template on the scan.
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
   Positions rest = shape.skin.of(shape.positions);
   if (shape.reduced) rest = bent.of(rest);

@@ -48,12 +48,13 @@ struct PickedLandmark {
   std::string name;
   std::optional<std::uint32_t> vertex;   ///< template vertex
   std::optional<Eigen::Vector3d> point;  ///< point on the scan, in the unit of its file
-  /// set if the landmark file gives a vertex number instead of a point
+  /// Set if the landmark file gives a vertex number instead of a point.
   std::optional<std::uint32_t> scan_vertex;
 };
 
 /// The text of a landmark file, such that read_landmarks reads the same landmarks. Names without a
-/// place are left out. \param comments  lines put in front, see opening_comments.
+/// place are left out.
+/// \param comments  lines put in front, see opening_comments.
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments = {});
 

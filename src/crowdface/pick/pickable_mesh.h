@@ -49,7 +49,8 @@ class PickableMesh {
   std::optional<Met> meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// The nearest skin point within `reach` whose surface faces `facing`: the cosine between normal
-  /// and `facing` is at least `least_cosine`. \param facing  unit vector.
+  /// and `facing` is at least `least_cosine`.
+  /// \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                      double least_cosine, double reach) const;
   PickedPlace at_vertex(std::uint32_t vertex) const;
@@ -72,7 +73,7 @@ class PickableMesh {
 
   Positions positions_;
   std::vector<Triangle> skin_;
-  /// triangles of skin, then of others, as quads whose last corner repeats
+  /// Triangles of skin, then of others, as quads whose last corner repeats.
   std::vector<Quad> quads_;
   Positions normals_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin

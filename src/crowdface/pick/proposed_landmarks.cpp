@@ -139,7 +139,7 @@ Places find_opening(const FrontView& view, const Eigen::Vector3d& centre, double
 
 void propose_eye(const FrontView& view, double middle, const Eigen::Vector3d& centre, double radius,
                  Proposals& proposals) {
-  // kHalfSlit: half width of the strip in the middle of the lids, in eyeball radii
+  // kHalfSlit: half the width of the strip in the middle of the lids, in eyeball radii.
   constexpr double kReachMm = 6, kHalfSlit = 0.05;
   const Places opening = find_opening(view, centre, radius);
   if (opening.empty()) return;

@@ -33,11 +33,11 @@ constexpr std::size_t kMostHidden = 2'000;
 /// Side of a face's textures; half of that if there are more than two textures.
 constexpr int kMostTexels = 1024;
 constexpr double kLeastMoveMm = 0.02;  ///< shorter displacements of shapes are left out
-constexpr float kLeastLight = 0.004F;  ///< least occlusion value if there are shapes
-constexpr float kUnseen = 0.02F;       ///< vertices that see no more of the sky count as hidden
+constexpr float kLeastLight = 0.004F;  ///< lower bound of `open_` if there are shapes
+constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
-/// Ambient occlusion at the vertices of `triangles`, a part of a split mesh. \return #V; 0 for
-/// other vertices.
+/// Visible fraction of the sky at the vertices of `triangles`, a part of a split mesh.
+/// \return #V; 0 for other vertices.
 std::vector<float> openness_at(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                const Positions& mean, const SplitMesh& split,
                                const std::vector<Triangle>& triangles) {
@@ -148,6 +148,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   const std::vector<std::uint32_t> looks = looks_of(inputs.textures, surfaces.kinds);
   const SplitMesh split = split_mesh(faces.topology, surfaces.uvs, looks);
   const Positions split_mean = split.of(mean);
+  // Reduce to twice the limit, and find which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
       reduce_triangles(split.triangles, split_mean, 2 * kMostTriangles);
   const std::vector<float> open =
@@ -158,6 +159,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
       return open[split.corners[corner].vertex] > kUnseen;
     }));
   }
+  // Reduce to the limit; hidden triangles get a smaller one.
   triangles = reduce_hidden(triangles, split_mean, hidden, kMostTriangles, kMostHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
   for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
@@ -167,6 +169,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
   const std::vector<const Positions*> heads = positions_of(faces);
+  // The bounding box of all heads.
   low_ = heads.front()->colwise().minCoeff().transpose();
   high_ = heads.front()->colwise().maxCoeff().transpose();
   for (const Positions* head : heads) {
@@ -184,6 +187,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   if (inputs_.shapes.shapes.empty()) return;
   const double least = least_move();
   for (const Shape& shape : inputs_.shapes.shapes) {
+    // Keep the vertices of the reduced mesh that the shape moves visibly.
     ShownMoves& shown = shown_.emplace_back();
     const auto& moved = shape.moves.vertices;
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
@@ -195,6 +199,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shown.vertices.push_back(v);
     }
   }
+  // The sky is visible from more vertices in the shape that moves most.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
   widest_ = static_cast<std::size_t>(

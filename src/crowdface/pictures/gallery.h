@@ -40,7 +40,7 @@ class GalleryMeshes {
   std::string attachment_script(const std::string& name, const WornSurfaces& surfaces) const;
 
  private:
-  /// Three bytes (sRGB) per vertex, darkened by ambient occlusion.
+  /// Three bytes (sRGB) per vertex, darkened where little of the sky is visible.
   std::string shades(const VertexColours& colours) const;
   /// The textures of a coat, and which texture each look of the reduced mesh shows, as JSON.
   std::string skin(const TextureCoat& coat) const;
@@ -57,7 +57,7 @@ class GalleryMeshes {
   PackingFrame frame_;
   ShownAttachments attachments_;
   VertexColours colours_;    ///< of the surfaces without textures, per vertex of the reduced mesh
-  std::vector<float> open_;  ///< ambient occlusion of these vertices on the mean head
+  std::vector<float> open_;  ///< vertex_openness of these vertices on the mean head
   /// #V of the reduced mesh; empty if there are no textures.
   std::vector<TexturePlace> places_;
   Eigen::Vector3d low_, high_;  ///< bounding box of all heads

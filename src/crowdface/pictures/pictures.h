@@ -52,7 +52,7 @@ class CrowdPictures {
   const FaceTextures& textures_;
   const FaceShapes& shapes_;
   CrowdRenders renders_;
-  /// folder of the gallery's page, if there is a gallery
+  /// Folder of the gallery's page, if there is a gallery
   std::optional<std::filesystem::path> page_;
   std::unique_ptr<GalleryMeshes> gallery_;
   bool heads_are_written_ = false;

@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-// largest size of a page in the index, in pixels
+// Largest size of a page in the index, in pixels
 constexpr int kIndexWidth = 480, kIndexHeight = 960;
 constexpr std::size_t kPagesAVolume = 64;
 

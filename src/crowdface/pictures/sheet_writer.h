@@ -20,8 +20,9 @@ class SheetWriter {
   SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
               std::string title);
 
-  /// Adds a page. \param stem  file name without extension. \param caption  text under the page in
-  /// the index.
+  /// Adds a page.
+  /// \param stem     file name without extension.
+  /// \param caption  text under the page in the index.
   void add(const std::string& stem, const std::string& caption, Rgb8Image page);
   /// Writes the last index and PDF. A single page gets no index. \return all files written.
   std::vector<std::filesystem::path> finish();

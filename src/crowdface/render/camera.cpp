@@ -106,20 +106,24 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     return std::min(kSlices - 1, static_cast<std::size_t>((height - heights.low) * scale));
   };
   constexpr double kNone = -std::numeric_limits<double>::infinity();
+  // The foremost point of each horizontal slice.
   std::array<double, kSlices> ahead;
   ahead.fill(kNone);
   for (Index i = 0; i < head.rows(); ++i) {
     double& slice = ahead[slice_of(head.row(i).dot(up))];
     slice = std::max(slice, head.row(i).dot(front));
   }
+  // The slice of the tip of the nose, not in the lowest part, where a bust's chest may be foremost.
   const auto nose = static_cast<std::size_t>(
       std::max_element(ahead.begin() + kLowestNose, ahead.end()) - ahead.begin());
+  // The width of the head at the nose and above.
   double left = -kNone, right = kNone;
   for (Index i = 0; i < head.rows(); ++i) {
     if (slice_of(head.row(i).dot(up)) < nose) continue;
     left = std::min(left, head.row(i).dot(side));
     right = std::max(right, head.row(i).dot(side));
   }
+  // Search downwards from the nose.
   for (std::size_t s = nose; s-- > 0;) {
     // Neighbouring slices count too: on a coarse mesh, a slice may have no vertex on the midline.
     const double nearest = std::max({ahead[s], ahead[s + 1], s > 0 ? ahead[s - 1] : kNone});
@@ -152,6 +156,7 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
   const Heights heights = heights_of(heads, camera.up);
   const double lowest = lowest_shown(heads, frame, heights, options.cut_below);
   const double neck = heights.at(kNeck);
+  // Find the smallest wedges around all points that must be visible.
   double nearest = -std::numeric_limits<double>::infinity();
   double furthest = std::numeric_limits<double>::infinity();
   for (const Positions* head : heads) {

@@ -114,7 +114,7 @@ struct Boxes {
   alignas(64) std::int32_t square[kCount];  ///< last square that the box overlaps; −1: not visible
   alignas(64) std::int32_t alone[kCount];   ///< not 0: the box overlaps no other square
   alignas(64) std::int32_t no_middle[kCount];  ///< 1: the box contains no pixel centre
-  /// box relative to `square`, one byte each: left, top, right, bottom
+  /// Box relative to `square`, one byte each: left, top, right, bottom
   alignas(64) std::int32_t in_square[kCount];
 };
 
@@ -122,6 +122,7 @@ struct Boxes {
 void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes& boxes) {
   const hn::CappedTag<float, Boxes::kCount> lanes;
   const hn::Rebind<std::int32_t, decltype(lanes)> whole;
+  // Bounding boxes in image coordinates: left, top, right, bottom of each quad.
   alignas(64) float ends[4 * Boxes::kCount];
   for (std::size_t i = 0; i < Boxes::kCount; ++i) {
     const auto corner = [&](std::size_t c) {
@@ -139,7 +140,7 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  // a square's rim ends 2 · kRim after the start of the next square's rim
+  // A square's rim ends 2 · kRim after the start of the next square's rim
   const auto first_square = [&](auto from) {
     return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRim)), none));
   };
@@ -147,6 +148,7 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
   for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
+    // Make boxes relative to the rim, enlarge them by the tolerance and clip them to the image.
     left = hn::Add(left, hn::Set(lanes, kRim - kBlur));
     top = hn::Add(top, hn::Set(lanes, kRim - kBlur));
     right = hn::Add(right, hn::Set(lanes, kRim + kBlur));
@@ -158,6 +160,7 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
     top = hn::Max(top, zero);
     right = hn::Min(right, most);
     bottom = hn::Min(bottom, most);
+    // Convert to pixels, relative to the rim and to the last square that the box overlaps.
     const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
     const auto column = last_square(r), row = last_square(b);
     const auto x = hn::ShiftLeft<kSquareBits>(column), y = hn::ShiftLeft<kSquareBits>(row);

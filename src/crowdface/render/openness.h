@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Ambient occlusion of some vertices: the cosine-weighted fraction of the hemisphere above the
+/// Ambient visibility of some vertices: the cosine-weighted fraction of the hemisphere above the
 /// surface that is free of obstacles, 0 … 1. Small between lips, in nostrils and at teeth. Faces of
 /// kind kHidden do not occlude.
 /// \param kinds      #F, or empty: all skin.

@@ -62,8 +62,8 @@ class RayScene {
   /// \param quads   must outlive the scene; every entry < points.size() / 3.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Tree tree = Tree::kForOnce);
-  /// Quads with partly transparent surfaces. \param opacity  called from any thread while the scene
-  /// lives.
+  /// Quads with partly transparent surfaces.
+  /// \param opacity  called from any thread while the scene lives.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Opacity opacity);
   ~RayScene();

@@ -45,7 +45,8 @@ struct TextureLayer {
   std::vector<std::uint32_t> of_face;
 };
 
-/// Colour textures of one head, and maps of its reflection. Faces with kNone keep their own colour.
+/// Colour textures, normal maps and roughness maps of one head. Faces with kNone keep their own
+/// colour.
 struct TextureCoat : TextureLayer {
   /// Slopes from tangent-space normal maps: to the right and upwards.
   TextureLayer slopes = {};

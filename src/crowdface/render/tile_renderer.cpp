@@ -21,9 +21,9 @@ using Vector = Eigen::Vector3f;
 
 // Lengths are in camera space: half the side of the image is 1.
 constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
-// ray offset; softens shadow edges, as light that enters skin does
+// Offset of ray origins. Softens shadow edges, as light that enters skin does.
 constexpr float kThickness = 0.012F;
-// least fraction of the sky's light at hair, which scatters light
+// Least fraction of the sky's light that hair receives, because hair scatters light.
 constexpr float kScattered = 0.2F;
 constexpr float kThrough = 0.8F;  // fraction of light that a thin surface transmits
 
@@ -138,8 +138,10 @@ class Tile {
   }
 
   void render(Rgb8Image& image) {
+    // Few samples in every pixel.
     const PixelPlaces& first = stage_.worn != nullptr ? sampling_.coarse : sampling_.middle;
     look([&](const Pixel&) { return &first; });
+    // More samples where neighbouring pixels differ.
     if (sampling_.fine.count() > 1) {
       for (int y = rim_top_; y < rim_bottom_; ++y) {
         for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = change_at(x, y);
@@ -150,8 +152,10 @@ class Tile {
         return asks ? &sampling_.coarse : nullptr;
       });
     }
+    // Shadow rays.
     ask_key();
     if (stage_.occlusion) ask_sky();
+    // Share the rays between pixels, and shade.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
   }
@@ -197,6 +201,7 @@ class Tile {
     });
     std::vector<std::optional<RayHit>>& hits = memory_.hits;
     stage_.screen.nearest_hits({left_ / kSquare, top_ / kSquare}, outer_, places, hits);
+    // Attachments in front of the face.
     std::vector<std::optional<RayHit>> worn;
     if (stage_.worn != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
