@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// What an age takes of a band's weights.
+/// Returns the fraction of a band's weights that an age moves.
 double share_of(double age, const SamplingOptions& sampling, std::size_t band) {
   return std::abs(age) * (sampling.bands.empty() ? 1 : sampling.bands[band].ageing);
 }

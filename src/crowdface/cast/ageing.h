@@ -6,17 +6,20 @@
 
 namespace crowdface {
 
-/// Moves a face along the detail of heads tagged old (age above 0) or young (below 0), as the paper
-/// does when it carries an older person's detail over to a younger one (Fig. 2): in every region a
-/// share |age| of the weights goes to those heads, evenly, and what was there keeps the rest; of bands
-/// each takes its `ageing` of that. The weights no longer come from a position then, so there is none.
-/// \throws BrokenPrecondition if no head is tagged so.
+/// Ages a face: in every region, a share |age| of the weights moves to the heads tagged old (age
+/// above 0) or young (below 0), in equal parts; the other weights keep the rest. The paper does the
+/// same when it transfers an older person's detail to a younger one (Fig. 2). Each band takes its
+/// `ageing` times this share. The weights no longer correspond to a position, so the positions are
+/// removed.
+///
+/// \throws BrokenPrecondition if no head has the tag.
 void apply_age(CastFace& face, double age, const SamplingOptions& sampling);
 
-/// The face before apply_age, of whom a child takes after: of an age of −1 or 1 nothing is known.
+/// Undoes apply_age, so that children can inherit from the face without its age. A band whose whole
+/// weight was moved (age −1 or 1) cannot be restored; then the band and the face's age stay.
 void take_back_age(CastFace& face, const SamplingOptions& sampling);
 
-/// (1 − t)·a + t·b, head by head.
+/// Returns (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
                                         const std::vector<SourceWeight>& b, double t);
 

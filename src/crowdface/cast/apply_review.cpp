@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// A face that is drawn anew, and how.
+/// A face to redraw, and its review.
 struct Redraw {
   Index face = 0;
   const ReviewMark* mark = nullptr;
@@ -57,12 +57,12 @@ class Redrawing {
         half_median_mm_(0.5 * quartiles(pair_distances(cast.points)).median),
         kinds_(face_kinds(casting)) {}
 
-  /// \return false if no face was found.
+  /// \return  false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
     const auto at = static_cast<std::size_t>(redraw.face);
     const CastFace old = cast_.crowd[at];
     const FamilyCast* family = family_of(cast_, redraw.face);
-    // Relatives are measured apart: a family's own distances hold among them.
+    // The own family is kept apart: within a family, the family's own distances apply.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
@@ -119,7 +119,9 @@ class Redrawing {
   }
 
  private:
-  /// Notes that a face was rejected. \return where it and all that were rejected before it lie.
+  /// Records that a face was rejected.
+  ///
+  /// \return  The points of this face and of all faces rejected in its place before.
   std::vector<FaceSpace::Point> reject(std::size_t face) {
     cast_.rejected.push_back(cast_.crowd[face]);
     std::vector<FaceSpace::Point> points;
@@ -129,9 +131,10 @@ class Redrawing {
     return points;
   }
 
-  /// How far the new face must be from those, to be tried in turn. Where it is bound by a family or by
-  /// what is locked, it may not get as far as asked.
-  /// \param own  those of its family.
+  /// Returns the distances that the new face should keep from the rejected faces, to be tried in
+  /// turn. A family or locked parts may prevent the full distance.
+  ///
+  /// \param own  Points of the face's family.
   std::vector<double> distances_to_rejected(const FamilyCast* family,
                                             const std::vector<FaceSpace::Point>& own,
                                             const ReviewMark& mark) const {
@@ -161,14 +164,14 @@ class Redrawing {
   }
 
   CastFace drawn_face(const CastFace& old, std::uint32_t attempt) const {
-    if (!old.index) {  // hand-written: what it leaves open
+    if (!old.index) {  // hand-written: redraw what it leaves open
       const auto hand = std::ranges::find(casting_.recipes, old.id, &HandRecipe::id);
       return draw_hand_recipe(casting_, *hand, attempt);
     }
     return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
-  /// A part can only stay as it is on the same target.
+  /// Locked parts need the same target, mirroring and asymmetry.
   CastFace with_locked(CastFace face, const CastFace& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {

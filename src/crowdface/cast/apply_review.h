@@ -7,8 +7,10 @@
 
 namespace crowdface {
 
-/// Draws the faces anew that a review rejects, against all others, and notes what it says. All other
-/// faces stay as they are. \throws InvalidInput if it names a face that is not in the crowd.
+/// Redraws the faces that a review rejects, against all other faces, and stores the review's notes.
+/// All other faces stay as they are.
+///
+/// \throws InvalidInput if the review names a face that is not in the crowd.
 void apply_review(const Casting& casting, const FaceJudge& judge, const Review& review,
                   CrowdCast& cast);
 

@@ -22,7 +22,9 @@ Items those(const Items& items, const Wanted& wanted) {
   return found;
 }
 
-/// Only those, if there are any. \return whether there are.
+/// Keeps only the wanted items, if there are any.
+///
+/// \return  Whether there are any.
 template <class Wanted>
 bool narrow(Items& items, const Wanted& wanted) {
   Items found = those(items, wanted);
@@ -31,15 +33,15 @@ bool narrow(Items& items, const Wanted& wanted) {
   return true;
 }
 
-/// Whether a tag speaks of a colour: "brown" or "brown_hair" of brown.
+/// Returns whether a tag describes a colour: "brown" and "brown_hair" describe brown.
 bool says_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
 }
 
-/// How often each item, by name, was given to some faces.
+/// Number of faces that got each item, by the item's name.
 using Turns = std::map<std::string, int>;
 
-/// Leaves the items of which one more is due, by their shares, when the next face has got its own.
+/// Keeps the items that are still below their share if one more face is counted.
 void leave_due(const Turns& turns, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
@@ -60,7 +62,8 @@ void leave_due(const Turns& turns, Items& items) {
 struct KindQuotas {
   std::vector<std::string> words;
   std::vector<double> shares;
-  std::map<int, std::vector<int>> schedules;  ///< of the sampled faces of each group
+  /// by group: which quota each of its sampled faces serves
+  std::map<int, std::vector<int>> schedules;
 
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
 };
@@ -113,7 +116,9 @@ class AttachmentDrawing {
     return draw_.tags[static_cast<std::size_t>(head)];
   }
 
-  /// What somebody with a head's tags may wear. \param colour  whose own this colour is, whatever the tags say.
+  /// Returns the items of a kind that a head's tags allow.
+  ///
+  /// \param colour  The wearer's own colour; items of this colour do not need its tags.
   Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;
@@ -138,13 +143,14 @@ class AttachmentDrawing {
     return next_of(items, face, drawn[1]);
   }
 
-  /// Whom a face takes turns with: others that look like it.
+  /// Returns the name of the set of similar faces that take turns with this face.
   std::string alike(const CastFace& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// One whose turn it is among faces that look alike, and then among all; drawn by shares.
+  /// Chooses among the items that are due, first among similar faces and then among all sampled
+  /// faces, at random by their shares.
   const AttachmentItem* next_of(const Items& items, const CastFace& face, double drawn) const {
     Items next = items;
     if (const auto own = turns_.find(alike(face)); own != turns_.end())
@@ -153,7 +159,9 @@ class AttachmentDrawing {
     return weighted_choice(next, drawn, &AttachmentItem::share);
   }
 
-  /// Leaves what quotas allow. \return whether the face wears any.
+  /// Keeps the items that quotas allow.
+  ///
+  /// \return  Whether the face wears any.
   bool serve_quotas(const std::string& kind, const CastFace& face, double drawn,
                     Items& items) const {
     const auto none = draw_.none.find(kind);
@@ -181,7 +189,7 @@ class AttachmentDrawing {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Leaves what goes with what the face wears already, or else what runs in its family.
+  /// Keeps the items whose colour matches the face's other items, or else its family.
   void match_colours(const std::string& kind, const CastFace& face, const Items& worn,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -211,7 +219,7 @@ class AttachmentDrawing {
     }
   }
 
-  /// Whose tags a parent has; −1 of somebody unknown.
+  /// Returns the head whose tags a parent has; −1 if the parent is unknown.
   Index head_of(const std::string& parent) const {
     const auto face = heads_.find(parent);
     if (face != heads_.end()) return face->second;
@@ -219,7 +227,7 @@ class AttachmentDrawing {
     return head == draw_.heads.end() ? -1 : head - draw_.heads.begin();
   }
 
-  /// Whether nobody but the old may wear what has this colour, such as grey.
+  /// Returns whether only the old may wear items of this colour, such as grey.
   bool is_of_age(const std::string& kind, const std::string& colour) const {
     for (std::size_t head = 0; head < draw_.tags.size(); ++head) {
       if (contains(draw_.tags[head], "old")) continue;
@@ -232,7 +240,8 @@ class AttachmentDrawing {
     return true;
   }
 
-  /// That of what a parent wears; of one who wears none, that of all that it might wear, if it is one.
+  /// Returns the colour that a parent wears. If the parent wears none, returns the colour of all
+  /// items that it may wear, if they have only one.
   std::string colour_of(const std::string& kind, const std::string& parent) const {
     if (const auto found = worn_.find(parent); found != worn_.end()) {
       const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
@@ -247,7 +256,8 @@ class AttachmentDrawing {
     return one && !items.empty() ? items[0]->colour : std::string();
   }
 
-  /// Names in the order of the items, of which each in turn takes away what it excludes.
+  /// Returns the names of the remaining items, in their order, after each item in turn removed the
+  /// items it excludes.
   std::vector<std::string> without_excluded(const Items& worn) const {
     std::vector<bool> left(draw_.items.size(), false);
     for (const AttachmentItem* item : worn) {
@@ -270,15 +280,18 @@ class AttachmentDrawing {
   }
 
   const AttachmentDraw& draw_;
-  std::vector<std::string> kinds_;  ///< as items first have them
+  std::vector<std::string> kinds_;  ///< in the order of their first items
   std::map<std::string, KindQuotas> quotas_;
-  std::vector<std::pair<int, std::uint64_t>> places_;  ///< of sampled faces: group, and which of it
-  std::map<int, std::uint64_t> sizes_;                 ///< of groups
-  std::map<std::string, Items> worn_;                  ///< by face
-  std::map<std::string, Index> heads_;                 ///< whose tags a face has
-  std::map<std::pair<std::string, std::string>, std::string> families_;  ///< colours by kinds
-  std::map<std::string, Turns> turns_;                                   ///< by who is alike
-  Turns all_turns_;                                                      ///< of sampled faces
+  /// of sampled faces: group, and index within the group
+  std::vector<std::pair<int, std::uint64_t>> places_;
+  std::map<int, std::uint64_t> sizes_;  ///< number of sampled faces in each group
+  std::map<std::string, Items> worn_;   ///< by id of the face
+  std::map<std::string, Index> heads_;  ///< by id: the head whose tags the face has
+  /// by family and kind: colour
+  std::map<std::pair<std::string, std::string>, std::string> families_;
+  /// by set of similar faces
+  std::map<std::string, Turns> turns_;
+  Turns all_turns_;  ///< of all sampled faces
 };
 
 }  // namespace
@@ -286,11 +299,13 @@ class AttachmentDrawing {
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected) {
   AttachmentDrawing drawing(draw, groups);
-  std::map<std::string, std::vector<const CastFace*>> before;  // of a redrawn face, by its id
+  // by id: rejected faces, then the final one
+  std::map<std::string, std::vector<const CastFace*>> before;
   for (const CastFace& face : rejected) {
     if (face.index) before[face.id].push_back(&face);
   }
   std::map<std::string, CastFace*> redrawn;
+  // First all faces as they were before any review, so that redrawing changes no other face.
   for (CastFace& face : crowd) {
     const auto found = before.find(face.id);
     if (found == before.end()) {
@@ -301,6 +316,7 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
     found->second.push_back(&face);
     redrawn[face.id] = &face;
   }
+  // Then the replacements, in the order of the reviews.
   std::map<std::string, std::size_t> times;
   for (const CastFace& face : rejected) {
     if (!redrawn.contains(face.id)) continue;

@@ -12,33 +12,39 @@
 
 namespace crowdface {
 
-/// All that may sit on the faces of a crowd.
+/// The attachments that faces of a crowd may wear.
 struct AttachmentDraw {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  std::map<std::string, double> none;  ///< by kind: the share of faces without one
+  std::map<std::string, double> none;  ///< by kind: share of faces that wear none
   HeadTags tags;                       ///< #heads
-  /// By kind, name or colour: the share of sampled faces that wear one, in each group apart. A kind has its
-  /// own or those of some of its names and colours.
+  /// By kind, name or colour: share of each group's sampled faces that wear one. A kind has either
+  /// a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
-  std::vector<std::string> heads = {};  ///< their names: parents may be heads
+  std::vector<std::string> heads = {};  ///< names of the heads: parents may be heads
 };
 
-/// Gives each face of a crowd its attachments, by name, in the order of the items: of each kind at most one,
-/// drawn by the face's own index, or its id if it is not sampled, and by the kind, so that neither later faces
-/// nor other kinds matter; but
-/// - of what has a colour one that what is drawn already has, or else that of a parent or of the family,
-///   is taken where the face may wear some. A child has a parent's colour whatever its own tags say of its
-///   colour; but not that of an old parent, who may be grey, unless it is old itself,
-/// - quotas serve the m-th sampled face of a group whatever else is drawn; one that may not wear what
-///   a quota asks for goes as if it were not asked,
-/// - sampled faces on one head, and the members of a family, take turns: of what those before have had their share of no
-///   more is given, nor, where there is a choice, of what all sampled faces have had theirs of.
-/// Then each in turn takes away what it excludes.
-/// \param crowd     in the order of the plan.
-/// \param groups    of sampled faces 1, 2, …: quota or group, or −1; empty: they are of none.
-/// \param rejected  by reviews, in their order: sampled faces in their places are dressed last, so that nobody
-///                  else changes.
+/// Chooses the attachments of each face: names, in the order of the items, at most one per kind.
+/// Each kind is drawn separately, with random numbers that depend on the face's index (or id, if it
+/// is not sampled) and on the kind only. So later faces and other kinds do not change them.
+/// docs/attachments.md explains the rules:
+///
+/// - Colours: if an item in the chosen set has a colour, later kinds use it where the face may wear
+///   it. Otherwise the colour comes from a parent or from the family. A child may wear a parent's
+///   colour even if its own tags name another colour. Colours that only the old wear (grey) are
+///   inherited by old children only.
+/// - Quotas decide for the m-th sampled face of a group, independently of all other draws. A face
+///   that may not wear what a quota asks for is treated as if there were no quota.
+/// - Turns: sampled faces on one head, and members of one family, skip items that have reached
+///   their share among the earlier of these faces. If several items are left, sampled faces also
+///   skip items that have reached their share among all sampled faces.
+///
+/// At last, each item in turn removes the items it excludes.
+///
+/// \param crowd     In the order of the plan.
+/// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
+/// \param rejected  Faces that reviews rejected, in order. Their replacements are processed last,
+///                  so that no other face changes.
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected = {});
 

@@ -6,16 +6,17 @@
 
 namespace crowdface {
 
-/// What may sit on a face.
+/// An attachment that a face may wear.
 struct AttachmentItem {
   std::string name, kind;
   std::vector<std::string> tags;      ///< only for faces whose typical_head has all of these
-  double share = 1;                   ///< against the others of its kind
-  std::vector<std::string> excludes;  ///< names and kinds of what it does not go with
-  std::string colour = {};            ///< what goes together in one face and runs in families
+  double share = 1;                   ///< relative frequency within its kind
+  std::vector<std::string> excludes;  ///< names and kinds that cannot be worn with this item
+  /// colour shared by the items of a face, and inherited in families
+  std::string colour = {};
 };
 
-/// What an attachment counts for: its kind, name and colour.
+/// Returns whether a word is the item's kind, name or colour.
 inline bool is_called(const AttachmentItem& item, const std::string& word) {
   return item.kind == word || item.name == word || item.colour == word;
 }

@@ -8,12 +8,15 @@
 
 namespace crowdface {
 
-/// Lets no band begin at a higher level than the one before it: bands that were put together from
-/// several recipes, or whose coarser one was written by hand, may. The finer one gives way.
+/// Lowers the levels at which finer bands begin, so that no band begins at a higher level than the
+/// coarser band before it. Needed if bands come from several recipes, or if a coarser one was
+/// written by hand.
 void keep_order(RegionRecipe& region);
 
-/// Gives bands of one face to another, and keeps the order there: the others give way to those.
-/// \param parts  region · #bands + band
+/// Copies bands from one recipe to another and restores the order of levels: the copied bands stay,
+/// and the others change.
+///
+/// \param parts  Bands to copy: region · #bands + band.
 void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe);
 
 }  // namespace crowdface

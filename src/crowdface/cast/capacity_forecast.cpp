@@ -6,10 +6,11 @@
 namespace crowdface {
 namespace {
 
-/// N·C where first fit ended: 1.6 to 6.5 in crowds of 360 to 7,700 faces (docs/casting.md).
+/// Product of N, where first fit ended, and C. It was 1.6 to 6.5 in crowds of 360 to 7,700 faces
+/// (docs/casting.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kFewestPlaced = 256;
-constexpr std::uint64_t kFewestTooNear = 100;  ///< in either stretch
+constexpr std::uint64_t kFewestTooNear = 100;  ///< in the earlier of the two complete stretches
 
 }  // namespace
 

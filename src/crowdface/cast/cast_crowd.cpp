@@ -14,10 +14,10 @@
 namespace crowdface {
 namespace {
 
-/// Faces that are prepared side by side before they are settled one after the other.
+/// Number of faces prepared in parallel before they are settled in order.
 constexpr std::uint64_t kBatch = 64;
 
-/// Faces 1 … count, each against all before it.
+/// Casts faces 1 … count, each against all earlier faces.
 void cast_first_fit(const Casting& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const Kinship& kinship, CrowdSoFar& crowd,
                     const FaceJoined& joined, CrowdCast& result) {
@@ -82,7 +82,7 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJ
   }
   result.crowd = crowd.take_faces();
   result.points = crowd.take_points();
-  so_far.reset();  // its index is as large as the points
+  so_far.reset();  // free the index, which is as large as the points
   if (result.shortfall) return result;
   find_nearest(judge, result);
   for (const Review& review : casting.reviews) {

@@ -7,15 +7,16 @@
 
 namespace crowdface {
 
-/// Casts the crowd: hand-written recipes in their order, then families, then the sampled faces, each
-/// judged before it joins; then the reviews, one after the other. Each face gets its nearest head
-/// and the nearest face that was there before it. Effort is bounded; what cannot be met ends in a
-/// shortfall, not in an exception.
-/// \param joined  called after each sampled face.
+/// Casts a crowd: hand-written recipes in their order, then families, then sampled faces; each is
+/// judged before it joins. Reviews follow, one after the other. Each face records its nearest head
+/// and the nearest face before it. The effort is bounded. If constraints cannot be met, the result
+/// has a shortfall; no exception is thrown.
+///
+/// \param joined  Called after each sampled face.
 /// \throws InvalidInput if a family or a review names a face that is not there.
 CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJoined& joined = {});
 
-/// The nearest head and the nearest face before it, for each face of a crowd.
+/// Finds the nearest head and the nearest earlier face for each face of a crowd.
 void find_nearest(const FaceJudge& judge, CrowdCast& cast);
 
 }  // namespace crowdface

@@ -26,13 +26,13 @@ class ColourDrawing {
     }
   }
 
-  /// Whether colours of the one go with the other's shape.
+  /// Returns whether the colours of one head go with the shape of the other.
   bool alike(Index a, Index b) const {
     return counted_.empty() ||
            counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];
   }
 
-  /// \param who  keeps the draws of others apart
+  /// \param who  Separates the draws of different faces and families.
   std::vector<SourceWeight> drawn(Index typical, std::uint64_t index, std::uint32_t attempt,
                                   const std::string& who) const {
     std::vector<Index> heads;
@@ -59,10 +59,10 @@ class ColourDrawing {
 
  private:
   const ColourDraw& draw_;
-  std::vector<std::vector<std::string>> counted_;  ///< of each head, sorted
+  std::vector<std::vector<std::string>> counted_;  ///< #heads: the tags that must agree, sorted
 };
 
-/// What faces hand down to their children, by their ids.
+/// The colours that parents pass on to children, by id.
 class Parents {
  public:
   Parents(const std::vector<std::string>& heads, const std::vector<CastFace>& crowd)
@@ -95,7 +95,7 @@ void draw_colours(const ColourDraw& draw, std::vector<CastFace>& crowd) {
   for (CastFace& face : crowd) {
     const Index typical = typical_head(face.recipe, draw.tags);
     std::vector<SourceWeight>& colours = face.recipe.colours;
-    if (!colours.empty()) {  // written by hand
+    if (!colours.empty()) {  // given by the recipe
       parents.meet(face);
       continue;
     }

@@ -11,21 +11,24 @@
 
 namespace crowdface {
 
-/// How colours are cast apart from shapes.
+/// Parameters for drawing colours (textures) independently of shapes.
 struct ColourDraw {
   std::uint64_t seed = 1;
-  std::vector<std::string> heads;  ///< their names: parents may be heads
-  HeadTags tags;                   ///< #heads, or none
-  /// In which tags a face's colours must be like its shape: neither or both have each. Nothing: in all.
+  std::vector<std::string> heads;  ///< names of the heads: parents may be heads
+  HeadTags tags;                   ///< #heads, or empty
+  /// Tags on which the head that lends colours and the face's typical head must agree. Empty
+  /// optional: all tags.
   std::optional<std::vector<std::string>> alike;
 };
 
-/// Gives each face colours of its own, Recipe::colours: those of one head, drawn evenly among the heads whose tags are like
-/// those of the face's typical head, and up to half of a second one's. Drawn by the face's own index, or id if it is
-/// not sampled, so that no other face matters. But a family has one complexion: a face of parents has half of
-/// either's, as far as those heads are like itself, and whoever else is of a family has what is drawn for that.
-/// What has colours already keeps them.
-/// \param crowd  in the order of the plan: parents before children.
+/// Gives each face its own colours, Recipe::colours. They mix one head, drawn evenly among the
+/// heads that agree with the face's typical head in their tags, and up to one half of a second such
+/// head. Random numbers depend on the face's index (or id, if it is not sampled) only, so other
+/// faces do not change them. A family shares one complexion: a face with parents gets half of each
+/// parent's colours, as far as those heads agree with its own tags; other members get the colours
+/// drawn for the family. Faces that already have colours keep them.
+///
+/// \param crowd  In the order of the plan: parents before children.
 void draw_colours(const ColourDraw& draw, std::vector<CastFace>& crowd);
 
 }  // namespace crowdface

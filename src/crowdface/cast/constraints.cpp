@@ -61,7 +61,7 @@ std::string full_key(const Constraint& constraint) {
   return concat(constraint.section, '.', constraint.key);
 }
 
-/// The limit with its unit.
+/// Returns the limit with its unit.
 std::string limit_of(const Constraint& constraint, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability) {
   const double limit = constraint.diversity != nullptr ? diversity.*constraint.diversity

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a face must keep to: one row for each constraint, with its key, its limit, and what helps where it cannot be met.
+// The constraints on faces: a table with the key, limit and advice of each.
 #pragma once
 
 #include <algorithm>
@@ -15,51 +15,57 @@
 
 namespace crowdface {
 
-/// Why a candidate was thrown away: the constraint that it breaks.
+/// The constraint that a rejected candidate violates.
 enum class Reason {
   kMinDistance,         ///< too near to another face of the crowd
   kMinDistanceToFaces,  ///< too near to an input head
   kMaxWeight,           ///< one head has too much weight
   kImplausible,         ///< farther from the heads' mean than believable
-  kFlipped,             ///< a part of the skin turned inside out or collapsed
-  kStretched,           ///< a part of the skin stretched too far
-  kIntersecting,        ///< the skin passes through itself where the target's does not
-  kGap,                 ///< skin that nearly touches in the heads parts farther than in any
-  kExposed,             ///< skin shows its back where it passes through other skin
+  kFlipped,             ///< part of the skin is turned inside out or collapsed
+  kStretched,           ///< part of the skin is stretched too far
+  kIntersecting,        ///< the skin intersects itself where the target's does not
+  kGap,                 ///< skin that nearly touches is farther apart than in any head
+  kExposed,             ///< the skin shows its back near an intersection
   kFamily,              ///< among another family, or too far from its own
-  kRejected,            ///< too like the face that a review rejected
+  kRejected,            ///< too similar to a face that a review rejected
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;
 
-/// A constraint, as the user knows it.
+/// A constraint as the user sees it.
 struct Constraint {
   Reason reason;
-  std::string_view section;  ///< of the config
-  std::string_view key;      ///< in that section; also the name in casting.json and logs
-  double DiversityOptions::*diversity = nullptr;          ///< the limit, if it stands there
-  double BelievabilityOptions::*believability = nullptr;  ///< or there
-  std::string_view unit = {};                             ///< of the limit, with a space before it
-  std::string_view broken = {};  ///< what is wrong with a face that breaks it; the key follows
-  /// What a user can change where too few faces meet it, most promising first.
+  std::string_view section;  ///< section of the config
+  std::string_view key;      ///< key in this section; also the name in casting.json and logs
+  /// the limit, if it is a diversity option
+  double DiversityOptions::*diversity = nullptr;
+  /// the limit, if it is a believability option
+  double BelievabilityOptions::*believability = nullptr;
+  /// unit of the limit, preceded by a space
+  std::string_view unit = {};
+  /// what is wrong with a face that violates the constraint; the key follows
+  std::string_view broken = {};
+  /// What users can change if too few faces meet the constraint; most promising first.
   std::span<const std::string_view> advice;
 
-  /// Whether a smaller limit fits more faces.
+  /// Returns whether the limit is a distance, so that a smaller limit fits more faces.
   bool is_distance() const { return diversity != nullptr && unit == " mm"; }
 };
 const Constraint& constraint_of(Reason reason);
 
-/// The config key of the constraint.
+/// Returns the constraint's key in the config.
 inline std::string_view name_of(Reason reason) {
   return constraint_of(reason).key;
 }
-/// "diversity.min_distance, 0.8 mm".
+/// Returns, for example, "diversity.min_distance, 0.8 mm".
 std::string describe(Reason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability);
-/// "nearer to a head than diversity.min_distance_to_faces (0.5 mm)".
+/// Returns, for example, "nearer to a head than diversity.min_distance_to_faces (0.5 mm)".
+///
+/// \pre `reason` is neither kFamily nor kRejected.
 std::string describe_broken(Reason reason, const DiversityOptions& diversity,
                             const BelievabilityOptions& believability);
 
-/// How many candidates were thrown away, by reason.
+/// Number of rejected candidates by reason.
 struct Rejections {
   std::array<std::uint64_t, kReasonCount> count = {};
   void add(Reason reason, std::uint64_t times = 1) {
@@ -72,7 +78,7 @@ struct Rejections {
   std::uint64_t total() const {
     return std::accumulate(count.begin(), count.end(), std::uint64_t{0});
   }
-  /// The reason with most rejections, of equals the first.
+  /// Returns the reason with most rejections; the first of equals.
   Reason most_frequent() const {
     return static_cast<Reason>(std::ranges::max_element(count) - count.begin());
   }

@@ -14,28 +14,29 @@
 
 namespace crowdface {
 
-/// Where casting had to stop.
+/// Where and why casting stopped early.
 struct Shortfall {
-  std::uint64_t reached = 0;  ///< sampled faces that were found
-  Rejections rejections;      ///< why the next one's candidates were thrown away
-  int kind = -1;              ///< which group the next one counts for, or −1
-  std::string family = {};    ///< that could not be cast, if it was one
-  std::string reviewed = {};  ///< the id of a face that could not be drawn anew, if it was one
+  std::uint64_t reached = 0;  ///< number of sampled faces that were found
+  Rejections rejections;      ///< why candidates for the next face were rejected
+  int kind = -1;              ///< group of the next face, or −1
+  std::string family = {};    ///< name of the family that could not be cast, if any
+  std::string reviewed = {};  ///< id of the face that could not be redrawn, if any
 };
 
-/// A crowd that was cast.
+/// A cast crowd.
 struct CrowdCast {
-  std::vector<CastFace> crowd;           ///< recipes, then families, then faces 1 … count
-  std::vector<FaceSpace::Point> points;  ///< of each
-  std::vector<int> kinds;                ///< which group each sampled face is of, or −1
+  std::vector<CastFace> crowd;           ///< recipes, then families, then sampled faces 1 … count
+  std::vector<FaceSpace::Point> points;  ///< #crowd
+  std::vector<int> kinds;                ///< group of each sampled face, or −1
   std::vector<FamilyCast> families;
-  std::vector<CastFace> rejected;  ///< by reviews, in their order; ids as in the crowd
+  std::vector<CastFace> rejected;  ///< faces that reviews rejected, in order; ids as in `crowd`
   Rejections rejections;
   std::optional<Shortfall> shortfall;
 };
 
-/// Told after each sampled face; nothing if empty.
-/// \param thrown  its candidates that were thrown away: many where the crowd is nearly full.
+/// Called after each sampled face; may be empty.
+///
+/// \param thrown  Rejected candidates of this face: many if the crowd is nearly full.
 using FaceJoined = std::function<void(const Rejections& thrown)>;
 
 }  // namespace crowdface

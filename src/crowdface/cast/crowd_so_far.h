@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// The faces that are settled, in the order of the plan, and where they lie.
+/// The faces cast so far, in the order of the plan, and their points in the face space.
 class CrowdSoFar {
  public:
   explicit CrowdSoFar(Index dimensions) : index_(dimensions) {}
@@ -20,14 +20,15 @@ class CrowdSoFar {
     points_.push_back(std::move(point));
   }
   Index size() const { return index_.size(); }
-  /// What comes from now on is sampled.
+  /// Marks the beginning of the sampled faces: all faces added later are sampled.
   void begin_sampled() { first_sampled_ = size(); }
-  /// Candidates compete by their distance from the faces from here on, so that a recipe or a family
-  /// more does not change which of them wins (though all faces must be far enough from all).
+  /// Candidates compete by their distance from the sampled faces only, so that an additional recipe
+  /// or family does not change which candidate wins. (All faces must still be far enough from all
+  /// others.)
   Index first_sampled() const { return first_sampled_; }
   const std::vector<CastFace>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
-  /// Gives the faces, and where they lie, away; nothing may be asked afterwards.
+  /// Move the faces and their points out. No other member may be called afterwards.
   std::vector<CastFace> take_faces() { return std::move(faces_); }
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
   const FacePointIndex& index() const { return index_; }

@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// distance(i, j) for all j < i < count.
+/// Returns distance(i, j) for all j < i < count.
 template <class Distance>
 std::vector<double> pairwise(std::size_t count, const Distance& distance) {
   std::vector<double> distances(count * (count - (count > 0 ? 1 : 0)) / 2);

@@ -8,17 +8,18 @@
 
 namespace crowdface {
 
-/// How values are spread, in order.
+/// Count, extremes and quartiles of a set of values.
 struct Quartiles {
   std::uint64_t count = 0;
   double min = 0, lower = 0, median = 0, upper = 0, max = 0;
 };
 Quartiles quartiles(std::vector<double> values);
 
-/// The distances between all pairs of faces; of more faces than 1500 those of every so-many-th.
+/// Returns the distances between all pairs of faces. Crowds of more than 1500 faces are subsampled
+/// evenly.
 std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points);
 
-/// The same over one region, of at most 300 faces.
+/// Returns the distances over one region, between all pairs of at most 300 faces.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points);
 

@@ -15,14 +15,15 @@
 namespace crowdface {
 namespace {
 
-/// Numbers that one position may take.
+/// Number of random lanes reserved for one position.
 constexpr std::uint32_t kLanesOfPosition = 64;
-/// A position that gives one head too much weight is drawn again so often at most, and each time
-/// the pull away from its anchor may be that much more.
+/// If one head has too much weight at a position, the position is drawn again, at most
+/// kPositionRetries times. Each time, the largest step away from the anchor grows by
+/// kFartherEachTime.
 constexpr std::uint32_t kPositionRetries = 20;
 constexpr double kFartherEachTime = 0.1;
 
-/// Where the numbers of one face come from: its own key, whatever else is drawn.
+/// Random numbers of one face. They depend only on its key and their purpose.
 class FaceDraws {
  public:
   FaceDraws(std::uint64_t seed, const DrawKey& key) : seed_(seed), key_(key) {}
@@ -45,8 +46,9 @@ class FaceDraws {
   const DrawKey& key_;
 };
 
-/// Uniform in the unit disc, by drawing from the square until it hits: no sine that a plan could
-/// depend on. Misses 64 times once in 10⁴³ faces; then the centre.
+/// Draws a uniform point in the unit disc by rejection from the square. (Without sine or cosine,
+/// whose bits depend on the library.) The probability of 64 misses is below 10⁻⁴²; then returns the
+/// centre.
 PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::uint32_t first) {
   for (std::uint32_t lane = 0; lane < 64; ++lane) {
     const auto [u, v] = draws.pair("position", region, first + lane);
@@ -56,7 +58,7 @@ PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::
   return PlanePoint::Zero();
 }
 
-/// Uniform by area in the convex hull of the sources' anchors.
+/// Draws a uniform point in the convex hull of the sources' anchors.
 PlanePoint draw_in_hull(const Casting& casting, const std::vector<Index>& sources,
                         const FaceDraws& draws, const std::string& region, std::uint32_t first) {
   std::vector<PlanePoint> anchors;
@@ -68,8 +70,8 @@ PlanePoint draw_in_hull(const Casting& casting, const std::vector<Index>& source
   return point_in_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
-/// \param retry  how many positions of this draw gave one head too much weight; the later ones go
-///               farther from its anchor.
+/// \param retry  Number of positions drawn before at which one head had too much weight. Later
+///               positions are farther from its anchor.
 PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
                          const std::vector<Index>& sources, Index target, const FaceDraws& draws,
                          const std::string& region, std::uint32_t retry) {
@@ -129,9 +131,9 @@ double largest_weight(const BandRecipe& band) {
   return largest;
 }
 
-/// What a band is drawn from, where its own values go before those of its region.
+/// What a band is drawn from; the band's own values override its region's.
 struct BandDraw {
-  std::string name;  ///< of its region, and of the band but for the first
+  std::string name;  ///< name of the region, and of the band except the first
   std::size_t band = 0;
   RegionSampling sampling;
   HandRecipe::Band hand;
@@ -159,7 +161,7 @@ BandDraw band_draw(const Casting& casting, const SamplingOptions& all, std::size
   return draw;
 }
 
-/// Draws what a hand-written recipe leaves open of a band; a sampled face leaves everything open.
+/// Draws what a hand-written recipe leaves open of a band; for a sampled face, everything.
 BandRecipe draw_band(const Casting& casting, const FaceKind& kind, Index target,
                      const FaceDraws& draws, const BandDraw& draw) {
   const SamplingOptions& all = *kind.sampling;

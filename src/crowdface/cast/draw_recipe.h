@@ -15,17 +15,18 @@
 
 namespace crowdface {
 
-/// What turns a smoothness into iterations on this face set.
+/// Converts smoothness to smoothing iterations for a set of heads.
 struct LevelScale {
   OperatorKind kind = OperatorKind::kUmbrella;
-  std::uint64_t max_level = 1;  ///< L_max, what smoothness 1 stands for
-  double edge_length_mm = 1;    ///< rms edge length of the skin, averaged over the face set
+  std::uint64_t max_level = 1;  ///< L_max: iterations at smoothness 1
+  /// root mean square edge length of the skin, averaged over the heads
+  double edge_length_mm = 1;
 };
 
-/// All that casting needs to know beside the face space.
+/// All inputs of casting except the face space.
 struct Casting {
-  std::string name;         ///< the crowd's
-  std::uint64_t count = 0;  ///< sampled faces
+  std::string name;         ///< of the crowd
+  std::uint64_t count = 0;  ///< number of sampled faces
   std::uint64_t seed = 1;
   std::vector<PlanePoint> anchors;        ///< #heads
   std::vector<std::string> region_names;  ///< "all" if there are no regions
@@ -35,47 +36,50 @@ struct Casting {
   LevelScale scale;
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
-  std::vector<Review> reviews = {};  ///< one after the other
+  std::vector<Review> reviews = {};  ///< applied one after the other
   std::vector<Group> groups = {};    ///< of sampled faces
-  HeadTags tags = {};                ///< #heads, or none
+  HeadTags tags = {};                ///< #heads, or empty
 };
 
-/// What a face is drawn from: the numbers of the crowd or of a group, and what its target may be.
+/// What a face is drawn from: the parameters of the crowd or of a group, and the possible targets.
 struct FaceKind {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
-  /// By bands, who lends in place of those that sampling names; empty, or empty for a band: as there.
+  /// By band, the heads that lend detail instead of those in `sampling`. If empty, or empty for a
+  /// band, those in `sampling` are used.
   std::vector<std::vector<Index>> sources = {};
 };
-/// Heads that lend to a band of such a face.
+/// Returns the heads that lend detail to a band of such a face.
 const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band);
-/// A face of that group, of none: by the numbers of the crowd.
+/// Returns the parameters of a group's faces; without group, those of the crowd.
 FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group = std::nullopt);
 
-/// Whole iterations of a smoothness: the nearest to smoothness·L_max.
+/// Returns smoothness · L_max, rounded to whole iterations.
 std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
 
-/// The id of sampled face `index`: the crowd's name and at least four digits.
+/// Returns the id of sampled face `index`: the crowd's name and at least four digits.
 std::string face_id(const std::string& crowd, std::uint64_t index);
 
-/// Whose numbers are drawn: each combination has its own, whatever else is drawn.
+/// Key of a face's random numbers. Each combination has independent numbers.
 struct DrawKey {
   std::uint64_t index = 0;    ///< of the face, from 1
-  std::uint32_t attempt = 0;  ///< draws of this face thrown away before
-  std::string who = {};       ///< empty for a sampled face; keeps the draws of others apart
+  std::uint32_t attempt = 0;  ///< number of rejected draws of this face before
+  std::string who = {};       ///< empty for a sampled face; separates the draws of other faces
 };
 
-/// Draws what `hand` leaves open; a sampled face leaves everything open. A pure function of the
-/// arguments, so that a face is the same whatever the count or the order.
+/// Draws everything that `hand` leaves open; for a sampled face, that is everything. A pure
+/// function of its arguments, so a face does not depend on the crowd's size or on the order of
+/// draws.
 CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
                      const FaceKind& kind);
 
-/// Attempt `attempt` at sampled face `index` (from 1).
+/// Draws attempt `attempt` at sampled face `index` (from 1).
 CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
                    const FaceKind& kind);
 
-/// A hand-written recipe; what it leaves open is drawn under its own name.
+/// Completes a hand-written recipe. Random numbers depend on the recipe's id.
+///
 /// \throws BrokenPrecondition if its weights cannot be normalised.
 CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand,
                           std::uint32_t attempt = 0);

@@ -12,10 +12,11 @@ namespace crowdface {
 namespace {
 
 constexpr int kCountHalvings = 7;
-/// A set is told from the pool only while the pool is many times its size.
+/// The pool must be at least this many times as large as a set.
 constexpr std::uint64_t kPoolPerFace = 5;
 
-/// How many of the pool, in order, first fit keeps at this distance; it stops at `enough`.
+/// Returns how many candidates of the pool, in order, first fit keeps at this distance. Stops at
+/// `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
   FacePointIndex kept(pool.points[0].as_built.size());
   for (const FaceSpace::Point& point : pool.points) {
@@ -30,13 +31,13 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
-  // Groups would need a pass for each; capacity is about the faces there are.
+  // Groups would need one pass each; the estimate ignores them.
   Casting free = casting;
   free.groups.clear();
   const CandidatePool pool = draw_pool(free, judge, face_kinds(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
-  std::vector<double> closest;  // of the first n picked
+  std::vector<double> closest;  // closest pair of the first n picks
   std::uint64_t most = 0;
   for (const std::uint64_t count : counts) {
     if (count * kPoolPerFace <= pool.faces.size()) most = std::max(most, count);
@@ -52,6 +53,7 @@ std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJud
     points.pick(pick.candidate);
     closest.push_back(closest.empty() ? pick.mm : std::min(closest.back(), pick.mm));
   }
+  // Find the largest distance for first fit by bisection.
   std::vector<EstimateRow> rows;
   for (const std::uint64_t count : counts) {
     if (count < 2 || count > closest.size()) continue;

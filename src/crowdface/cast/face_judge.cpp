@@ -52,7 +52,7 @@ std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
 
 std::optional<Reason> FaceJudge::closely(const Recipe& whole) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
-  Recipe recipe = whole;  // its mirror image has what it has
+  Recipe recipe = whole;  // a mirrored face has the same defects
   recipe.mirrored = false;
   const Positions samples = sample_face(space_.sampled(), recipe);
   std::optional<ProxySkin::Target> mixture;

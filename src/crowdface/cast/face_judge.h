@@ -12,30 +12,35 @@
 
 namespace crowdface {
 
-/// Which limit a face's skin goes beyond; nothing if it keeps all.
+/// Returns the first limit that a face's skin exceeds; nothing if it exceeds none.
 std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const SkinDefects& skin);
 
-/// Builds the whole mesh of a recipe and compares its skin with the target's; from any thread.
+/// Builds the whole mesh of a recipe and compares its skin with the target's. Must be callable from
+/// any thread.
 using MeshDefects = std::function<SkinDefects(const Recipe&)>;
 
-/// Judges a candidate by itself, whatever else is in the crowd.
+/// Judges a candidate by itself, independently of the crowd.
 class FaceJudge {
  public:
-  /// \param skin    judges closely, by the samples; none: nothing is judged by its shape.
-  /// \param meshes  looked at besides, if given, where the samples find nothing.
+  /// \param skin    Coarse skin for close checks. Null: shapes are not checked.
+  /// \param meshes  If given, also checks whole meshes of candidates that pass the coarse check.
   FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
             const BelievabilityOptions& believability, const ProxySkin* skin = nullptr,
             MeshDefects meshes = {});
 
-  /// What can be told from the recipe and its place, in microseconds: weights, the distance from the
-  /// input heads, plausibility. \return why it will not do; nothing if it will.
+  /// Checks what the recipe and its point tell, in microseconds: weights, distance from the input
+  /// heads, plausibility.
+  ///
+  /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> at_a_glance(const Recipe& recipe, const FaceSpace::Point& point) const;
 
-  /// What only the shape of the skin tells: flips, stretch, intersections. A millisecond by the
-  /// samples, a tenth of a second by a mesh of 28,000 triangles.
+  /// Checks the shape of the skin: flips, stretch, intersections. Takes a millisecond on the
+  /// samples, a tenth of a second on a mesh of 28,000 triangles.
+  ///
+  /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> closely(const Recipe& recipe) const;
 
-  /// Where faces may be mirrored, the mirror image of a head is as near to somebody as the head itself.
+  /// Returns the nearest head. If faces may be mirrored, mirror images of heads count as the head.
   FacePointIndex::Nearest nearest_head(const FaceSpace::Point& point) const {
     FacePointIndex::Nearest nearest = heads_.nearest(point);
     nearest.face %= space_.head_count();

@@ -8,12 +8,13 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kNewest = 2048;  ///< as fast one after the other as in a tree
+/// searching this many points in order is as fast as searching a tree
+constexpr Index kNewest = 2048;
 constexpr std::size_t kLeaf = 2 * PointBlocks::kLanes;
 
 }  // namespace
 
-/// The leading coordinates of the points that become a tree, and their order in it.
+/// The points of a new tree, their leading coordinates, and their order in the tree.
 struct PointTree::Building {
   std::vector<std::array<float, LeadingBox::kDimensions>> leading;
   std::vector<std::pair<const PointBlocks*, Index>> sources;
@@ -73,7 +74,7 @@ std::int32_t PointTree::build(Building& building, std::size_t begin, std::size_t
         static_cast<std::int32_t>((end - begin + PointBlocks::kLanes - 1) / PointBlocks::kLanes);
     return at;
   }
-  // Leaves begin with whole blocks.
+  // Split at a multiple of the leaf size, so that each leaf begins with a whole block.
   const std::size_t middle = begin + std::max(std::size_t{1}, (end - begin) / 2 / kLeaf) * kLeaf;
   std::nth_element(first, building.order.begin() + static_cast<std::ptrdiff_t>(middle), last,
                    [&](auto a, auto b) {
@@ -100,6 +101,7 @@ void PointTree::search(const std::vector<float>& query, Index begin, Index end, 
 void PointTrees::add(const Eigen::VectorXf& point) {
   newest_.add(size_++, newest_.padded(point).data());
   if (newest_.size() < kNewest) return;
+  // Merge the newest points with all trees that are not larger.
   std::vector<const PointBlocks*> joined = {&newest_};
   Index count = newest_.size();
   std::size_t kept = trees_.size();

@@ -13,7 +13,8 @@
 
 namespace crowdface {
 
-/// A k-d tree (Friedman, Bentley & Finkel 1977) over the leading coordinates of points that stay.
+/// A k-d tree (Friedman, Bentley & Finkel 1977) over the leading coordinates of a fixed set of
+/// points.
 class PointTree {
  public:
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
@@ -24,13 +25,14 @@ class PointTree {
 
   struct Node {
     LeadingBox box;
-    Index least = 0, greatest = 0;       ///< numbers of its points
-    std::int32_t left = -1, right = -1;  ///< −1: a leaf
-    std::int32_t block = 0, blocks = 0;  ///< of a leaf
+    Index least = 0, greatest = 0;       ///< smallest and largest number of its points
+    std::int32_t left = -1, right = -1;  ///< −1: leaf
+    std::int32_t block = 0, blocks = 0;  ///< first block and number of blocks; leaves only
   };
-  /// Visits the blocks of leaves, of two children first those of the one that is nearer to the query.
-  /// \param wanted  (squared distance, node) whether to look into a node.
-  /// \param use     takes the number of a block.
+  /// Visits the blocks of leaves; of two children, the one nearer to the query first.
+  ///
+  /// \param wanted  (squared distance, node) → whether to visit the node.
+  /// \param use     Called with the number of each block.
   template <class Wanted, class Use>
   void visit(const std::vector<float>& query, const Wanted& wanted, const Use& use,
              std::size_t at = 0) const {
@@ -57,30 +59,32 @@ class PointTree {
   std::vector<Node> nodes_;
 };
 
-/// Points that can be asked which of them is nearest, and that grow: trees whose sizes double, so that
-/// a point is moved into another tree a logarithmic number of times (Bentley & Saxe 1980), and the
-/// newest points beside them.
+/// A growing set of points with nearest-point queries: trees whose sizes double, so that each point
+/// moves to a larger tree a logarithmic number of times (Bentley & Saxe 1980), and a list of the
+/// newest points.
 class PointTrees {
  public:
   explicit PointTrees(Index dimensions) : dimensions_(dimensions), newest_(dimensions) {}
 
-  /// Their numbers count from 0.
+  /// Adds a point. Points are numbered from 0.
   void add(const Eigen::VectorXf& point);
   Index size() const { return size_; }
-  /// The nearest of points [begin, end) whose squared distance is below `limit`; of equally near
-  /// ones the first. The bits do not depend on what else is stored.
-  /// \param enough  a squared distance, not above the limit: the search ends with any point that is nearer.
+  /// Returns the nearest of the points [begin, end) with a squared distance below `limit`; of
+  /// equally near points, the first. The result's bits do not depend on the other points.
+  ///
+  /// \param enough  Squared distance, at most `limit`: the search ends at any point nearer than
+  ///                this.
   NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
                        double enough = 0) const;
 
  private:
   Index dimensions_;
   Index size_ = 0;
-  std::vector<PointTree> trees_;  ///< of older points first, each larger than the next
+  std::vector<PointTree> trees_;  ///< older points first; each tree is larger than the next
   PointBlocks newest_;
 };
 
-/// Faces that can be asked which of them is nearest.
+/// A set of faces with nearest-face queries.
 class FacePointIndex {
  public:
   explicit FacePointIndex(Index dimensions) : as_built_(dimensions), unit_(dimensions) {}
@@ -89,17 +93,19 @@ class FacePointIndex {
   Index size() const { return as_built_.size(); }
 
   struct Nearest {
-    Index face = -1;  ///< -1: none within the limit
+    Index face = -1;  ///< −1: none within the limit
     double mm = HUGE_VAL;
   };
-  /// The nearest of the first `end` faces (of all, if less than 0), if it is nearer than `limit_mm`.
-  /// \param enough_mm  the search ends with any face that is nearer.
+  /// Returns the nearest of the faces [begin, end) if it is nearer than `limit_mm`.
+  ///
+  /// \param end        If negative, the number of faces.
+  /// \param enough_mm  The search ends at any face nearer than this.
   Nearest nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
                   Index end = -1, double enough_mm = 0) const;
 
  private:
   PointTrees as_built_, unit_;
-  bool extrapolated_ = false;  ///< whether any face differs from its unit variant
+  bool extrapolated_ = false;  ///< whether any face differs from its version with factors of 1
 };
 
 }  // namespace crowdface

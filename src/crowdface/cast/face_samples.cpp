@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kTrajectorySteps = 63;
 
-/// How densely each vertex is to be sampled; sums to one.
+/// Returns the sampling density of each vertex; sums to one.
 std::vector<double> sampling_density(const Topology& topology, const Components& components,
                                      const Positions& mean, Axis front) {
   const std::vector<double> face = face_areas(topology, components, mean, FaceArea::kFront, front);
@@ -33,8 +33,8 @@ std::vector<double> sampling_density(const Topology& topology, const Components&
   return density;
 }
 
-/// Vertices along a curve through all of space (Morton 1966), so that neighbours in the order are
-/// mostly neighbours in space.
+/// Returns the vertices along a space-filling curve (Morton 1966), so that neighbours in the order
+/// are mostly neighbours in space.
 std::vector<std::uint32_t> order_along_curve(const Positions& mean) {
   constexpr std::uint64_t kCells = 1 << 16;
   const Eigen::RowVector3d low = mean.colwise().minCoeff();
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> order_along_curve(const Positions& mean) {
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count) {
   const std::vector<double> density = sampling_density(topology, components, mean, front);
-  // Systematic sampling: one step along the summed density, one sample.
+  // Systematic sampling: one sample per step along the cumulative density.
   const double step = 1 / static_cast<double>(count);
   FaceSamples samples;
   double sum = 0, next = 0.5 * step;
@@ -72,7 +72,7 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
     sum += density[i];
     if (density[i] == 0 || sum < next) continue;
     samples.push_back(i);
-    while (next <= sum) next += step;  // a vertex is taken once, however large its share
+    while (next <= sum) next += step;  // a vertex is taken once, however large its density
   }
   std::sort(samples.begin(), samples.end());
   return samples;

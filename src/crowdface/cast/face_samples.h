@@ -11,43 +11,47 @@
 
 namespace crowdface {
 
-/// Vertices at which faces are compared and judged without being built.
+/// Vertices at which faces are compared and judged without building meshes.
 using FaceSamples = std::vector<std::uint32_t>;
 
-/// Samples spread over the skin (the largest component): half of them by area over its front half,
-/// where the face is; the others over all of it, by area and by vertices, so that lips and lids,
-/// which are small but finely meshed, get their share.
+/// Chooses samples on the skin (the largest component): half by area over its front half, where the
+/// face is, a quarter by area and a quarter by vertices over the whole skin. So lips and lids,
+/// which are small but finely meshed, get enough samples.
+///
 /// \param mean   #V by 3, the mean head.
-/// \param count  how many; fewer if the skin has fewer vertices.
+/// \param count  Number of samples. The skin may have too few vertices; then there are fewer
+///               samples.
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count);
 
-/// The samples and those on the other side of the head that are vertices, ascending.
+/// Returns the samples and their mirror partners that are vertices, ascending.
 FaceSamples with_partners(const FaceSamples& samples, const MirrorMap& mirror);
-/// The samples, and after them all other vertices whose positions their mirror images are made of.
+/// Returns the samples, followed by all other vertices that determine the positions of their mirror
+/// images.
 FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror);
 
-/// Levels at which trajectories are kept: round(L_max·(j/63)²), each once.
+/// Returns the levels at which trajectories are stored: round(L_max·(j/63)²), without duplicates.
 std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level);
 
-/// How a head's samples move under smoothing: row l holds S_{L_l} x − x at all samples, three
-/// numbers each, for the levels of `trajectory_levels`.
+/// The displacements of a head's samples under smoothing, #levels by 3·#samples. Row l holds
+/// S_{L_l} x − x for the l-th level of `trajectory_levels`.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The trajectory of one head, from what the filter says at the nodes.
+/// Computes the trajectory of a head from the filter's displacements at the nodes.
 Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                              const NodeFields& fields, const FaceSamples& samples);
 
-/// A row of a trajectory and how much of it a level takes.
+/// A row of a trajectory, and its factor.
 struct LevelTerm {
   Index row = 0;
   double factor = 0;
 };
 
-/// How any level is put together from the rows of a trajectory: between two stored levels linear in
-/// √L, in which trajectories are nearly straight. This is the only place that knows how levels are
-/// represented; all of casting goes through it.
-/// \param levels  those of the rows, ascending.
+/// Returns the combination of trajectory rows for any level. Between stored levels the
+/// interpolation is linear in √L, in which trajectories are nearly straight. This is the only
+/// function that knows how levels are represented; all of casting uses it.
+///
+/// \param levels  Levels of the rows, ascending.
 std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level);
 
 }  // namespace crowdface

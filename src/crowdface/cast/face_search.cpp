@@ -15,8 +15,8 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)) {}
 
-/// Whether it is far enough from all faces. How far it is from the nearest is found out only as far as
-/// that decides whether it is the farthest of the candidates.
+/// Returns whether a candidate is far enough from all faces. Its distance to the nearest face is
+/// computed only as exactly as needed to decide whether it is the farthest candidate.
 bool FaceSearch::meet_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.index().nearest(candidate.point, least).face >= 0) return false;
@@ -33,7 +33,7 @@ bool FaceSearch::meet_crowd(Candidate& candidate, const CrowdSoFar& crowd) const
   return true;
 }
 
-/// Draws until there are as many candidates as asked for, or no attempts left.
+/// Draws until there are enough candidates, or no attempts left.
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
     Candidate candidate;
@@ -50,7 +50,7 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   compared_ = crowd.size();
 }
 
-/// Faces have joined the crowd since the candidates were drawn.
+/// Compares the candidates with faces that joined the crowd after they were drawn.
 void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
   if (compared_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
@@ -65,7 +65,7 @@ void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
   compared_ = crowd.size();
 }
 
-/// Of equally far ones the one drawn first.
+/// Returns the farthest candidate; of equally far ones, the one drawn first.
 FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
@@ -91,7 +91,7 @@ void FaceSearch::judge_closely(Candidate& candidate) const {
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
   draw_candidates(crowd);
-  if (!candidates_.empty()) judge_closely(farthest(crowd));  // most likely the one
+  if (!candidates_.empty()) judge_closely(farthest(crowd));  // most likely the one to be chosen
 }
 
 std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,

@@ -11,28 +11,29 @@
 
 namespace crowdface {
 
-/// The search for one face: draws candidates, throws away those that will not do, and settles on
-/// the one farthest from the crowd (Mitchell 1991, best-candidate sampling; with one candidate:
-/// the first that is far enough). What it finds depends on the crowd that it is settled against and
-/// on its own draws alone, not on when it was prepared.
+/// The search for one face: draws candidates, rejects those that violate a constraint, and chooses
+/// the one farthest from the crowd (best-candidate sampling, Mitchell 1991; with one candidate, the
+/// first that is far enough). The result depends only on the crowd passed to `settle` and on the
+/// search's own draws, not on the crowd passed to `prepare`.
 class FaceSearch {
  public:
-  /// Draws attempt number n. Must be a pure function.
+  /// Draws attempt number `attempt`. Must be a pure function.
   using Draw = std::function<CastFace(std::uint32_t attempt)>;
-  /// One more reason to refuse a place, given the crowd; nothing if there is none.
+  /// An additional check of a candidate's point; returns why the point is rejected, or nothing.
   using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
   FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
              std::uint32_t first_attempt = 0);
 
-  /// Draws candidates ahead, against the crowd as it is now. May run beside others.
+  /// Draws candidates in advance, against the current crowd. Different searches may run in
+  /// parallel.
   void prepare(const CrowdSoFar& crowd);
 
   struct Found {
     CastFace face;
     FaceSpace::Point point;
   };
-  /// The face, against the crowd as it is now; nothing once all attempts are used up.
+  /// Returns the face chosen against the current crowd; nothing if all attempts are used up.
   std::optional<Found> settle(const CrowdSoFar& crowd, const Refuses& refuses = {});
 
   const Rejections& rejections() const { return rejections_; }
@@ -41,9 +42,9 @@ class FaceSearch {
   struct Candidate {
     CastFace face;
     FaceSpace::Point point;
-    double nearest_mm = HUGE_VAL;  ///< from the nearest face; if not known, at most
+    double nearest_mm = HUGE_VAL;  ///< distance to the nearest face, or an upper bound of it
     bool known = true;
-    bool judged = false;  ///< closely
+    bool judged = false;  ///< whether `closely` was called
     std::optional<Reason> broken = std::nullopt;
   };
 
@@ -58,7 +59,7 @@ class FaceSearch {
   const DiversityOptions& diversity_;
   std::size_t wanted_;
   std::uint32_t next_attempt_, last_attempt_;
-  Index compared_ = 0;  ///< faces of the crowd that the candidates were compared with
+  Index compared_ = 0;  ///< number of faces that the candidates were compared with
   std::vector<Candidate> candidates_;
   Rejections rejections_;
 };

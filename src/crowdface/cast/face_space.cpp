@@ -13,11 +13,11 @@
 namespace crowdface {
 namespace {
 
-/// What a basis may leave of a field, rms over the face in millimetres.
+/// Largest remainder of a field outside the basis: rms over the face in millimetres.
 constexpr double kFieldTolerance = 0.004;
 constexpr Index kMostFunctions = 400;  ///< for each side
-/// What the main directions may leave of a face; what they leave of each still counts as one more
-/// coordinate.
+/// Largest remainder of a training face outside the principal directions, in millimetres. The
+/// length of a face's remainder is an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
 constexpr Index kMostDirections = 192;  ///< for each side
 constexpr std::uint64_t kTrainingFaces = 1024;
@@ -33,8 +33,8 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 }  // namespace
 
-/// Which rows hold what: the mean head, each head's deviation, then the fields of regions and heads,
-/// mode by mode.
+/// The order of the function rows: the mean head, each head's deviation from it, then the fields by
+/// region and head, mode by mode.
 struct FaceSpace::FunctionRows {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
@@ -88,8 +88,8 @@ void FaceSpace::choose_counting(const std::vector<double>& weights) {
   }
 }
 
-/// Few directions span the levels of all heads together; fields are made for those alone. (Rows: the
-/// levels; columns: heads, coordinates, samples, times the samples' roots.)
+/// Finds a few modes that span the levels of all heads together; fields are computed for the modes
+/// only. Rows are levels; columns are heads, coordinates and samples, scaled by the samples' √w.
 SpanBasis FaceSpace::level_modes() const {
   const Index heads = head_point_count(), size = roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
@@ -109,7 +109,8 @@ SpanBasis FaceSpace::level_modes() const {
   return span_basis(std::move(levels), kFieldTolerance, level_count);
 }
 
-/// A scalar function on the samples, less its mean over the face, which translation takes away.
+/// Writes a scalar function on the samples, minus its mean over the face. Alignment removes the
+/// mean anyway.
 template <class Value>
 void FaceSpace::put_function(const Value& value, float* row) const {
   double mean = 0;
@@ -121,9 +122,10 @@ void FaceSpace::put_function(const Value& value, float* row) const {
   for (Index i = 0; i < roots_.size(); ++i) row[i] -= static_cast<float>(mean) * roots_[i];
 }
 
-/// The functions that faces are sums of; three rows, x, y and z, for each of them.
-/// \param peaks  of the modes: a mode's own length is one, so its rows are scaled to what the largest
-///               level takes of them.
+/// Returns all functions that faces are sums of; three rows (x, y, z) for each.
+///
+/// \param peaks  #modes: largest coefficient of each mode at any level. Modes have unit length, so
+///               their rows are scaled by this.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
   const Index size = roots_.size(), regions = heads_.alpha.cols();
@@ -144,7 +146,7 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
       for (Index c = 0; c < 3; ++c) {
         const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
         put_function(
-            [&](Index i) {  // the roots are in the mode already
+            [&](Index i) {  // the mode already contains √w
               return alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
                      static_cast<double>(roots_[i]);
             },
@@ -156,10 +158,11 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
   return functions;
 }
 
-/// Every face is a sum of the heads and of their smoothed-away fields under the masks. Orthonormal
-/// scalar functions that span all of those turn the samples of a face into #P by 3 numbers, in
-/// which rotations and distances are what they are at the samples, and the centre is the origin.
-/// \return those functions, #P by #S
+/// Every face is a sum of the heads and of their removed detail, times the masks. Orthonormal
+/// scalar functions that span all of these represent a face by #P by 3 numbers. Rotations and
+/// distances of these equal those on the samples, and the centre is the origin.
+///
+/// \return  These functions, #P by #S.
 FloatRows FaceSpace::find_functions() {
   const SpanBasis modes = level_modes();
   tables_.levels = modes.coordinates;
@@ -214,7 +217,7 @@ FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapo
          static_cast<float>(w) * shape_in_side(recipe, extrapolation, 1);
 }
 
-/// The face before it is mirrored, or all of its mirror image.
+/// Returns the face before it is mirrored (side 0), or its whole mirror image (side 1).
 FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Extrapolation extrapolation,
                                           Index side) const {
   const Index first = side * head_count();
@@ -235,7 +238,7 @@ FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Extrapolation ex
   return shape;
 }
 
-/// The shape turned onto the mean head, less the mean head.
+/// Returns the shape rotated onto the mean head, minus the mean head.
 std::vector<float> FaceSpace::aligned(const Shape& shape) const {
   std::vector<double> covariance(9, 0.0);
   for (Index p = 0; p < shape.rows(); ++p) {
@@ -282,7 +285,8 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
-  // How far the face is from the directions' span: |a| − |b| of it is at most |a − b|.
+  // Distance of the face from the span of the directions. The difference of two such distances is
+  // at most the distance of the two remainders.
   const double rest =
       fixed_dot(at.data(), at.data(), at.size()) - fixed_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
@@ -323,13 +327,14 @@ void FaceSpace::find_region_shares() {
   }
 }
 
-/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), carried over to the main directions
-/// once: with the basis' values at the samples G_k = U diag(α_k) Uᵀ on the functions, then V G_k Vᵀ.
+/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), transformed to the principal
+/// directions: with the values of the basis at the samples, G_k = U diag(α_k) Uᵀ on the functions,
+/// then V G_k Vᵀ.
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
   const FloatRows& directions = tables_.directions;
   const Index functions = basis.rows(), rank = directions.rows();
   for (Index k = 0; k < heads_.alpha.cols(); ++k) {
-    FloatRows masked = basis;  // its values hold √w_s
+    FloatRows masked = basis;  // its values contain √w_s
     for (Index i = 0; i < basis.cols(); ++i) {
       const double alpha = heads_.alpha(sample_at(i), k);
       const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
@@ -345,7 +350,7 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // G_k, whose rows are its columns, applied to direction d, coordinate by coordinate.
+      // Apply G_k, which is symmetric, to direction d, one coordinate after the other.
       std::vector<float> along(static_cast<std::size_t>(3 * functions));
       for (Index c = 0; c < 3; ++c) {
         Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);
@@ -384,7 +389,7 @@ double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, In
   if (tables_.metrics.empty()) return distance(*a.point, *b.point);
   const double share = region_shares_[static_cast<std::size_t>(region)];
   if (!(share > 0)) return 0;
-  // (x − y)ᵀ M (x − y) with M x and M y known.
+  // (x − y)ᵀ M (x − y), given M x and M y.
   const auto squared = [](const Eigen::VectorXf& x, const Eigen::VectorXf& y,
                           const Eigen::VectorXf& metric_x, const Eigen::VectorXf& metric_y) {
     double sum = 0;

@@ -8,82 +8,87 @@
 
 namespace crowdface {
 
-/// What of a face space takes long to find.
+/// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
-  FloatRows levels;  ///< #levels by #modes: how much of each mode a level takes
-  FloatRows
-      functions;  ///< #functions by #P: what faces are sums of, in the basis of scalar functions
-  FloatRows directions;            ///< #D by 3·#P: main directions of faces' aligned shapes
-  std::vector<FloatRows> metrics;  ///< #regions (none of one), #D by #D, times its share
+  FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
+  /// #functions by #P: all functions that faces are sums of, in the basis of scalar functions
+  FloatRows functions;
+  FloatRows directions;  ///< #D by 3·#P: principal directions of aligned faces
+  /// #regions (empty for one region), #D by #D: metric times the region's share
+  std::vector<FloatRows> metrics;
 };
 
-/// Where faces lie, computed from recipes alone: enough to tell how far apart two faces are without
-/// building a mesh. Every face is aligned rigidly to the mean head, which matches pairwise alignment
-/// closely (docs/casting.md), and has coordinates in a space where straight lines measure the root
-/// mean square distance over the face in millimetres.
+/// A Euclidean space of faces, computed from recipes alone, so that distances need no meshes. Each
+/// face is aligned rigidly to the mean head, which matches pairwise alignment closely
+/// (docs/casting.md). The straight-line distance of two points is the root mean square distance
+/// over the face in millimetres.
 class FaceSpace {
  public:
-  /// One face. Extrapolation alone makes no other person, so there are two: as built, and with
-  /// every factor set to 1.
+  /// A face. Extrapolation alone does not make another person, so each face has two points: as
+  /// built, and with every factor 1.
   struct Point {
     Eigen::VectorXf as_built;  ///< #dimensions
-    Eigen::VectorXf unit;      ///< the same if every factor is 1
+    Eigen::VectorXf unit;      ///< #dimensions; with every factor 1
   };
 
-  /// \param weights  #S, what each sample counts, see sample_weights; those of zero do not count.
-  /// \param bands    of each region's detail: more of them differ in more ways.
+  /// \param weights  #S, from sample_weights. Samples of weight zero are ignored.
+  /// \param bands    Number of bands of each region's detail. With more bands, faces differ in more
+  ///                 ways.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
-  /// The same from what `tables()` of the same heads and weights returned. \pre they fit
+  /// Restores a face space from `tables()`, computed from the same heads and weights.
+  ///
+  /// \pre `fit(tables, heads)`.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables);
 
-  /// Whether tables have the sizes of those of such heads.
+  /// Returns whether the tables have the right sizes for these heads.
   static bool fit(const FaceSpaceTables& tables, const SampledHeads& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
-  /// An input head, whose two coordinates are one; from number head_count() on the heads' mirror images,
-  /// where faces may be mirrored.
+  /// Returns the point of an input head; both variants are equal. If faces may be mirrored, the
+  /// heads' mirror images are numbered from head_count() on.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.directions.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
-  /// The same, their mirror images included where there are some.
+  /// Returns the number of heads, including mirror images if there are any.
   Index head_point_count() const { return sides() * head_count(); }
   const SampledHeads& sampled() const { return heads_; }
 
-  /// Root mean square over the face in mm: the smaller of the distances between the faces as built
-  /// and with factors of 1.
+  /// Returns the root mean square distance over the face in mm: the smaller of the distances of
+  /// both variants.
   static double distance(const Point& a, const Point& b);
-  /// A point and what one region's metric makes of it.
+  /// A point, and its products with the metric of one region.
   struct RegionPoint {
     const Point* point = nullptr;
-    Eigen::VectorXf as_built, unit;  ///< the metric times the point's
+    Eigen::VectorXf as_built, unit;  ///< metric times point
   };
   RegionPoint in_region(const Point& point, Index region) const;
-  /// The same over one region alone, the faces aligned as wholes.
+  /// Returns the distance over one region, with the faces aligned as wholes.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
-  /// How much of the face's area a region has, 0 … 1; 1 if it is the only one.
+  /// Returns the region's fraction of the face's area; 1 if it is the only region.
   double region_share(Index region) const {
     return region_shares_.empty() ? 1 : region_shares_[static_cast<std::size_t>(region)];
   }
 
-  /// Distances between all heads, #heads by #heads, in mm.
+  /// Returns the distances between all heads, #heads by #heads, in mm.
   Eigen::MatrixXd head_distances() const;
 
  private:
-  /// A face as a combination of the basis of scalar functions, #P by 3, not yet aligned.
+  /// A face in the basis of scalar functions, #P by 3, before alignment.
   using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   struct FunctionRows;
 
-  /// The heads, and their mirror images where there are some: heads from number head_count() on.
+  /// Number of sets of heads: 1, or 2 with the mirror images, which are the heads from number
+  /// head_count() on.
   Index sides() const { return heads_.image == nullptr ? 1 : 2; }
   const SampledHeads& side_of(Index head) const {
     return head < head_count() ? heads_ : *heads_.image;
   }
   std::size_t in_side(Index head) const { return static_cast<std::size_t>(head % head_count()); }
-  /// The sample behind row i of what counts.
+  /// Returns the sample of row i; rows exist only for samples that count.
   Index sample_at(Index i) const { return counting_[static_cast<std::size_t>(i)]; }
   void choose_counting(const std::vector<double>& weights);
   SpanBasis level_modes() const;
@@ -107,10 +112,11 @@ class FaceSpace {
   Eigen::VectorXf roots_;        ///< √w of each
   FaceSpaceTables tables_;
   Shape mean_shape_;           ///< #P by 3
-  std::vector<Shape> shapes_;  ///< of the heads of all sides
-  std::vector<float> fields_;  ///< α_k (S_L x_h − x_h): regions, those heads, rows, then #P by 3
+  std::vector<Shape> shapes_;  ///< of all heads, including mirror images
+  /// α_k (S_L x_h − x_h): by region, head (including images) and row, #P by 3 each
+  std::vector<float> fields_;
   FloatRows directions_transposed_;
-  std::vector<double> region_shares_;  ///< of the face's area; none of one
+  std::vector<double> region_shares_;  ///< fraction of the face's area; empty for one region
 };
 
 }  // namespace crowdface

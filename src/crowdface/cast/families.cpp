@@ -11,12 +11,12 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kFounders = 12;         ///< drawn one after the other before giving up
-constexpr std::uint32_t kCouples = 200;         ///< likewise, of parents who are drawn
-constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each
+constexpr std::uint32_t kFounders = 12;         ///< founders tried before giving up
+constexpr std::uint32_t kCouples = 200;         ///< couples of drawn parents tried in addition
+constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
 constexpr int kFounderCandidates = 24;
 
-/// What a hidden face must be: believable, and no more.
+/// Options for a hidden face: it must be believable, but may be anywhere.
 DiversityOptions unseen(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
   diversity.min_distance_to_faces_mm = 0;
@@ -25,7 +25,8 @@ DiversityOptions unseen(DiversityOptions diversity) {
   return diversity;
 }
 
-/// The members, each against the crowd and those before it; fewer where there is no room.
+/// Draws the members, each against the crowd and the earlier members. Returns fewer if there is no
+/// room.
 std::vector<FaceSearch::Found> draw_members(const Casting& casting, const FamilyOptions& family,
                                             const FaceJudge& judge, const FamilyDraws& draws,
                                             const FamilyCast& cast, const CrowdSoFar& crowd,
@@ -67,7 +68,8 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
     rejections.add(founder.rejections());
     if (!found) continue;
     const double to_half = draws.strangers_nearer(found->point);
-    // Of two parents who are drawn a good match is soon found; for one who is given perhaps none.
+    // The limit grows with the number of tries: two drawn parents soon match well, but one given
+    // parent may have no good match.
     const double enough = kStrangersNearerToHalf * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyCast cast{family.name, std::move(found->face), std::move(found->point)};

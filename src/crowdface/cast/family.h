@@ -10,15 +10,15 @@
 
 namespace crowdface {
 
-/// Whose child a family's founder is: an input head, or a face of the plan by its id.
+/// A parent of a family: an input head, or a face of the plan, given by its id.
 struct Parent {
   std::optional<Eigen::Index> head;
-  std::string id;      ///< with or without the crowd's name; a head's name, if it is one
-  bool drawn = false;  ///< cast for this family, as a face of the crowd of that id
+  std::string id;      ///< id with or without the crowd's name; for a head, its name
+  bool drawn = false;  ///< the parent is cast for this family, as a face with this id
   std::optional<std::size_t> group =
-      {};  ///< of one who is drawn: by whose numbers; none: the crowd's
-  /// Of one who is drawn by the crowd's numbers: the heads of a woman or a man, as far as it is known of
-  /// any; none: all that the crowd's faces stand on.
+      {};  ///< drawn parent: group whose parameters are used; empty: the crowd's
+  /// Parent drawn with the crowd's parameters: the possible targets, heads of a woman or a man,
+  /// where tags tell this. Empty: all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
 };
 
@@ -26,15 +26,17 @@ struct Parent {
 struct FamilyOptions {
   std::string name;
   int members = 0;
-  std::optional<std::size_t> group;    ///< by whose numbers they are drawn; none: the crowd's
-  std::optional<Eigen::Index> target;  ///< of all members; none: inherited, or the founder's
-  std::vector<Parent> parents;         ///< none, or mother and father
+  std::optional<std::size_t> group;  ///< group whose parameters are used; empty: the crowd's
+  /// target of all members; empty: inherited, or the founder's
+  std::optional<Eigen::Index> target;
+  std::vector<Parent> parents;  ///< empty, or mother and father
   /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 drawn
   std::vector<int> inherit;
   double max_distance_mm = 2.5;  ///< from the founder, who is not in the crowd
   double min_distance_mm = 0;    ///< between members
-  bool twins = false;            ///< as alike as twins: within half a millimetre of a hidden child
-  Range age = {0, 0};            ///< see apply_age
+  /// members are as similar as twins: within 0.5 mm of a hidden child
+  bool twins = false;
+  Range age = {0, 0};  ///< see apply_age
 };
 
 }  // namespace crowdface

@@ -16,24 +16,28 @@
 namespace crowdface {
 namespace {
 
-constexpr double kNearestShare = 0.4;  ///< of max_distance that members go at least
-constexpr double kParentShare = 0.75;  ///< of a parent in the detail that a member tends to
-/// In the large forms that a member tends to: of one parent, and of somebody else; the rest is the
-/// other parent's. Without somebody else children of one couple would hardly differ.
+constexpr double kNearestShare = 0.4;  ///< smallest step of a member, as a fraction of max_distance
+/// share of a parent in the detail of a member's random face
+constexpr double kParentShare = 0.75;
+/// Large forms of a member's random face: share of one parent, and of a third contributor; the
+/// other parent has the rest. Without the third contributor, children of one couple would hardly
+/// differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
-constexpr double kTwinsReach = 0.5;  // mm from what they are alike to
+constexpr double kTwinsReach = 0.5;  // in mm, from the hidden child
 
-/// A child resembles a parent if at most that share of strangers are nearer to it than the parent.
+/// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
+/// parent.
 constexpr double kStrangersNearer = 0.1;
-constexpr double kRoomAtHalf = 0.25;  ///< of max_distance, where it does not
+/// allowance as a fraction of max_distance, if the parents are too far apart
+constexpr double kRoomAtHalf = 0.25;
 
 double mixed(double a, double b, double t) {
   return a == b ? a : (1 - t) * a + t * b;
 }
 
-/// (1 − t)·a + t·b of two bands' numbers.
+/// Returns (1 − t)·a + t·b of two bands' numbers.
 BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale) {
   BandRecipe band;
   band.weights = mixed_weights(a.weights, b.weights, t);
@@ -43,7 +47,8 @@ BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const Level
   return band;
 }
 
-/// What a parent is drawn from: where a crowd's faces stand on no head of the parent's sex, all others.
+/// Returns the parameters of a drawn parent. If the crowd has no target of the parent's sex, all
+/// targets are allowed.
 FaceKind kind_of(const Parent& parent, const Casting& casting) {
   FaceKind kind = kind_of_group(casting, parent.group);
   std::vector<WeightedHead> own;
@@ -108,12 +113,12 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
 
 void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
                        FaceSpace::Point point) {
-  take_back_age(face, sampling_of(face));  // what children inherit are no wrinkles of age
+  take_back_age(face, sampling_of(face));  // children do not inherit a parent's age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
-/// Once the parents are known: who lends what comes from neither, and who stands for those of their heads that
-/// are not of the family's group.
+/// Called when the parents are known. Determines the third contributor, and the substitutes for
+/// heads of the parents that are outside the family's group.
 void FamilyDraws::meet_parents() {
   others_ = somebody_else();
   if (!family_.group || parents_.empty()) return;
@@ -123,7 +128,7 @@ void FamilyDraws::meet_parents() {
     for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  // On a single target children would have nothing of their parents' large forms.
+  // With a single target, children would inherit none of their parents' large forms.
   form_ = targets.size() > 1 ? StandIns(targets, casting_.tags, taken, judge_.space()) : StandIns();
   detail_.clear();
   for (std::size_t b = 0; b < band_count(*kind.sampling); ++b) {
@@ -131,13 +136,13 @@ void FamilyDraws::meet_parents() {
   }
 }
 
-/// A parent's large forms, as somebody of the family's group would have them.
+/// Returns a parent's large forms, with heads outside the family's group substituted.
 std::vector<SourceWeight> FamilyDraws::form_of(std::size_t parent) const {
   return form_.of(target_shares(parents_[parent].face.recipe));
 }
 
-/// From whom a child has what it has from neither parent: as far as there are some, from heads that have
-/// the tags which both parents have, lest light parents have dark children.
+/// Returns the parameters for the third contributor: heads with most of the tags that both parents
+/// have (at least three heads), so that the child's skin tone stays plausible.
 FaceKind FamilyDraws::somebody_else() const {
   constexpr std::size_t kFewest = 3;
   FaceKind kind = kind_of_group(casting_, family_.group);
@@ -202,7 +207,7 @@ double FamilyDraws::drawn_parent_mm(const FaceSpace::Point& point) const {
   return mm;
 }
 
-/// By whose numbers a face was drawn.
+/// Returns the parameters that a face was drawn with.
 const SamplingOptions& FamilyDraws::sampling_of(const CastFace& face) const {
   for (const Group& group : casting_.groups) {
     if (face.group == group.name) return group.sampling;
@@ -210,7 +215,7 @@ const SamplingOptions& FamilyDraws::sampling_of(const CastFace& face) const {
   return casting_.sampling;
 }
 
-/// What a parent hands down in a band of a region: a face its recipe's part, a head its own detail.
+/// Returns what a parent passes on in a band of a region: a face its recipe, a head its own detail.
 BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::size_t band,
                                   const BandRecipe& drawn) const {
   BandRecipe own = drawn;
@@ -255,7 +260,7 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
   return face;
 }
 
-/// (1 − t)·from + t·to, and then the age.
+/// Returns (1 − t)·from + t·to, aged.
 CastFace FamilyDraws::towards(const CastFace& from, const Draft& draft, double t) const {
   CastFace face = draft.to;
   set_target(face.recipe,
@@ -274,12 +279,12 @@ CastFace FamilyDraws::towards(const CastFace& from, const Draft& draft, double t
   return face;
 }
 
-/// 0 the mother, 1 the father, −1 drawn.
+/// Returns 0 for the mother, 1 for the father, −1 for a random parent.
 int FamilyDraws::inherited_from(std::size_t region, std::size_t band) const {
   return family_.inherit[region * band_count(casting_.sampling) + band];
 }
 
-/// Lets a face take after a parent in its large forms, and after one in each band of each region.
+/// Mixes a face with a parent in its large forms, and with a parent in each band of each region.
 void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.who, "/inherits/", what);
@@ -330,7 +335,8 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyCast& cast, int member,
   const std::string purpose = concat(key.who, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
-  draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;  // of what may be
+  // fraction of the largest distance
+  draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.reach_mm *= reach_mm(cast);
   if (cast.alike_to_founder) {
     draft.to.inherits = cast.founder.inherits;
@@ -344,13 +350,14 @@ CastFace FamilyDraws::as_far_as_drawn(const FamilyCast& cast, const Draft& draft
     return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
            draft.reach_mm;
   };
+  // Bisect the step towards the random face.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
     const bool too_far = beyond(towards(cast.founder, draft, t));
     if (t == 1 && !too_far) break;
     t += too_far ? -step : step;
   }
-  // The last step may have gone too far; the one before it not.
+  // The last step may have gone too far, but the one before did not.
   CastFace face = towards(cast.founder, draft, t);
   if (t > step && beyond(face)) face = towards(cast.founder, draft, std::max(t - 2 * step, 0.0));
   return face;
@@ -381,14 +388,15 @@ std::optional<Reason> FamilyDraws::refuses(const FamilyCast& cast, const FaceSpa
     const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
-    // The relative, too, must stay nearer to this one than to any stranger.
+    // The other member must also stay nearer to this one than to any stranger.
     if (strangers_.nearest(relative).mm <= mm) return Reason::kFamily;
   }
   if (strangers_.nearest(point).mm <= farthest) return Reason::kFamily;
   return std::nullopt;
 }
 
-/// Parents who are far apart have no child that is near both: then near half of either will do.
+/// Parents who are far apart have no child near both. Then it is enough that the child is about as
+/// near to each parent as the founder is.
 bool FamilyDraws::takes_after_parents(const FamilyCast& cast, const FaceSpace::Point& point) const {
   if (strangers_nearer(point) <= kStrangersNearer) return true;
   if (strangers_nearer(cast.founder_point) <= kStrangersNearerToHalf) return false;

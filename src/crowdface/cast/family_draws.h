@@ -13,62 +13,68 @@
 
 namespace crowdface {
 
-/// A family that was cast.
+/// A cast family.
 struct FamilyCast {
   std::string name;
   CastFace founder;  ///< not in the crowd
   FaceSpace::Point founder_point;
-  bool alike_to_founder = false;  ///< twins: the founder is a hidden child, of their age too
-  Index begin = 0, end = 0;       ///< its members in the crowd
-  double strangers_nearer = 0;  ///< the largest share of strangers nearer to a child than a parent
+  /// twins: the founder is a hidden child, and the twins have its age
+  bool alike_to_founder = false;
+  Index begin = 0, end = 0;     ///< range of its members in the crowd
+  double strangers_nearer = 0;  ///< largest fraction of strangers nearer to a child than a parent
 };
 
-/// Half of either parent must leave room for children to differ: no larger a share of strangers may be
-/// nearer to it than a parent.
+/// Limit for the fraction of strangers that are nearer than a parent to the mean of both parents.
+/// Smaller than the limit for children, so that children have room to differ.
 inline constexpr double kStrangersNearerToHalf = 0.06;
 
-/// Draws the faces of one family: each child on the way from the founder to a face drawn at random,
-/// as far as max_distance lets it go.
+/// Draws the faces of one family. Each member lies between the founder and a random face, as far
+/// from the founder as drawn within max_distance.
 class FamilyDraws {
  public:
-  /// \param crowd  everyone but the family: where parents are looked up by id.
+  /// \param crowd  All faces except the family; parents are looked up in it by id.
   FamilyDraws(const Casting& casting, const FamilyOptions& family, const FaceJudge& judge,
               const Strangers& unrelated, const CrowdSoFar& crowd);
 
-  /// Whether there are parents to be drawn for this family, who are not in the crowd yet.
+  /// Returns whether parents must be drawn for this family because they are not in the crowd yet.
   bool wants_parents() const { return !to_draw_.empty(); }
-  /// Draws them. \return false if there is no room for them.
+  /// Draws these parents.
+  ///
+  /// \return  false if there is no room for them.
   bool draw_parents(const CrowdSoFar& crowd, const Kinship& kinship, std::uint32_t attempt,
                     Rejections& rejections);
-  /// Those that were drawn, mother first.
+  /// Returns the parents drawn last, mother first.
   const std::vector<FaceSearch::Found>& drawn_parents() const { return drawn_; }
-  /// How far the nearest of these is, who are not in the crowd yet.
+  /// Returns the distance to the nearest of these parents, who are not in the crowd yet.
   double drawn_parent_mm(const FaceSpace::Point& point) const;
 
-  /// What all members start from: half of either parent where there are parents, else a face like any
-  /// other.
+  /// Draws the founder, from whom all members start: with parents, the mean of both; otherwise a
+  /// sampled face.
   CastFace founder(std::uint32_t attempt) const;
-  /// The hidden child that all twins are near to; its age is noted, but not applied.
+  /// Draws the hidden child that all twins resemble. Its age is stored but not applied.
   CastFace model_of_twins(const FamilyCast& cast, std::uint32_t attempt) const;
-  /// Member number `member`, from 1.
+  /// Draws member number `member`, from 1.
   CastFace member(const FamilyCast& cast, int member, std::uint32_t attempt) const;
 
-  /// Why a place will not do for a member beside these others of its family; nothing if it will.
+  /// Returns why a point is rejected for a member of this family, nothing if it is accepted.
+  ///
+  /// \param own  Points of the members found so far.
   std::optional<Reason> refuses(const FamilyCast& cast, const FaceSpace::Point& point,
                                 const std::vector<FaceSpace::Point>& own,
                                 const Kinship& kinship) const;
 
-  /// The largest share of strangers that are nearer to a place than one of the parents; of a family of a
-  /// group strangers and parents of this group alone.
+  /// Returns the largest fraction of strangers that are nearer to a point than one of the parents.
+  /// For a family in a group, strangers are drawn from this group, and only parents whose heads are
+  /// all in the group count.
   double strangers_nearer(const FaceSpace::Point& point) const;
 
  private:
   struct KnownParent {
-    std::string name;  ///< of the head, or the face's id
-    CastFace face;     ///< without its age; of a head only its target
+    std::string name;  ///< name of the head, or id of the face
+    CastFace face;     ///< without its age; for a head, only the target is set
     FaceSpace::Point point;
   };
-  /// What one member tends to, of what age it is and how far from the founder.
+  /// The random face, age and distance from the founder of one member.
   struct Draft {
     CastFace to;
     double age = 0, reach_mm = 0;
@@ -93,20 +99,23 @@ class FamilyDraws {
   const FamilyOptions& family_;
   const FaceJudge& judge_;
   const Strangers& unrelated_;
-  std::vector<KnownParent> parents_;  ///< #parents; empty ones are still to be drawn
-  std::vector<std::size_t> to_draw_;  ///< parents who were not in the crowd
+  std::vector<KnownParent> parents_;  ///< #parents; empty entries are still to be drawn
+  std::vector<std::size_t> to_draw_;  ///< indices of parents that were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
-  FaceKind others_;                     ///< from whom members have what is no parent's
-  StandIns form_;                       ///< of parents, among the targets of the family's group
-  std::vector<StandIns> detail_;        ///< by bands, among who lends to these; empty: no group
-  std::vector<std::string> relatives_;  ///< families of parents, and families that share one
-  FacePointIndex kin_, strangers_;      ///< relatives, and everyone else
+  FaceKind others_;  ///< source of what members inherit from neither parent
+  /// replaces parents' targets by targets of the family's group
+  StandIns form_;
+  /// by band: replaces sources by sources of the group; empty: no group
+  std::vector<StandIns> detail_;
+  /// families of the parents, and families that share a parent
+  std::vector<std::string> relatives_;
+  FacePointIndex kin_, strangers_;  ///< points of relatives, and of all others
 };
 
-/// "NAME_FAMILY_01".
+/// Returns "NAME_FAMILY_01".
 std::string member_id(const std::string& crowd, const std::string& family, int member);
 
-/// The full id of a parent that is drawn for a family: "NAME_FAMILY_mother".
+/// Returns the full id of a parent drawn for a family: "NAME_FAMILY_mother".
 std::string parent_id(const std::string& crowd, const Parent& parent);
 
 }  // namespace crowdface

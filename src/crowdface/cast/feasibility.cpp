@@ -7,11 +7,11 @@
 namespace crowdface {
 namespace {
 
-/// Draws that all tries together may take; one that has begun is finished.
+/// Largest number of draws in all trials together; a trial that has begun is finished.
 constexpr std::uint64_t kMostDraws = 20'000;
-/// Faces of one trial.
+/// Largest number of faces in a trial.
 constexpr std::uint64_t kMostTried = 400;
-/// Near enough: what fails is at most this many times what works.
+/// Stop if the smallest value that fails is at most this factor above the largest that works.
 constexpr double kNearEnough = 1.12;
 
 double whole_hundredths(double mm) {
@@ -33,7 +33,7 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   const Constraint& constraint = constraint_of(remedy.binding);
   if (!constraint.is_distance()) return remedy;
   double& distance = easier.diversity.*constraint.diversity;
-  // Faces fill a space of about five dimensions, so that many more fit at a little less distance.
+  // Faces fill a space of about five dimensions, so a slightly smaller distance fits many more.
   double works = 0, fails = distance;
   double next = fails * std::pow((static_cast<double>(shortfall.reached) + 0.5) /
                                      (static_cast<double>(easier.count) + 1),
@@ -61,7 +61,7 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> hopeless_spread(const Casting& casting, const FaceJudge& judge) {
-  constexpr std::uint64_t kBetter = 8;  // than one after the other, which comes to a half or more
+  constexpr std::uint64_t kBetter = 8;  // first fit finds at least half as many faces as spread
   const bool is_large = casting.count > kBetter * kMostTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {

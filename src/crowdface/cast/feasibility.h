@@ -5,26 +5,30 @@
 
 namespace crowdface {
 
-/// What would have made a crowd possible that fell short.
+/// What would make a crowd with a shortfall possible.
 struct Remedy {
-  Reason binding = Reason::kMinDistance;  ///< what threw most candidates away
-  /// The largest value of the binding distance, in whole hundredths of a millimetre, with which a
-  /// cast was tried and done. None if another constraint binds or none was found.
+  Reason binding = Reason::kMinDistance;  ///< constraint that rejected most candidates
+  /// Largest value of the binding distance, in whole hundredths of a millimetre, with which casting
+  /// succeeded. Empty if the binding constraint is no distance, or if no value was found.
   std::optional<double> largest_mm;
-  std::uint64_t tried = 0;  ///< faces of these trials: the whole count, or its first 400
+  std::uint64_t tried = 0;  ///< number of faces in the trials: the whole count, or its first 400
 };
 
-/// Looks for it by casting again with smaller distances, closing in from both sides until what works
-/// and what fails are an eighth apart or twenty thousand candidates were drawn. A trial takes a
-/// time that grows with the square of its faces, so that large crowds are tried by their beginning.
-/// \param tried  called after each trial.
+/// Searches for a remedy by casting again with smaller distances, closing in from both sides until
+/// the smallest value that fails is at most an eighth above the largest that works, or until 20,000
+/// candidates were drawn. The time of a trial grows with the square of its faces, so only the
+/// beginning of a large crowd is tried.
+///
+/// \param tried  Called after each trial.
 Remedy find_remedy(const Casting& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {});
 
-/// Whether a spread crowd is far out of reach: then not even an eighth as many faces are found one
-/// after the other. Told in seconds, where a pool for all of them would take hours.
-/// \return nothing if it may be reached.
+/// Checks quickly whether a large spread crowd is hopeless: whether first fit cannot place even 400
+/// faces, less than an eighth of the crowd. Takes seconds, whereas drawing the pool would take
+/// hours.
+///
+/// \return  Nothing if the crowd may be possible.
 std::optional<Shortfall> hopeless_spread(const Casting& casting, const FaceJudge& judge);
 
 }  // namespace crowdface

@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/cast/float_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway needs this order: foreach_target.h first, then the code compiled once for each target.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,13 +15,13 @@ using Lanes = hn::CappedTag<float, 16>;
 
 constexpr std::size_t kSums = 16, kChunk = 64 * kSums;
 
-/// Numbers of one chunk, in sums side by side.
+/// Partial sums over one chunk, one per lane.
 template <class Numbers>
 struct ChunkSums {
   static constexpr std::size_t kVectors = kSums / hn::MaxLanes(Lanes());
 
   const Numbers& numbers;
-  std::size_t begin, end, whole;  ///< up to `whole` there are kSums at a time
+  std::size_t begin, end, whole;  ///< up to `whole`, numbers come in full groups of kSums
   hn::VFromD<Lanes> sums[kVectors];
 
   ChunkSums(const Numbers& of, std::size_t from, std::size_t to)
@@ -46,7 +46,7 @@ struct ChunkSums {
 template <class Numbers>
 double sum_of(const Numbers& numbers, std::size_t count) {
   double total = 0;
-  // Two chunks at once: an addition needs not wait for the one before it.
+  // Two chunks at a time, so that an addition need not wait for the previous one.
   for (std::size_t begin = 0; begin < count; begin += 2 * kChunk) {
     const std::size_t middle = begin + kChunk < count ? begin + kChunk : count;
     const std::size_t end = middle + kChunk < count ? middle + kChunk : count;
@@ -76,7 +76,7 @@ double fixed_dot(const float* a, const float* b, std::size_t count) {
   return sum_of(Products{a, b}, count);
 }
 
-/// Squares of what numbers become when others are added to them.
+/// Adds scaled numbers to others, and yields the squares of the results.
 struct SquaresAfter {
   float factor;
   const float* from;

@@ -12,37 +12,38 @@
 
 namespace crowdface {
 
-/// What keeps families together: every member is nearer to each of its own than to anyone who is no
-/// relative. Relatives are one's family, the families of one's parents, and families that share a
-/// parent.
+/// Keeps families together: every member is nearer to each member of its family than to anyone who
+/// is not a relative. Relatives are the own family, the parents' families, and families that share
+/// a parent.
 class Kinship {
  public:
-  /// Whether a face would come as near to a member of a family as its own do.
-  /// \param relatives  families that the face may come as near to.
+  /// Returns whether a face would be as near to a member of a family as the farthest of its family.
+  ///
+  /// \param relatives  Families that are not checked.
   bool intrudes(const FaceSpace::Point& point,
                 const std::vector<std::string>& relatives = {}) const;
   std::optional<Reason> refuses(const FaceSpace::Point& stranger) const {
     return intrudes(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }
-  /// Notes the members of a family by their places.
+  /// Adds the members of a family.
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
 
  private:
   struct Member {
     std::string family;
     FaceSpace::Point point;
-    double radius_mm;  ///< how far the farthest of its own is
+    double radius_mm;  ///< distance to the farthest member of the same family
   };
   std::vector<Member> members_;
 };
 
-/// Faces as sampling draws them, or the numbers of a group, whom nobody in the crowd is kin to: how near
-/// strangers come by chance. A function of seed and these numbers alone, so that a family is the same
-/// however large the crowd is. There are none where no family has parents.
+/// Faces drawn with the crowd's or a group's parameters that are related to nobody: they tell how
+/// near strangers are by chance. A function of the seed and these parameters only, so that a family
+/// does not depend on the crowd's size. Empty if no family has parents.
 class Strangers {
  public:
   Strangers(const Casting& casting, const FaceSpace& space);
-  /// The share of those of a family's group that are nearer than `mm` to a place, 0 … 1.
+  /// Returns the fraction of a group's strangers that are nearer than `mm` to a point, 0 … 1.
   double share_nearer(const FaceSpace::Point& point, double mm,
                       std::optional<std::size_t> group = std::nullopt) const;
 

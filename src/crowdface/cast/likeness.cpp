@@ -15,11 +15,13 @@ namespace {
 
 constexpr std::size_t kBlock = 64;
 
-/// Faces that can be asked for those that look most like one of them. Answers are exact: those of
-/// FaceSpace::distance over all faces that are left, of equally near ones the first.
+/// A set of faces with queries for the most similar faces. Results are exact: the distances of
+/// FaceSpace::distance over all remaining faces; of equally near faces, the first.
 class LikenessTree {
  public:
-  /// \param points  must outlive this object. \param gone  of each whether it is left out; may change later.
+  /// \param points  Must outlive this object.
+  /// \param gone    #points: whether a face is left out. Entries may become true later. Must
+  ///                outlive this object.
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
     add_variant(&FaceSpace::Point::as_built);
@@ -30,17 +32,18 @@ class LikenessTree {
   }
 
   std::size_t size() const { return static_cast<std::size_t>(blocks().size()); }
-  /// A face by its place in the tree: neighbours mostly look alike, so they are best asked for in this order.
+  /// Returns the face at a position in the tree. Neighbouring positions are similar faces, so
+  /// queries in this order use the cache well.
   std::size_t face(std::size_t place) const {
     return static_cast<std::size_t>(blocks().number(static_cast<Index>(place)));
   }
 
-  /// The nearest others that are left, nearest first.
+  /// Returns the nearest remaining faces, nearest first.
   std::vector<Neighbour> nearest(std::size_t face, std::size_t count) const {
     std::vector<Neighbour> near;
     if (count == 0) return near;
     near.reserve(count + 1);
-    float bound = HUGE_VALF;  // what has a greater squared distance need not be met
+    float bound = HUGE_VALF;  // faces with a larger squared distance are skipped
     const auto meet = [&](std::size_t other) {
       if (gone_[other] || other == face || contains_face(near, other)) return;
       const Neighbour found{other, FaceSpace::distance(points_[face], points_[other])};
@@ -77,7 +80,7 @@ class LikenessTree {
   }
   const PointBlocks& blocks() const { return variants_.front().second.points(); }
 
-  /// The points as built, or with factors of 1.
+  /// Adds a tree over the points as built, or over those with factors of 1.
   void add_variant(Variant of) {
     const Index dimensions = (points_[0].*of).size();
     PointBlocks blocks(dimensions);
@@ -90,11 +93,10 @@ class LikenessTree {
 
   const std::vector<FaceSpace::Point>& points_;
   const std::vector<bool>& gone_;
-  std::vector<std::pair<Variant, PointTree>>
-      variants_;  ///< one, if all faces are as with factors of 1
+  std::vector<std::pair<Variant, PointTree>> variants_;  ///< only one if no face is extrapolated
 };
 
-/// The face farthest from the first; of equally far ones the first.
+/// Returns the face farthest from the first face; of equally far ones, the first.
 std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   std::vector<double> mm(points.size());
   parallel_for_each(points.size(), 16 * kBlock, [&](std::size_t other) {
@@ -103,11 +105,11 @@ std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   return static_cast<std::size_t>(std::max_element(mm.begin(), mm.end()) - mm.begin());
 }
 
-/// \param near  of each face: whoever is left of them is nearer than all who are not among them.
+/// \param near  For each face, its nearest faces: any of these is nearer than every other face.
 std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
                               const std::vector<std::vector<Neighbour>>& near) {
   std::vector<bool> gone(points.size(), false);
-  std::optional<LikenessTree> tree;  // of those who were left when it was made
+  std::optional<LikenessTree> tree;  // of the faces left when it was built
   std::vector<std::size_t> order = {farthest_from_first(points)};
   while (true) {
     throw_if_interrupted();

@@ -8,22 +8,25 @@
 
 namespace crowdface {
 
-/// Another face and how far it is.
+/// Another face, and its distance.
 struct Neighbour {
   std::size_t face = 0;
   double mm = 0;
 };
 
-/// Who looks like whom in a whole crowd, whatever the order it was cast in.
+/// Similar faces in a whole crowd, independent of the order of casting.
 struct Likeness {
-  std::vector<std::size_t> order;            ///< faces, so that neighbours look alike
-  std::vector<std::vector<Neighbour>> near;  ///< of each face the nearest others, nearest first
+  /// an order of the faces in which neighbours look alike
+  std::vector<std::size_t> order;
+  std::vector<std::vector<Neighbour>> near;  ///< for each face, the nearest others, nearest first
 };
 
-/// The order is a walk that always goes on to the nearest face that is left, from the face farthest
-/// from the first: two faces that are each other's nearest always stand side by side. Of equally near
-/// faces the first counts. \throws Interrupted.
-/// \param neighbours  how many to keep for each face.
+/// Finds similar faces. The order is a nearest-neighbour walk: it starts at the face farthest from
+/// the first face, and always continues with the nearest face that is left. So two faces that are
+/// each other's nearest are adjacent. Of equally near faces, the first is taken.
+///
+/// \param neighbours  Number of neighbours to keep for each face.
+/// \throws Interrupted.
 Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbours);
 
 }  // namespace crowdface

@@ -8,12 +8,12 @@
 
 namespace crowdface {
 
-/// What the heads, regions, bands and attachments of recipes are called, by their indices.
+/// Names of the heads, regions, bands and attachments in recipes, by index.
 struct PlanNames {
   std::vector<std::string> heads;
   std::vector<std::string> regions;
-  std::vector<std::string> bands = {};  ///< none: detail is one band
-  /// What may sit on heads; none: recipes say nothing of that.
+  std::vector<std::string> bands = {};  ///< empty: detail is one band
+  /// Empty: recipes have no attachments.
   std::vector<std::string> attachments = {};
 };
 

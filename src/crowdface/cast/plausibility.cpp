@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kRidge = 0.1;  ///< of the mean variance along the heads' own directions
+constexpr double kRidge = 0.1;  ///< fraction of the mean variance along the heads' own directions
 
 }  // namespace
 
@@ -43,8 +43,8 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
   return metric;
 }
 
-/// zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1), by the Woodbury identity
-/// (‖z‖² − (Y z)ᵀ (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
+/// Returns zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1), by the Woodbury identity (‖z‖² − (Y z)ᵀ
+/// (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
 double Plausibility::squared(const Metric& metric, const Eigen::VectorXf& at) {
   std::vector<double> z(metric.mean.size()), along;
   for (std::size_t d = 0; d < z.size(); ++d) {
@@ -63,7 +63,7 @@ Plausibility::Plausibility(const FaceSpace& space) {
     heads.push_back(space.head_point(h).as_built);
   }
   metric_ = metric_without(heads, count, -1);
-  if (count < 3) {  // one alone has no spread: the heads themselves are the measure
+  if (count < 3) {  // one remaining head has no variance; use the first head's distance as unit
     unit_ = std::sqrt(squared(metric_, heads[0]));
   } else {
     double sum = 0;

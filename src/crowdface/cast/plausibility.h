@@ -7,25 +7,27 @@
 
 namespace crowdface {
 
-/// How unusual a face is among the input heads: its Mahalanobis distance (1936) from their mean,
-/// where 1 is as far as a new head would typically be. Few heads do not tell the variance of every
-/// direction, so a tenth of their mean variance is added to each (as probabilistic principal
-/// components do, Tipping & Bishop 1999); "a new head" is each of them measured with the others
-/// alone.
+/// Measures how unusual a face is among the input heads: the Mahalanobis distance (1936) from their
+/// mean, in units of the distance that a new head typically has. Few heads do not determine the
+/// variance of every direction, so a tenth of the mean variance is added to each (as in
+/// probabilistic PCA, Tipping & Bishop 1999). The unit is the root mean square over the heads, each
+/// measured with the others only.
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);
   double score(const FaceSpace::Point& point) const;
 
  private:
-  /// The distance's square by all heads, or by all but one.
+  /// The squared distance, by all heads or by all but one.
   struct Metric {
     std::vector<double> mean;                  ///< #D
-    std::vector<std::vector<double>> offsets;  ///< #heads − mean, #D each
+    std::vector<std::vector<double>> offsets;  ///< head − mean for each head, #D each
     std::vector<std::vector<double>> lower;    ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
     double ridge = 1;
   };
-  /// \param heads  of the heads, and then of their mirror images, where faces may be mirrored.
+  /// \param heads           The heads, then their mirror images if faces may be mirrored.
+  /// \param count_of_heads  Number of heads without mirror images.
+  /// \param left_out        Head to leave out, with its image; −1: none.
   static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index count_of_heads,
                                Index left_out);
   static double squared(const Metric& metric, const Eigen::VectorXf& at);

@@ -11,12 +11,12 @@
 
 namespace crowdface {
 
-/// The nearest point that a search has met.
+/// The nearest point that a search has found so far.
 struct NearestPoint {
-  Eigen::Index point = -1;  ///< its number; -1: none
+  Eigen::Index point = -1;  ///< number of the point; −1: none
   double squared = HUGE_VAL;
 
-  /// Of equally near ones the one with the smaller number counts.
+  /// Takes another point if it is nearer; of equally near points, the one with the smaller number.
   void meet(Eigen::Index other, double other_squared) {
     if (other_squared > squared || (other_squared == squared && (point < 0 || other > point)))
       return;
@@ -24,7 +24,7 @@ struct NearestPoint {
   }
 };
 
-/// Where points lie in their leading coordinates; those that they do not have are zero.
+/// Bounding box in the leading coordinates; missing coordinates are zero.
 struct LeadingBox {
   static constexpr std::size_t kDimensions = 8;
   std::array<float, kDimensions> low, high;
@@ -41,41 +41,43 @@ struct LeadingBox {
   }
 };
 
-/// Numbered points in blocks of sixteen, coordinate by coordinate, so that a query meets sixteen of
-/// them at a time; sums over the leading coordinates, where faces differ most, rule nearly all out.
+/// Numbered points in blocks of sixteen, stored coordinate by coordinate, so that a query compares
+/// sixteen points at a time. The leading coordinates, in which faces differ most, rule out nearly
+/// all blocks early.
 class PointBlocks {
  public:
   using Index = Eigen::Index;
   static constexpr Index kLanes = 16;
-  /// What is farther than what was found by more than sums of floats can err is left out.
+  /// Relative tolerance that covers the rounding of float sums: points farther than the best by
+  /// more than this are skipped.
   static constexpr double kRounding = 1e-4;
 
   explicit PointBlocks(Index dimensions);
 
-  /// \param values  as long as padded() makes them.
+  /// \param values  padded_dimensions() values.
   void add(Index number, const float* values);
   void clear();
   Index size() const { return static_cast<Index>(numbers_.size()); }
   Index padded_dimensions() const { return dimensions_; }
-  /// Those of the points, in the order in which they were added.
+  /// Returns the number of a point, by the order in which points were added.
   Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
   float value(Index at, Index dimension) const { return chunk_of(dimension)[place(at, dimension)]; }
 
-  /// Blocks are searched for a query that is as long as theirs.
+  /// Returns the query with padded_dimensions() values.
   std::vector<float> padded(const Eigen::VectorXf& query) const;
   using Lanes = std::array<float, kLanes>;
-  /// Of the points of one block to a query; of all of them infinity, if none is within the bound. Lanes
-  /// without a point hold anything.
+  /// Returns the squared distances of a block's points to a query. If none is within the bound, all
+  /// are infinite. Lanes without a point have arbitrary values.
   Lanes squared_distances(const std::vector<float>& query, Index block, float bound) const;
-  /// Meets the points of one block with numbers in [begin, end), as far as they can be nearer.
-  /// The bits do not depend on what else is stored.
+  /// Searches one block for points with numbers in [begin, end) that are nearer than `best`. The
+  /// result's bits do not depend on the other points.
   void search(const std::vector<float>& query, Index block, Index begin, Index end,
               NearestPoint& best) const;
 
  private:
-  static constexpr Index kChunk = 16;  ///< coordinates between two looks at the sums
+  static constexpr Index kChunk = 16;  ///< coordinates between two checks of the sums
 
-  /// In the chunk of that coordinate.
+  /// Returns the offset within the chunk of that coordinate.
   static std::size_t place(Index at, Index dimension) {
     return static_cast<std::size_t>((at / kLanes * kChunk + dimension % kChunk) * kLanes +
                                     at % kLanes);
@@ -86,8 +88,8 @@ class PointBlocks {
 
   Index dimensions_;  ///< a multiple of kChunk
   std::vector<Index> numbers_;
-  /// By kChunk coordinates each: block, coordinate, lane. Nearly all searches of a block end at the leading ones,
-  /// which so lie close to each other.
+  /// Chunks of kChunk coordinates: block, coordinate, lane. Nearly all searches of a block end in
+  /// the first chunk, so the first chunks of all blocks are contiguous in memory.
   std::vector<std::vector<float>> chunks_;
 };
 

@@ -6,9 +6,10 @@
 namespace crowdface {
 namespace {
 
-/// How near, on the mean head, parts of the skin lie that may come to pass through each other.
-constexpr double kReach = 3;  // mm, for each of the two
-/// Triangles that so few edges join are neighbours; what folds there is seen as a flip.
+/// Parts of the skin that are this near on the mean head may intersect on a face.
+constexpr double kReach = 3;  // mm, for each of the two parts
+/// Triangles at most this many edges apart are neighbours. Folds between neighbours are detected as
+/// flips.
 constexpr int kNeighbourEdges = 3;
 
 using Rings = std::vector<std::vector<std::uint32_t>>;
@@ -28,7 +29,7 @@ Rings rings_of(const std::vector<Triangle>& triangles, Index vertices) {
   return rings;
 }
 
-/// Marks the vertices that at most kNeighbourEdges edges join to a triangle.
+/// Marks the vertices at most kNeighbourEdges edges away from a triangle.
 void mark_neighbourhood(const Rings& rings, const Triangle& t, std::uint32_t mark,
                         std::vector<std::uint32_t>& marks) {
   std::vector<std::uint32_t> reached(t.begin(), t.end());
@@ -46,13 +47,14 @@ void mark_neighbourhood(const Rings& rings, const Triangle& t, std::uint32_t mar
   }
 }
 
-/// Pairs of triangles that lie near each other without being neighbours.
+/// Returns pairs of triangles that are near each other without being neighbours.
 std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
                                        const Positions& mean) {
   const Rings rings = rings_of(triangles, mean.rows());
   std::vector<TrianglePair> pairs;
   std::vector<std::uint32_t> neighbour_of(rings.size(),
-                                          kNoIndex);  // each vertex, the last triangle
+                                          // for each vertex, the last triangle that marked it
+                                          kNoIndex);
   std::uint32_t first = kNoIndex;
   for (const TrianglePair& pair : near_pairs(triangles, mean, kReach)) {
     if (pair.first != first) {

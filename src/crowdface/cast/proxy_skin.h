@@ -8,15 +8,15 @@
 
 namespace crowdface {
 
-/// The skin as the coarse mesh of its samples, on which faces are judged without being built.
+/// The skin as a coarse mesh of its samples, on which faces are judged without building them.
 class ProxySkin {
  public:
-  /// \param mean   #S by 3, the mean head's samples in millimetres.
-  /// \param heads  #S by 3 each, the targets.
+  /// \param mean   #S by 3, samples of the mean head in millimetres.
+  /// \param heads  #S by 3 each, samples of the targets.
   ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
             const std::vector<Positions>& heads);
 
-  /// What a face is compared with: a head's samples, or those of a mixture.
+  /// What a face is compared with: the samples of a head or of a mixture.
   struct Target {
     TargetTriangles triangles;  ///< for flips and stretch
     NewIntersections intersections;
@@ -24,8 +24,9 @@ class ProxySkin {
   const Target& head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
   Target target(const Positions& samples) const;
 
-  /// Triangles that pass through others where the target's do not, among parts of the skin that lie
-  /// near each other on the mean head without being neighbours on it: lips, lids, nostrils, folds.
+  /// Returns the number of triangles that intersect others where the target's do not. Considers
+  /// only triangles that are near each other on the mean head without being neighbours: lips, lids,
+  /// nostrils, folds.
   Index intersecting_triangles(const Positions& samples, const Target& target) const;
 
  private:

@@ -7,16 +7,16 @@
 
 namespace crowdface {
 
-/// What a reviewer says about one face.
+/// A reviewer's verdict on one face.
 struct ReviewMark {
   enum class Verdict {
     kKeep,    ///< stays as it is
-    kReject,  ///< drawn anew, all of it but what is locked
+    kReject,  ///< redrawn, except for what is locked
   };
   std::string id;
   Verdict verdict = Verdict::kKeep;
-  /// Parts that stay when the face is drawn anew: bands of regions, region by region. Without bands
-  /// they are the regions.
+  /// Parts that stay when the face is redrawn: region · #bands + band. Without bands, parts are
+  /// regions.
   std::vector<std::size_t> locked;
   std::optional<std::string> note;
 };

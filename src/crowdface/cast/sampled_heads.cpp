@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 void find_stretches(SampledHeads& sampled) {
-  constexpr Index kGap = 8;  // a short one costs less than another stretch
+  constexpr Index kGap = 8;  // bridge short gaps, which cost less than another range
   for (Index k = 0; k < sampled.alpha.cols(); ++k) {
     auto& stretches = sampled.stretches.emplace_back();
     for (Index s = 0; s < sampled.alpha.rows(); ++s) {
@@ -22,8 +22,9 @@ void find_stretches(SampledHeads& sampled) {
   }
 }
 
-/// Puts rows of whole heads, in millimetres, and their mean there.
-/// \param whole  of a head: its positions, or those of its mirror image
+/// Copies the samples of whole heads, in millimetres, and computes their mean.
+///
+/// \param whole  Returns the positions of a head, or of its mirror image.
 template <class Whole>
 void take_samples(const FaceSet& faces, const FaceSamples& samples, const Whole& whole,
                   SampledHeads& sampled) {
@@ -48,7 +49,8 @@ Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
 
 Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
-  // In single precision, as the trajectories are: casting does this for every face it accepts.
+  // In single precision, like the trajectories, because casting does this for every face it
+  // accepts.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);
@@ -78,7 +80,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   return face;  // Eq. 7
 }
 
-/// What of(heads) says, or its mirror image, or something between.
+/// Returns of(heads), its mirror image, or a blend of both.
 template <class Of>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Of& of) {
   const double w = mirror_share(recipe);

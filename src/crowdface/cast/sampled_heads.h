@@ -12,19 +12,19 @@
 
 namespace crowdface {
 
-/// What faces are made of, at the samples: enough to tell where any recipe's samples lie.
+/// The heads at the samples: enough to compute the samples of any recipe.
 struct SampledHeads {
   std::vector<Positions> heads;  ///< #S by 3 each, in millimetres
   Positions mean;                ///< #S by 3
   Columns alpha;                 ///< #S by #regions
   std::span<const Trajectory> trajectories;
-  /// For each region the stretches of samples that it acts on, [begin, end): regions are patches,
-  /// and samples stand along a curve, so they are few.
+  /// For each region, the ranges of samples [begin, end) with nonzero weight. Regions are patches,
+  /// and samples are ordered along a curve, so there are few ranges.
   std::vector<std::vector<std::pair<Index, Index>>> stretches;
-  std::vector<std::uint64_t> levels;  ///< of the trajectories' rows
-  double mm_per_unit = 1;             ///< of the trajectories
-  std::vector<Trajectory> own;        ///< the trajectories, if nobody else holds them
-  /// The heads' mirror images at the same samples, by which faces are mirrored; none: no face is.
+  std::vector<std::uint64_t> levels;  ///< levels of the trajectories' rows
+  double mm_per_unit = 1;             ///< scale of the trajectories
+  std::vector<Trajectory> own;        ///< storage of the trajectories, if this object owns them
+  /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
   std::shared_ptr<const SampledHeads> image;
 };
 
@@ -32,19 +32,22 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit);
 
-/// What mirror images of faces are made of. Where the other side of a sample is no vertex, masks and
-/// trajectories are each taken there.
-/// \param heads   of the same samples
-/// \param traced  whose trajectories those of `heads` are: the samples and their with_corners
+/// Computes the mirror images of the heads. If a sample's partner is not a vertex, its weights and
+/// trajectories are interpolated.
+///
+/// \param heads   Heads at the same samples.
+/// \param traced  Vertices of the trajectories of `heads`: the samples and their with_corners.
 std::shared_ptr<const SampledHeads> sample_images(
     const FaceSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);
 
-/// The samples of a recipe's target, #S by 3 in millimetres, mirrored as the face is.
+/// Returns the samples of a recipe's target, #S by 3 in millimetres, mirrored like the face.
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe);
 
-/// The samples of a recipe's face, #S by 3 in millimetres, not aligned (Eq. 7).
-/// \throws BrokenPrecondition if it is mirrored, or its asymmetry is not 1, and there are no images.
+/// Returns the samples of a recipe's face, #S by 3 in millimetres, not aligned (Eq. 7).
+///
+/// \throws BrokenPrecondition if the face is mirrored or its asymmetry is not 1, and there are no
+/// mirror images.
 Positions sample_face(const SampledHeads& heads, const Recipe& recipe);
 
 }  // namespace crowdface

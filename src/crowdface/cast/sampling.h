@@ -12,34 +12,35 @@
 
 namespace crowdface {
 
-/// A closed range to draw from; both ends equal: a fixed value.
+/// A closed range to draw from. Equal ends: a fixed value.
 struct Range {
   double low = 0;
   double high = 0;
   bool operator==(const Range&) const = default;
 };
 
-/// Where on the weight plane a region's position is drawn.
+/// Where a region's position on the weight plane is drawn.
 struct PositionDistribution {
   enum class Kind {
-    kAnchored,  ///< near the anchor of a source drawn at random, see `pull`
+    kAnchored,  ///< near the anchor of a random source, see `pull`
     kUniform,   ///< anywhere in the convex hull of the sources' anchors
     kAround,    ///< in the disc of `radius` around a head's anchor
     kFixed,     ///< always at `at`
   };
   Kind kind = Kind::kAnchored;
-  std::optional<Eigen::Index> head;    ///< kAround: whose anchor; none: the face's own target's
+  /// kAround: the head whose anchor is the centre; empty: the face's target
+  std::optional<Eigen::Index> head;
   double radius = 0;                   ///< kAround: in units of the plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed
-  /// kAnchored: how far, at most, from that anchor towards a point anywhere in the hull; 0 stays on
-  /// it, 1 may go all the way.
+  /// kAnchored: largest step from the anchor towards a random point of the hull, as a fraction of
+  /// the way. 0: stays at the anchor.
   double pull = 0.25;
 };
 
-/// How much is smoothed away, L.
+/// Distribution of the amount of smoothing, L.
 struct SmoothnessDistribution {
   enum class Unit {
-    kFraction,    ///< of L_max, the paper's slider
+    kFraction,    ///< fraction of L_max, as the paper's slider
     kIterations,  ///< whole iterations
     kSize,        ///< millimetres: the wavelength that is halved (docs/method.md)
   };
@@ -54,27 +55,30 @@ struct RegionSampling {
   Range extrapolation = {1, 1};  ///< factor e of Fig. 6
 };
 
-/// A band of detail. What it leaves open is as for its region, or for the crowd.
+/// A band of detail. Empty members: as for its region, or for the crowd.
 struct BandSampling {
   struct Region {
     std::optional<PositionDistribution> position;
     std::optional<SmoothnessDistribution>
-        smoothness;  ///< where it begins; only the first may leave it
+        smoothness;  ///< where the band begins; may be empty for the first band only
     std::optional<Range> extrapolation;
   };
   std::string name;
-  std::vector<Region> regions;                       ///< one for each region
+  std::vector<Region> regions;                       ///< #regions
   std::optional<std::vector<Eigen::Index>> sources;  ///< ascending
-  double ageing = 1;                                 ///< how much of an age acts on it, 0 … 1
+  /// factor of an age's effect on the band, 0 … 1
+  double ageing = 1;
 };
 
-/// A head and how often it is drawn, relative to the others.
+/// A head and its relative frequency.
 struct WeightedHead {
   Eigen::Index head = 0;
   double weight = 1;
 };
 
-/// One of some things, drawn in proportion to their weights. \param drawn  from 0 to 1
+/// Draws one of several things in proportion to their weights.
+///
+/// \param drawn  Random number from 0 to 1.
 template <class Things, class Weight>
 const auto& weighted_choice(const Things& things, double drawn, const Weight& weight) {
   double total = 0;
@@ -90,70 +94,73 @@ const auto& weighted_choice(const Things& things, double drawn, const Weight& we
 /// Whether faces are mirrored as wholes.
 enum class Mirroring {
   kNone,
-  kDrawn,  ///< half of them
+  kDrawn,  ///< half of them, at random
 };
 
 /// How sampled faces are drawn.
 struct SamplingOptions {
-  std::vector<WeightedHead> targets;    ///< heads that may be the target, with their frequency
-  std::vector<Eigen::Index> sources;    ///< heads whose details take part, ascending
-  std::vector<RegionSampling> regions;  ///< one for each region (one in all without regions)
-  std::vector<BandSampling> bands;      ///< coarse to fine; none: detail is one band
-  std::optional<int> max_sources;  ///< of each band of each region: the largest weights; none: all
-  Range age = {0, 0};              ///< of sampled faces, see apply_age
-  Range asymmetry = {1, 1};        ///< see Recipe
+  std::vector<WeightedHead> targets;  ///< possible targets, with their frequencies
+  std::vector<Eigen::Index> sources;  ///< heads that lend detail, ascending
+  /// one for each region (one in all if there are no regions)
+  std::vector<RegionSampling> regions;
+  std::vector<BandSampling> bands;  ///< coarse to fine; empty: detail is one band
+  /// largest number of heads with weight in a band of a region; empty: all
+  std::optional<int> max_sources;
+  Range age = {0, 0};        ///< of sampled faces, see apply_age
+  Range asymmetry = {1, 1};  ///< see Recipe
   Mirroring mirror = Mirroring::kNone;
-  std::vector<Eigen::Index> old_heads;  ///< tagged old, ascending
+  std::vector<Eigen::Index> old_heads;  ///< heads tagged old, ascending
   std::vector<Eigen::Index> young_heads;
 };
 
-/// How many bands a region's detail has.
+/// Returns the number of bands of each region's detail.
 inline std::size_t band_count(const SamplingOptions& sampling) {
   return std::max<std::size_t>(1, sampling.bands.size());
 }
-/// Whether any face may be other than blended: mirrored, or more or less asymmetric.
+/// Returns whether any face may be mirrored or have another asymmetry than its blend.
 inline bool mirrors(const SamplingOptions& sampling) {
   return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
 }
-/// Where a band of a region begins.
+/// Returns where a band of a region begins.
 inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
                                                    std::size_t region, std::size_t band) {
   const bool own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
   return own ? *sampling.bands[band].regions[region].smoothness
              : sampling.regions[region].smoothness;
 }
-/// Heads that lend to a band.
+/// Returns the heads that lend detail to a band.
 inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampling,
                                                    std::size_t band) {
   const bool own = band < sampling.bands.size() && sampling.bands[band].sources;
   return own ? *sampling.bands[band].sources : sampling.sources;
 }
 
-/// Sampled faces that are drawn by numbers of their own.
+/// Sampled faces that are drawn with their own parameters.
 struct Group {
   std::string name;
-  std::optional<std::uint64_t> count;  ///< so many faces, before all that have a share
-  double share = 0;                    ///< without a count: of the faces after those, 0 … 1
+  /// number of faces; groups with a count come before all groups with a share
+  std::optional<std::uint64_t> count;
+  double share = 0;  ///< without `count`: fraction of the remaining faces, 0 … 1
   SamplingOptions sampling;
 };
 
-/// A face spelled out by hand; what is left out is drawn as for a sampled face.
+/// A hand-written face. What it leaves open is drawn as for a sampled face.
 struct HandRecipe {
   struct Band {
     std::optional<PlanePoint> position;
-    std::vector<WeightedHead> weights;  ///< empty: none given; not both position and weights
+    std::vector<WeightedHead> weights;  ///< empty: not given; excludes `position`
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
-  /// Its own values hold for all bands that have none of their own, smoothness for the first.
+  /// Its own values apply to all bands without own values; smoothness only to the first band.
   struct Region : Band {
-    std::vector<Band> bands;  ///< one for each band, or none
+    std::vector<Band> bands;  ///< one for each band, or empty
   };
   std::string id;
   std::optional<Eigen::Index> target;
   std::vector<Region> regions;             ///< one for each region
-  std::vector<WeightedHead> colours = {};  ///< whose textures; empty: none given
-  std::optional<Range> age;                ///< none: as for sampled faces
+  std::vector<WeightedHead> colours = {};  ///< heads that lend textures; empty: not given
+  std::optional<Range> age;                ///< empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
 };

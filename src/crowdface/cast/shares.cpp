@@ -10,18 +10,18 @@
 namespace crowdface {
 namespace {
 
-constexpr double kRounding = 1e-9;  // 0.3 · 10 is 3, whatever doubles make of it
+constexpr double kRounding = 1e-9;  // 0.3 · 10 must be 3 despite rounding
 
 std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
 
-/// The face at which a share must have got `m` faces.
+/// Returns the face at which a share must have got `m` faces.
 std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Whether leaving place `n` to the rest would make some share late at a later place.
+/// Returns whether some share would be late, now or later, if no share got place `n`.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -39,7 +39,7 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   double total = 0;
   for (const double share : shares) total += share;
   const bool all_taken = total > 1 - kRounding;
-  // Later than that nothing can fall due that is not due already (docs/casting.md).
+  // Beyond this horizon, no additional face falls due (docs/casting.md).
   const auto kinds = static_cast<double>(shares.size());
   const std::uint64_t horizon =
       shares.size() <= 1 || all_taken

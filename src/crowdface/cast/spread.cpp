@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kCandidatesAtATime = 256;
 
-/// The squared distance, or anything above `limit` once it is sure to exceed that.
+/// Returns the squared distance, or any value above `limit` as soon as it is known to exceed
+/// `limit`.
 double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
   constexpr Index kLanes = 8, kChunk = 32;
   double sum = 0;

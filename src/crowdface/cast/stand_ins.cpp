@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// The mean place of the heads of a group, or of all others.
+/// Returns the mean point of the heads inside a group, or outside.
 Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(space.dimensions());
   float count = 0;

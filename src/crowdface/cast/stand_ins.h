@@ -8,28 +8,33 @@
 
 namespace crowdface {
 
-/// Who stands among the heads of a group for each head that is none of them: a father's sister for the
-/// father, where daughters are made of women's heads alone. It is the one that has most tags in common with
-/// him, of these rather one that is no parent's, and then the one most like him in shape, apart from what
-/// sets the group's mean apart from the mean of all others.
+/// Substitutes heads outside a group by similar heads of the group: if daughters are made of
+/// women's heads, a woman's head stands for each head of the father. The substitute has the most
+/// tags in common with the original; then it is preferably not a head of a parent; then it is the
+/// nearest in shape, after the difference between the mean of the group and the mean of all other
+/// heads is removed.
 class StandIns {
  public:
-  /// Everyone stands for himself.
+  /// No head is substituted.
   StandIns() = default;
-  /// \param group  ascending, not empty. \param tags  #heads, or none known. \param taken  heads of parents.
+  /// \param group  Heads of the group; ascending, not empty.
+  /// \param tags   #heads, or empty if unknown.
+  /// \param taken  Heads of the parents.
   StandIns(const std::vector<Index>& group, const HeadTags& tags, const std::vector<Index>& taken,
            const FaceSpace& space);
 
-  /// \param shares  ascending heads. \return  the same of heads of the group.
+  /// Returns weights with each head replaced by its substitute.
+  ///
+  /// \param shares  Weights, by ascending head.
   std::vector<SourceWeight> of(const std::vector<SourceWeight>& shares) const;
-  /// Whether they are of the group themselves.
+  /// Returns whether all heads belong to the group.
   bool has_all(const std::vector<SourceWeight>& shares) const;
 
  private:
-  std::vector<Index> of_head_;  ///< #heads, or empty
+  std::vector<Index> of_head_;  ///< #heads: substitute of each head; or empty
 };
 
-/// How many of one's tags another has, too.
+/// Returns how many tags two heads have in common.
 std::size_t common_tags(const std::vector<std::string>& one, const std::vector<std::string>& other);
 
 }  // namespace crowdface

@@ -8,11 +8,12 @@
 
 namespace crowdface {
 
-/// A face as casting might make one, from all that heads and levels have, so that the main directions of a
-/// face space know every way in which faces differ. Mirrored, and more or less asymmetric, where the heads
-/// have mirror images.
-/// \param bands  of each region's detail
-/// \param index  each makes another face, always the same
+/// Returns a random recipe with all heads and levels, as casting might draw it. The principal
+/// directions of a face space are computed from such faces, so that they cover every way in which
+/// faces differ. If there are mirror images, faces are mirrored and vary in asymmetry.
+///
+/// \param bands  Number of bands of each region's detail.
+/// \param index  Each index gives another recipe, always the same.
 Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index);
 
 }  // namespace crowdface

@@ -15,7 +15,8 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
       shares[tag] += part.weight;
     }
   }
-  // A tag that a head has counts for it by how much of the mixture has it, and against it by how much has not.
+  // Each of a head's tags counts by the share of the mixture with this tag, minus the share
+  // without.
   constexpr double kSame = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;

@@ -11,9 +11,9 @@ namespace crowdface {
 /// Tags of each head.
 using HeadTags = std::vector<std::vector<std::string>>;
 
-/// Whose tags a face has: its target's, and of a mixture those of the head in it with whose tags most of
-/// the mixture agrees, so that one who is two thirds women's is a woman, whoever has the largest share.
-/// Of equals the one with the largest share, of these the first.
+/// Returns the head whose tags a face has: the target, or for a mixture the head whose tags agree
+/// with most of the mixture. So a mixture that is two thirds female is a woman, even if the largest
+/// single share is a man's. Of equally good heads, the one with the largest share; then the first.
 Index typical_head(const Recipe& recipe, const HeadTags& tags);
 
 }  // namespace crowdface

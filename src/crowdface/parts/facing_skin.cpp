@@ -27,7 +27,7 @@ constexpr double kReach = 0.008;    // largest distance of skin that nearly touc
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // largest overlap: lips that touch intersect a little on the mean head; lids are thicker
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;    // largest sideways offset of two facing vertices
+constexpr double kAside = 0.0035;    // smaller gaps count as this in kSideways
 constexpr double kLeastAway = 0.02;  // smallest distance along the surface
 // distance of the midpoints in one group; more in a coarse mesh
 constexpr double kTogether = 0.015;
