@@ -29,8 +29,8 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
   bool told = false;
   for (;;) {
     if (::flock(file_.get(), operation) == 0) {
-      if (still_names(path, file_))
-        return;  // otherwise the previous holder removed this file: open a new one
+      // False if the previous holder has removed this file: then open a new one.
+      if (still_names(path, file_)) return;
       file_ = open_lock_file(path);
       continue;
     }

@@ -44,10 +44,10 @@ class HandOver {
 #endif
 };
 
-/// Runs the items of a loop. For ThreadSanitizer, items happen after the code before the loop and
-/// before the code after it, but are unordered among themselves, so that races between items are
-/// reported. The first exception is kept until the loop ends, and items that have not started by
-/// then are skipped. TBB must not see exceptions: it would cancel loops nested in other items,
+/// Runs the items of a loop. ThreadSanitizer sees all items as ordered after the code that precedes
+/// the loop and before the code that follows it, but not among themselves, so that it reports races
+/// between items. The first exception is kept until the loop ends, and items that have not started
+/// by then are skipped. TBB must not see exceptions: it would cancel loops nested in other items,
 /// including Embree's, and these would return incomplete results without an error.
 class LoopItems {
  public:

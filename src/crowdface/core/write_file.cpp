@@ -129,8 +129,8 @@ fs::path folder_of(const fs::path& file) {
 /// Makes a rename survive a power cut: the new name is stored in the folder.
 void sync_directory(const fs::path& directory) {
   const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!descriptor.valid() && errno == EACCES)
-    return;  // writable but not readable: cannot be synced
+  // A folder that is writable but not readable cannot be synced.
+  if (!descriptor.valid() && errno == EACCES) return;
   if (!descriptor.valid() || !sync(descriptor.get())) {
     throw_with_reason<IoError>(directory, "cannot be synchronised");
   }

@@ -47,8 +47,8 @@ class PickSession {
   /// Whether saving would lose comments: only comments at the start of the file are kept.
   bool loses_comments() const;
 
-  /// The first point on the mesh along a ray: on the template a vertex, on the scan a point rounded
-  /// to at most a millionth of the scan's size.
+  /// The first point on the mesh along a ray: on the template a vertex, on the scan a point,
+  /// rounded to a power of ten that is at most a millionth of the scan's size.
   std::optional<PickedPlace> pick_on_template(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,

@@ -18,9 +18,9 @@ namespace {
 /// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Extreme points of the attachments on all heads. Some vertices of each attachment are mapped from
-/// the bounding box of the head it was fitted to to the box of each head: fast, and exact enough
-/// for framing.
+/// Extreme points of the attachments on all heads. Some vertices of each attachment are scaled with
+/// the bounding boxes of the heads, from the head it was fitted to. Fast, and exact enough for
+/// framing.
 std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const FaceSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
