@@ -16,7 +16,7 @@ inline constexpr int kMirrorVersion = 1;
 inline constexpr int kPrepareVersion = 6;
 /// Patch fields of all heads, and the faces made from them.
 inline constexpr int kPatchVersion = 1;
-/// Face positions in the sampling space, and the plans made there.
+/// Coordinates of faces in the space that casting samples, and the plans made from them.
 inline constexpr int kFaceSpaceVersion = 1;
 /// Further cache entries: neighbours, masks at vertices, samples and their cells, mirror vertices.
 inline constexpr int kSharedVersion = 1;

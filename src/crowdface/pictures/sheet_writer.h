@@ -40,7 +40,7 @@ class SheetWriter {
   std::string title_;
   std::size_t volumes_ = 0;        ///< number of finished volumes
   std::vector<std::string> pngs_;  ///< pages of the current volume, if PDF is asked for
-  std::vector<SheetCell> index_;   ///< index of the current volume
+  std::vector<SheetCell> index_;   ///< pages in the index of the current volume
   std::vector<std::filesystem::path> written_;
   int pages_beside_ = 0;
   // Last member, so that its tasks end before the members they use are destroyed.

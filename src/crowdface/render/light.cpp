@@ -27,7 +27,7 @@ int find_byte(float light) {
   return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
 }
 
-/// Table that replaces find_byte, whose pow is slow.
+/// Lookup table for find_byte, which calls the slow std::pow.
 class ByteTable {
  public:
   ByteTable() {
