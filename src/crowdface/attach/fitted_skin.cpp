@@ -47,6 +47,7 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
       areas_(static_cast<std::size_t>(topology.vertex_count), 0.0) {
   require(mesh_.rows() == topology.vertex_count && skin_.size() >= 3, "fitted skin: ", mesh_.rows(),
           " positions, ", skin_.size(), " vertices of skin");
+  // Compute the vertices' areas, and the sign of the volume, which tells the winding.
   const Positions vectors = face_area_vectors(topology, mesh_);
   std::vector<bool> is_skin(areas_.size(), false);
   for (const std::uint32_t v : skin_) is_skin[v] = true;
@@ -66,6 +67,7 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
   const double spacing = std::sqrt(area / static_cast<double>(skin_.size()));
   require(spacing > 0, "fitted skin: no area");
   add_level(spacing, skin_, areas_);
+  // Add coarser levels for larger patches.
   while (levels_.back().vertices.size() > kCoarsest) {
     const std::size_t before = levels_.back().vertices.size();
     add_coarser(2 * levels_.back().spacing);

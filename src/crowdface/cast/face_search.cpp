@@ -100,6 +100,7 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
     compare_with_newer(crowd);
     draw_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
+    // Take the farthest candidate that passes all checks. If none does, draw more.
     while (!candidates_.empty()) {
       Candidate& candidate = farthest(crowd);
       auto why = refuses ? refuses(candidate.point) : std::nullopt;

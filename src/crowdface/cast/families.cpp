@@ -61,6 +61,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
     throw_if_interrupted();
     if (drawn && !draws.draw_parents(crowd, kinship, f, rejections)) return std::nullopt;
+    // Find a founder. Drawn parents must match well enough.
     FaceSearch founder([&](std::uint32_t attempt) { return draws.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
                        f * kFounderAttempts);
@@ -73,6 +74,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
     const double enough = kStrangersNearerToHalf * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyCast cast{family.name, std::move(found->face), std::move(found->point)};
+    // For twins, a hidden child replaces the founder.
     if (family.twins) {
       FaceSearch model([&](std::uint32_t attempt) { return draws.model_of_twins(cast, attempt); },
                        judge, of_founder, 1, f * kFounderAttempts);
@@ -85,8 +87,10 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
       if (!child) continue;
       cast = {family.name, std::move(child->face), std::move(child->point), true};
     }
+    // Find room for all members, or try the next founder.
     auto members = draw_members(casting, family, judge, draws, cast, crowd, kinship, rejections);
     if (static_cast<int>(members.size()) < family.members) continue;
+    // Add the drawn parents and the members to the crowd.
     for (const FaceSearch::Found& parent : draws.drawn_parents()) {
       crowd.add(parent.face, parent.point);
     }

@@ -218,6 +218,7 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
   SmallProgram program(kUnknowns);
   bool missing = false;
   std::size_t kept = 0;
+  // Each pair near the skin gives a constraint.
   for (const std::uint32_t i : near) {
     const Pair& pair = pairs_[i];
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
@@ -245,6 +246,7 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
     program.want(kShift + i, -shifted(static_cast<Index>(i)), 1);
     program.want(kTurn + i, 0, kHoldTurn);
   }
+  // Keep the total change of size small, within limits.
   program.want(kSize, -grown, kHoldSize);
   program.demand_between(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
   program.add_slack(kNewSlack, kNewPrice * reach_);

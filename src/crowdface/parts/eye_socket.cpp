@@ -165,6 +165,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   } mean[2];
 
   std::size_t kept = 0;
+  // Each lid vertex gives a constraint. Each rim vertex also has a wanted gap.
   for (const Lid& lid : lids) {
     const std::uint32_t r = rim_of_[lid.number];
     const Eigen::Vector3d from = lid.point - centre;
@@ -209,6 +210,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   for (std::size_t i = 0; i < 3; ++i) {
     program.want(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
+  // Keep the total shift and change of size small.
   program.want(kBallSize, size == Size::kFree ? -grown : 0, kHoldBallSize);
   if (size == Size::kFree) {
     program.demand_between(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);

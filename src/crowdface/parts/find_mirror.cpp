@@ -104,6 +104,7 @@ class PlaceFinder {
       double distance;
       std::uint32_t vertex, partner;
     };
+    // Seeds are the vertices whose mirror images are nearest to another vertex.
     std::vector<Seed> seeds;
     for (const std::uint32_t v : some_of(here, 20 * kSeeds)) {
       const auto near = grid.nearest(image(v));
@@ -115,6 +116,7 @@ class PlaceFinder {
     std::optional<std::vector<MirroredPair>> best;
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
     for (const Seed& seed : seeds) {
+      // Try a walk from each edge that leaves the seed.
       for (const std::uint32_t f : around_.of(seed.vertex)) {
         const auto face = topology_.face(f);
         const auto corner = std::ranges::find(face, seed.vertex);

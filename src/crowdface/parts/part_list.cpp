@@ -167,6 +167,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
 
   const std::vector<std::vector<std::uint32_t>> members = members_of(components);
   Grouping grouping(count);
+  // Join the components that the user joined.
   std::vector<bool> by_hand(count, false);
   for (const auto& together : overrides.together) {
     for (const std::uint32_t c : together) {
@@ -181,6 +182,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     eyeball[c] = is_eyeball(list.shapes[c], extent);
     if (!by_hand[c]) rigid.push_back(c);
   }
+  // Join the other rigid components by position.
   join_inside(list, rigid, eyeball, grouping);
   join_touching(positions, components, members, rigid, eyeball, kTouch * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);

@@ -27,14 +27,14 @@ constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices 
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
-/// Fraction of the request at a place by which its gap may miss its range. Evens out the requests
-/// of neighbouring places.
+/// A gap may miss its range by this fraction of its place's amplitude. Evens out the amplitudes of
+/// neighbouring places.
 constexpr double kEvenness = 0.001;
-/// Largest request at a place, as a multiple of the largest violation.
+/// Largest amplitude of a place, as a multiple of the largest deviation of a gap from its range.
 constexpr double kMost = 4;
 
 /// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
-/// positive definite, so places with different requests always have a solution.
+/// positive definite, so amplitudes exist for any wanted gaps.
 double bump(double distance) {
   if (distance >= 1) return 0;
   const double rest = 1 - distance;
@@ -225,11 +225,11 @@ std::vector<std::uint32_t> SkinContacts::moved() const {
   return vertices;
 }
 
-/// Computes the requests at all places, in addition to the previous ones. No place is asked to
-/// close a gap that is not too wide, or to open one that is not too narrow, so that neighbours
-/// rarely counteract each other. This is a linear complementarity problem, solved by projected
-/// Gauss-Seidel (Cottle, Pang & Stone 1992, chapter 5). The nearest points of the profiles change
-/// during the iteration, so the gap is computed anew each time.
+/// Solves for the amplitudes of all places, starting from the previous ones. A positive amplitude
+/// is only used if the gap would be too narrow without it, a negative one if the gap would be too
+/// wide, so that neighbours rarely counteract each other. This is a linear complementarity problem,
+/// solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992, chapter 5). The nearest points of
+/// the profiles change during the iteration, so the gap is computed anew each time.
 std::vector<SkinContacts::Change> SkinContacts::ask(const Contact& contact,
                                                     std::span<const Range> ranges, double most,
                                                     Profiles& profiles,
@@ -313,7 +313,7 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
-      // Solve for the requests with these points.
+      // Solve for the amplitudes with these points.
       if (round == 0) most = kMost * missing;
       changes = ask(contact, ranges, most, profiles, asked);
     }

@@ -48,13 +48,13 @@ class SkinContacts {
   void bring_into(std::span<const Range> ranges, Positions& positions) const;
 
  private:
-  /// How much a vertex moves per unit of a place's request, the wanted change of its gap.
+  /// The smooth displacement is a sum of one kernel per place, each with an amplitude. A share is
+  /// the value of a place's kernel at a vertex.
   struct Share {
     std::uint32_t place;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// Movement of the profile points of a contact, place after place, per unit of the request at
-  /// one place.
+  /// Movement of a contact's profile points, place after place, per unit of one place's amplitude.
   struct Motions {
     std::vector<double> heights, depths;
   };
@@ -80,13 +80,17 @@ class SkinContacts {
   void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_motions(Contact& contact) const;
-  /// An addition to the request at a place.
+  /// A change of a place's amplitude.
   struct Change {
     std::size_t place;  ///< index within the contact
     double by;
   };
-  /// \return  Changes in the order in which they were made. The depths of `profiles` are not
-  ///          updated.
+  /// Solves for the amplitudes, see the definition.
+  ///
+  /// \param most   Largest amplitude.
+  /// \param asked  Amplitudes of the contact's places; updated.
+  /// \return       Changes in the order in which they were made. The depths of `profiles` are not
+  ///               updated.
   std::vector<Change> ask(const Contact& contact, std::span<const Range> ranges, double most,
                           Profiles& profiles, std::vector<double>& asked) const;
   static void move_depths(const Contact& contact, std::span<const Change> changes,

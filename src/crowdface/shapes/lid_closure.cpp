@@ -16,14 +16,17 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the eyeball's radius, about 12 mm.
-constexpr double kWholeShare = 1.8, kNoShare = 3;   // distance from the eyeball's centre
-constexpr double kWholeHold = 0.27, kNoHold = 0.6;  // distance from the eyeball's surface
+// Closing acts fully up to kWholeShare from the eyeball's centre, and not at all from kNoShare on.
+constexpr double kWholeShare = 1.8, kNoShare = 3;
+// Keeping off acts fully up to kWholeHold from the eyeball's surface, not at all from kNoHold on.
+constexpr double kWholeHold = 0.27, kNoHold = 0.6;
 /// Keeping off the eyeball grows from 0 to 1 over kHoldOver above kHoldFrom, in the cosine between
 /// a vertex's direction and the front. With −2 it is 1 everywhere.
 constexpr double kHoldFrom = -2, kHoldOver = 0.25;
 constexpr std::size_t kPlaces = 52;  // number of places along the opening
 constexpr double kProfile = 0.35;    // radius of a profile around its place
 constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
+// A place counts as closed by the shape if its gap shrinks by at least this much.
 constexpr double kLeastClosed = 0.05;
 /// The template's shape closes a place if at most this fraction of the gap at rest is left.
 constexpr double kLeft = 0.4;

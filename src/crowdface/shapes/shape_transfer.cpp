@@ -160,6 +160,7 @@ void CarriedShape::fit_lids() {
 /// Lips that the shape leaves closed stay closed. If the shape closes the lips that its companion
 /// opens, all gaps change as on the template.
 void CarriedShape::keep_contacts() {
+  // Compute the wanted change of each gap: the weighted mean of the sets' changes.
   std::vector<double> widening(shape_.widening.front().size(), 0.0);
   for (std::size_t p = 0; p < widening.size(); ++p) {
     SetShares here = {{0, 1}};
@@ -172,6 +173,7 @@ void CarriedShape::keep_contacts() {
       widening[p] += of_set.share * carrier_.frames.whole.scale * shape_.widening[of_set.set][p];
     }
   }
+  // Adjust the mesh in the shape, and convert the result back to displacements.
   result_.add_to(mesh_);
   const auto how =
       shape_.companion ? KeptContacts::Keeping::kAll : KeptContacts::Keeping::kNearlySame;

@@ -18,9 +18,10 @@ namespace {
 /// Distance on the template up to which triangles may intersect on a face: any triangles, and
 /// triangles that face each other.
 constexpr double kMeets = 0.008, kFacing = 0.02;
-// width of the border around skin that may meet
+// rings of triangles to search around skin that may meet
 constexpr int kRings = 2;
-constexpr double kEvened = 0.002, kNotEvened = 0.005;  // distance from intersections, at rest
+// Averaging acts fully up to kEvened from intersections (at rest), not at all from kNotEvened on.
+constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
@@ -29,7 +30,7 @@ constexpr double kLaid = 0.7;
 /// Fraction of the averaging's vertical change that is applied to lids, so that the eye stays
 /// closed.
 constexpr double kClosing = 0.3;
-// push per round; distance from intersections, at rest
+// push per round, and its radius around intersections, at rest
 constexpr double kPush = 0.00015, kPushed = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement before giving up, where lids meet
@@ -303,6 +304,7 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   for (std::size_t i = 0; i < watched.rows.size(); ++i) {
     watched.shaped.row(static_cast<Index>(i)) = shaped.row(watched.rows[i].vertex);
   }
+  // Search skin that may meet, and a few rings around it.
   std::vector<bool> meets = skin_that_may_meet(skin_, neutral, shaped, extent_);
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<bool> wider = meets;
@@ -319,6 +321,7 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   watched.excused.assign(triangles.size(), false);
   watched.search =
       CrossingSearch(std::move(triangles), shaped, kMeets * extent_, kFacing * extent_);
+  // Ignore the intersections of the template in the shape.
   excuse(shaped, watched);
   return watched;
 }

@@ -212,6 +212,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
     const Corners over = corners_of(mesh, covered.over);
     if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
+    // Find the skin in front of the vertex on this face.
     std::optional<double> foremost;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const Triangle& triangle : covered.near) {
@@ -223,6 +224,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
     }
     const double facing = axes.front.dot(normal);
     if (!foremost || facing < kFacesFront) continue;
+    // Push this skin if it is too near to the vertex, or behind it.
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
     const double by = std::min(missing, most[i]);
