@@ -26,7 +26,7 @@ enum class Reason {
   kIntersecting,        ///< the skin intersects itself where the target's does not
   kGap,                 ///< skin that nearly touches is farther apart than in any head
   kExposed,             ///< the skin shows its back near an intersection
-  kFamily,              ///< among another family, or too far from its own
+  kFamily,              ///< intrudes into another family, or does not fit into its own
   kRejected,            ///< too similar to a face that a review rejected
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;

@@ -27,7 +27,7 @@ class StandIns {
   ///
   /// \param shares  Weights, by ascending head.
   std::vector<SourceWeight> of(const std::vector<SourceWeight>& shares) const;
-  /// Returns whether all heads belong to the group.
+  /// Returns whether the group contains every head that has a share.
   bool has_all(const std::vector<SourceWeight>& shares) const;
 
  private:
