@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that crowdface needs and that are missing; prints nothing if all are there. Works as root and
-# with sudo. Where it may not install, it lists what is missing and exits with 69. Tested on Debian 12 (bookworm) and
-# Debian 13 (trixie); Ubuntu 24.04 has the same package names.
+# with sudo. Where it may not install, it lists what is missing and exits with 69. Tested on Debian 12 (bookworm),
+# Debian 13 (trixie) and Debian testing (forky, November 2026); Ubuntu 24.04 has the same package names.
 #
 #   scripts/install_dependencies.sh          what building needs, and most tests
 #   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, and Doxygen
@@ -55,14 +55,14 @@ by_cmake_names() {
 }
 
 # shellcheck source=/dev/null
-system=$(. /etc/os-release 2>/dev/null && echo "${ID-} ${VERSION_ID-}") || system=unknown
+system=$(. /etc/os-release 2>/dev/null && echo "${ID-} ${VERSION_ID-${VERSION_CODENAME-}}") || system=unknown
 cannot() {
   {
     echo "crowdface needs packages that are not installed:"
     echo "  ${missing[*]}"
     echo "$1 With Debian's names:"
     echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
-    case "$system" in "debian 12" | "debian 13") ;; *) by_cmake_names ;; esac
+    case "$system" in "debian 12" | "debian 13" | "debian forky") ;; *) by_cmake_names ;; esac
   } >&2
   exit 69
 }
