@@ -35,7 +35,8 @@ std::string write_fitted_to(const Attachments& attachments, const ConfigWriting&
   return attachments.file.empty() ? kMean : path("").write(attachments.file, writing);
 }
 
-/// Some head must have all of them, or the item is for nobody.
+/// Reads the tags of an item. Refuses tags that no head has together, because no face could wear
+/// the item.
 void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
@@ -47,7 +48,7 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   }
 }
 
-/// A key of what casting knows of an attachment, too.
+/// A key whose value is stored in the base class AttachmentItem.
 template <class Member>
 Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
                         const Codec<Member>& codec, std::string_view required = {}) {
@@ -74,7 +75,7 @@ const Keys<Attachment>& item_keys() {
   return keys;
 }
 
-/// Whether files of a face are called so already.
+/// Returns whether a face has other files with this name: levels of detail or shapes.
 bool is_taken(const std::string& name, const Config& config) {
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
@@ -134,7 +135,8 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   }
 }
 
-/// The kind that a quota of this word is of: that of the first item which is called so.
+/// Returns the first item whose kind, name or colour is this word; null if there is none. Its kind
+/// is the kind of a quota for the word.
 const Attachment* first_called(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(
       attachments.items, [&](const Attachment& item) { return is_called(item, word); });
@@ -155,7 +157,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   draft.complaints.expect_map(node,
                               "a mapping from kinds, names or colours to shares, {glasses: 0.33}");
   std::map<std::string, double> totals;  // by kind
-  std::set<std::string> alone;           // kinds with a quota of their own
+  std::set<std::string> alone;           // kinds that have a quota for the whole kind
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
     if (!share) continue;
@@ -185,7 +187,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   }
 }
 
-/// Shares by kind or the like; none are left out.
+/// Writes a mapping from words to shares; empty, so that the key is left out, without shares.
 auto write_shares(std::map<std::string, double> Attachments::*shares) {
   return [=](const Attachments& attachments, const ConfigWriting&) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {
@@ -210,7 +212,7 @@ const Keys<Attachments>& attachments_keys() {
   return keys;
 }
 
-/// What an item excludes must be there.
+/// Refuses an `excludes` entry that is not the name or kind of an attachment.
 void check_excluded(const YamlNode& items, const Attachments& attachments, ConfigDraft& draft) {
   std::vector<std::string> known = kinds_of(attachments);
   for (const Attachment& item : attachments.items) known.push_back(item.name);

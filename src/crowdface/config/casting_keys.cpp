@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections `distance`, `diversity` and `believability`: how faces are compared and what they
-// must keep.
+// The sections `distance`, `diversity` and `believability`: how faces are compared, and the limits
+// that they must meet.
 #include <algorithm>
 #include <functional>
 
@@ -13,9 +13,9 @@ namespace crowdface {
 namespace {
 
 constexpr double kShareRounding = 1e-9;
-constexpr Eigen::Index kMostJudged = 200'000;  // vertices of heads whose meshes a starter judges
+constexpr Eigen::Index kMostJudged = 200'000;  // most vertices for `meshes: judge` in a starter
 
-/// One image, or a set of UDIM tiles.
+/// Reads the path of one image, or of a set of UDIM tiles.
 void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
   const auto mask = path("an image file").read(node, draft);
   if (!mask) return;
@@ -27,15 +27,15 @@ std::string write_mask(const Config::Distance& distance, const ConfigWriting& wr
   return distance.mask ? path("").write(*distance.mask, writing) : "";
 }
 
-/// What `diversity.quotas` of older versions asked for.
+/// An entry of the former key `diversity.quotas`.
 struct Quota {
-  std::string name;  ///< of a head or a tag
+  std::string name;  ///< name of a head or a tag
   double share = 0;
   std::vector<Eigen::Index> heads;
-  std::optional<std::size_t> band;  ///< none: the quota binds the target
+  std::optional<std::size_t> band;  ///< none: the quota applies to the target
 };
 
-/// The heads of all quotas of a band, or of those that bind the target.
+/// Returns the heads of all quotas for a band; without a band, of all quotas for the target.
 std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
                                    std::optional<std::size_t> band) {
   std::vector<Eigen::Index> heads;
@@ -45,14 +45,16 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// The heads of a list that are among others or, if `own` is false, that are not.
+/// Keeps the heads that are in `others` or, if `own` is false, those that are not.
+/// \param head  returns the head of an item.
 template <class Heads, class Head>
 Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, const Head& head) {
   std::erase_if(heads, [&](const auto& item) { return contains(others, head(item)) != own; });
   return heads;
 }
 
-/// The group that takes the place of a quota or, without one, of all faces that count for no quota.
+/// Writes the group that replaces a quota. If `quota` is null, writes the group of all faces that
+/// count for no quota.
 std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
                        const ConfigWriting& writing) {
   const SamplingOptions& sampling = writing.config.sampling;
@@ -93,7 +95,8 @@ std::optional<Quota> read_quota(const YamlNode& node, const YamlEntry& entry, Co
                                                                      : std::nullopt;
 }
 
-/// Shows the groups that say what the quotas said. An empty mapping stands in the configs of older crowds.
+/// Refuses quotas with a message that shows the equivalent groups. Accepts an empty mapping, which
+/// the configs of older crowds contain.
 void refuse_quotas(const YamlNode& node, DiversityOptions& /*diversity*/, ConfigDraft& draft) {
   if (node.entries.empty()) return;
   std::vector<Quota> quotas;
@@ -142,7 +145,7 @@ const Keys<BelievabilityOptions>& believability_keys() {
   return keys;
 }
 
-/// A key of older versions, which the configs of their crowds have with this value.
+/// A removed key. Accepts only `value`, which the configs of older crowds contain.
 Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
   return {name,
           [=](const YamlNode& node, auto&, ConfigDraft& draft) {

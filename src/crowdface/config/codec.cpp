@@ -14,7 +14,7 @@ namespace {
 
 using Unit = SmoothnessDistribution::Unit;
 
-/// A codec of values that need nothing but their YAML.
+/// A codec for values that do not depend on the rest of the config.
 template <class Value, class Read, class Write>
 Codec<Value> plain(const Read& read, const Write& write, const std::string& takes) {
   return {[=](const YamlNode& node, ConfigDraft& draft) { return read(node, draft.complaints); },
@@ -36,7 +36,7 @@ Codec<double> fraction() {
   return codec;
 }
 
-/// A size that smoothing reaches.
+/// A size in millimetres up to `smoothing.max_size`.
 Codec<double> relief_size() {
   return such_that(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;
@@ -48,7 +48,7 @@ Codec<double> relief_size() {
   });
 }
 
-/// Kept as a number; written whole: 1e+07 is no whole number to the reader.
+/// A whole number stored as double. `write` avoids exponents, because `read` refuses 1e+07.
 Codec<double> iteration_count() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<double> {
             const std::uint64_t most =
@@ -60,7 +60,7 @@ Codec<double> iteration_count() {
           "whole number"};
 }
 
-/// One value or a range of them, in this unit.
+/// A smoothness in this unit: one value or a range.
 Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
   const Codec<Range> ranges = range(one);
   return {[=](const YamlNode& node, ConfigDraft& draft) {
@@ -73,7 +73,8 @@ Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
           ranges.takes};
 }
 
-/// `{name: weight}`: a head's own entry counts alone, the weights of several tags add up.
+/// Reads `{head or tag: weight}`. The weights of several tags of a head add up; an entry for the
+/// head itself overrides them.
 std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft) {
   std::map<Eigen::Index, double> by_tag, by_name;
   for (const YamlEntry& entry : node.entries) {
@@ -87,14 +88,14 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
       (named ? by_name : by_tag)[head] += weight.value_or(1);
     }
   }
-  by_name.merge(by_tag);  // keeps what is there
+  by_name.merge(by_tag);  // existing entries of by_name win
   std::vector<WeightedHead> targets;
   for (const auto& [head, weight] : by_name) targets.push_back({head, weight});
   return targets;
 }
 
 std::vector<Eigen::Index> read_heads(const YamlNode& node, ConfigDraft& draft) {
-  std::set<Eigen::Index> chosen;  // each once, ascending
+  std::set<Eigen::Index> chosen;
   if (is_word(node, "all")) {
     for (std::size_t i = 0; i < draft.config.faces.names.size(); ++i) {
       chosen.insert(static_cast<Eigen::Index>(i));

@@ -13,65 +13,68 @@
 
 namespace crowdface {
 
-/// What a value may need to know to be written.
+/// The context in which values are written as YAML.
 struct ConfigWriting {
   const Config& config;
-  std::filesystem::path folder;  ///< absolute; paths are written relative to it
-  bool only_for_faces = false;   ///< see face_settings
+  std::filesystem::path folder;  ///< absolute; written paths are relative to this folder
+  bool only_for_faces = false;   ///< write only the keys that face_settings needs
 
-  /// The name of a head, as YAML.
+  /// Returns the head's name as a YAML scalar.
   std::string head(Eigen::Index index) const;
 };
 
-/// How a value stands in YAML: reading it, which returns nothing after a complaint, and writing it
-/// as entry() takes it. Where the text is empty the key is left out.
+/// Converts values between YAML and C++. `read` returns nothing after it has added a complaint.
+/// `write` returns text for entry(); an empty text leaves the key out.
 template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
   std::function<std::string(const Value&, const ConfigWriting&)> write;
-  std::string takes = {};  ///< the values, for docs/config.md: "number, 0 … 1"
+  std::string takes = {};  ///< the accepted values, for docs/config.md: "number, 0 … 1"
 };
 
-/// "list of tags" for "a list of tags".
+/// Removes a leading "a " or "an ": "a list of tags" becomes "list of tags".
 std::string without_article(std::string_view expected);
 
-/// A number, bounds included.
+/// A number in [low, high].
 Codec<double> number(double low, double high);
-/// A whole number, bounds included.
+/// A whole number in [low, high].
 Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
-/// What one unit of a mesh is: mm, cm, m, in, or a length.
+/// The length of one mesh unit: mm, cm, m, in, or a length such as "243.84 cm".
 Codec<LengthUnit> length_unit();
-/// A length in millimetres from 0, or above it.
+/// A length with its unit, in [0, high_mm]. The value is in millimetres.
 Codec<double> length(double high_mm);
+/// Like `length`, but refuses 0.
 Codec<double> positive_length(double high_mm);
-/// What this one reads but for 0. \param expected  "a number above 0".
+/// Like `codec`, but refuses 0. \param expected  for messages, such as "a number above 0".
 Codec<double> above_zero(const Codec<double>& codec, const std::string& expected);
-/// One value, or [low, high].
+/// One value, or a range `[low, high]`.
 Codec<Range> range(const Codec<double>& one);
-Codec<Range> asymmetry();      ///< from 0
-Codec<Range> age();            ///< from −1 to 1; needs heads that are tagged so
-Codec<Range> extrapolation();  ///< a factor
-/// A smoothness as fraction or size, or a range of either.
+Codec<Range> asymmetry();  ///< 0 to kMaxAsymmetry
+Codec<Range> age();        ///< −1 to 1; needs heads with the tag `young` below 0, `old` above 0
+Codec<Range> extrapolation();  ///< factor, −kMaxExtrapolation to kMaxExtrapolation
+/// A smoothness as a fraction (0 to 1) or as a size with its unit, or a range of either.
 Codec<SmoothnessDistribution> smoothness();
-/// Whole iterations or a range of them.
+/// A smoothness as a whole number of smoothing iterations, or a range of such numbers.
 Codec<SmoothnessDistribution> iterations();
 Codec<std::string> name();
-/// A text that is not empty; `expected` as in "an image file".
+/// A text that is not empty. \param expected  for messages, such as "an image file".
 Codec<std::string> text(const std::string& expected);
 Codec<Eigen::Index> head();
-/// Heads by name or tag, or `all`. Ascending, each once.
+/// Heads by name or tag, or `all`. The result is ascending, without duplicates.
 Codec<std::vector<Eigen::Index>> head_list();
-/// The same, or `{name: weight}`.
+/// Like `head_list` (every weight is 1), or a mapping `{head or tag: weight}`.
 Codec<std::vector<WeightedHead>> weighted_heads();
 Codec<PlanePoint> point();
 /// "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing);
-/// A path, relative to the config's folder; `expected` as in "a folder". The empty one is left out.
+/// A path relative to the config's folder. An empty path is not written.
+/// \param expected  for messages, such as "a folder".
 Codec<std::filesystem::path> path(const std::string& expected);
-/// An OBJ file that is there.
+/// An existing OBJ file.
 Codec<std::filesystem::path> obj_file();
 
-/// The values of a codec that fit. \param fits  whether (value, node, draft) does; complains if not.
+/// Restricts a codec to values that pass a check.
+/// \param fits  called with (value, node, draft); adds a complaint and returns false to refuse.
 template <class Value, class Fits>
 Codec<Value> such_that(Codec<Value> codec, const Fits& fits) {
   codec.read = [=, read = std::move(codec.read)](const YamlNode& node, ConfigDraft& draft) {
@@ -82,14 +85,14 @@ Codec<Value> such_that(Codec<Value> codec, const Fits& fits) {
   return codec;
 }
 
-/// "`front`, `skin`".
+/// Lists the words of an enumeration for docs/config.md: "`front`, `skin`".
 template <class Value>
 std::string shown_words() {
   return join(texts_of(words_of<Value>(),
                        [](const Word<Value>& word) { return concat('`', word.text, '`'); }));
 }
 
-/// One of the words of the type.
+/// A value that a config names by a word, see all_words.
 template <class Value>
 Codec<Value> word() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
@@ -99,7 +102,7 @@ Codec<Value> word() {
           shown_words<Value>()};
 }
 
-/// A list of values that each stand in one line.
+/// A list of values, written in one line. \param expected  for messages, such as "a list of tags".
 template <class Value>
 Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expected) {
   return {[=](const YamlNode& node, ConfigDraft& draft) {
@@ -117,7 +120,9 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
           without_article(expected)};
 }
 
-/// A list of words, each once. \param expected  "a list of views, [front, profile]".
+/// A list of words without duplicates.
+/// \param expected  for messages, such as "a list of views, [front, profile]".
+/// \param fewest    minimum number of words.
 template <class Value>
 Codec<std::vector<Value>> words(const std::string& expected, std::size_t fewest = 1) {
   auto codec = list(word<Value>(), expected);

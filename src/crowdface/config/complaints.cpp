@@ -34,7 +34,7 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
 }
 
 void Complaints::tell(Problems& problems) const {
-  constexpr std::size_t kMostTold = 100;  // more would only bury the first
+  constexpr std::size_t kMostTold = 100;  // a longer list would hide the first problems
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);

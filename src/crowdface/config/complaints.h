@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// What is wrong with a config, gathered in any order and told in that of the file.
+/// Collects the problems of a config in any order and reports them in the order of the file.
 class Complaints {
  public:
   struct Complaint {
@@ -20,11 +20,12 @@ class Complaints {
   };
 
   void add(const YamlPlace& place, std::string what, ExitCode kind = ExitCode::kUsage);
-  /// "PATH: WHAT" at the node; silent about a node that a complaint was made of already.
+  /// Adds "PATH: WHAT" at the node, unless the node is already refused (Kind::kRefused).
   void about(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
-  /// "PATH: expected EXPECTED, found …" at the node. \return nothing, for who reads a value to return.
+  /// Adds "PATH: expected EXPECTED, found …" at the node.
+  /// \return `nullopt`, so that a function that reads a value can return this call.
   std::nullopt_t expected(const YamlNode& node, const std::string& expected);
-  /// Whether the node is a list, or a mapping; the same complaint if not.
+  /// Return whether the node is a list (a mapping). If not, add the complaint of expected().
   bool expect_list(const YamlNode& node, const std::string& what);
   bool expect_map(const YamlNode& node, const std::string& what);
 
@@ -32,7 +33,8 @@ class Complaints {
   std::size_t size() const { return complaints_.size(); }
   const std::vector<Complaint>& list() const { return complaints_; }
 
-  /// Hands over the first hundred by line and column; those of the command line come last.
+  /// Reports the first 100 complaints by line and column. Complaints about the command line come
+  /// last. If there are more, one final problem states how many.
   void tell(Problems& problems) const;
 
  private:

@@ -30,51 +30,52 @@ namespace crowdface {
 
 struct CellSize;  // render/contact_sheet.h
 
-/// What to do about heads that do not stand in one frame.
+/// What to do if the heads are not aligned with each other.
 enum class Align {
   kCheck,  ///< warn
-  kRigid,  ///< move every head onto the first by its best rotation and translation
-  kNone,   ///< neither
+  kRigid,  ///< align every head to the first by the best rotation and translation
+  kNone,   ///< do not check
 };
 
-/// Whether a crowd gets a page to choose from.
+/// Whether a crowd gets a gallery page, on which users select faces.
 enum class Gallery {
-  kAuto,  ///< where there are pictures and the page was built
+  kAuto,  ///< if there are pictures and this build contains the page
   kNone,
 };
 
-/// Whose textures a face wears: by the weights of its shape, or drawn apart from it.
+/// Which weights blend a face's textures: the weights of its shape (`kRecipe`), or weights that are
+/// drawn independently (`kDrawn`).
 enum class ColourWeights { kRecipe, kDrawn };
 
-/// What colours faces have.
+/// Which textures a face gets.
 enum class TextureBlend {
-  kAuto,    ///< each its own, blended from the heads', where these have different ones
-  kTarget,  ///< those of their target
-  kNone,    ///< none that pictures show; files are as with kTarget
+  kAuto,    ///< a blend of the heads' textures, if these differ
+  kTarget,  ///< the textures of its target
+  kNone,    ///< pictures show no textures; written files are the same as with kTarget
 };
-/// A format that faces' own textures are written in.
+/// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
 /// Whether pictures show textures.
 enum class SheetTexture {
-  kAuto,  ///< where there are any
+  kAuto,  ///< if there are any
   kYes,
   kNo,
 };
 
-/// How the levels of smoothing are represented.
+/// How the smoothed versions of each head are represented.
 enum class Levels {
-  kBasis,  ///< fields fitted to each head, as many as a tolerance needs
-  kExact,  ///< every level by the filter itself
-  kCubic,  ///< the paper's cubic in L per vertex (§5.1)
+  kBasis,  ///< displacement fields fitted to each head, as many as `tolerance_mm` requires
+  kExact,  ///< the smoothing filter computes every level
+  kCubic,  ///< the paper's cubic polynomial in the level L per vertex (§5.1)
 };
 
-/// How pictures show a material, in place of what its name speaks of.
+/// How pictures show a material. Overrides the kind that its name suggests.
 struct SurfaceChoice {
   SurfaceKind kind = SurfaceKind::kSkin;
-  std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: that of its kind
+  std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the colour of `kind`
 };
 
-/// What stands under a picture, a line each.
+/// A line of text below a picture.
 enum class SheetLabel {
   kId,
   kFamily,
@@ -85,25 +86,26 @@ enum class SheetLabel {
   kTags,
   kAttachments
 };
-/// How the faces follow each other on contact sheets.
+/// The order of the faces on contact sheets.
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
 enum class SheetFormat { kPng, kExr, kPdf };
 
-/// A config file, read, checked and with every name resolved. Fields bear the names of their YAML
-/// keys; docs/config.md explains each. Paths are absolute or relative to the working directory.
+/// A config file after reading and checking, with every name resolved. Fields have the names of
+/// their YAML keys; docs/config.md explains each. Paths are absolute or relative to the working
+/// directory.
 struct Config {
-  std::filesystem::path file;  ///< where it was read from
+  std::filesystem::path file;  ///< path of the config file
 
   struct Crowd {
     std::string name;
-    std::uint64_t count = 0;  ///< sampled faces; recipes come on top
+    std::uint64_t count = 0;  ///< number of sampled faces; recipes add further faces
     std::uint64_t seed = 1;
   } crowd;
 
   struct Faces {
-    std::vector<std::filesystem::path> files;    ///< one a head, in the order of their indices
-    std::vector<std::string> names;              ///< #heads, the files' names without ending
-    LengthUnit units = LengthUnit::kCentimetre;  ///< required in the file: never guessed
+    std::vector<std::filesystem::path> files;    ///< #heads
+    std::vector<std::string> names;              ///< #heads, from names_of_heads
+    LengthUnit units = LengthUnit::kCentimetre;  ///< required in the file, never guessed
     Axis up = {1, 1};
     Axis front = {2, 1};
     Align align = Align::kCheck;
@@ -111,8 +113,8 @@ struct Config {
   } faces;
 
   struct Regions {
-    std::vector<std::string> names;  ///< empty: the whole head as one region, called "all"
-    std::vector<std::string> mask;   ///< image paths, may hold <UDIM>; channels in this order
+    std::vector<std::string> names;  ///< empty: the whole head is one region, "all"
+    std::vector<std::string> mask;   ///< image paths, may contain <UDIM>; channels in this order
   } regions;
 
   struct Smoothing {
@@ -121,70 +123,76 @@ struct Config {
     Boundary boundary = Boundary::kFixed;
     OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< key `operator`
     Levels levels = Levels::kBasis;
-    double tolerance_mm = 0.05;  ///< of `levels: basis`, at any vertex and level
+    double tolerance_mm = 0.05;  ///< maximum error of `levels: basis` at any vertex and level
   } smoothing;
 
   struct Blending {
     Normalization normalization = Normalization::kPartition;
-    Contacts contacts = Contacts::kAuto;  ///< lips, and other skin that nearly touches
+    Contacts contacts = Contacts::kAuto;  ///< treatment of lips and other nearly touching skin
   } blending;
 
-  /// How eyes, teeth and lashes go along. Names are of materials, groups or "component N".
+  /// How eyes, teeth and lashes follow the skin. A name is a material, a group or "component N".
   struct Parts {
-    bool follow = true;  ///< false: `parts: none`, all is blended as skin
+    bool follow = true;  ///< false: `parts: none`, everything is blended as skin
     PartShape shape = PartShape::kTarget;
     std::vector<std::string> skin, rigid, bound;
-    std::vector<std::vector<std::string>> together;  ///< each a rigid part
+    std::vector<std::vector<std::string>> together;  ///< each inner list forms one rigid part
   } parts;
 
-  /// Expressions, of a template or of each head, to be carried to every face.
+  /// Expressions of a template or of each head, which are transferred to every face.
   struct Shapes {
-    std::filesystem::path neutral;    ///< of the template; empty: there is none
-    std::filesystem::path directory;  ///< of the template's shapes
-    std::filesystem::path heads;      ///< with a folder a head; empty: one set serves all
+    std::filesystem::path neutral;    ///< the template's neutral mesh; empty: no template
+    std::filesystem::path directory;  ///< folder of the template's shapes
+    std::filesystem::path heads;      ///< folder with a subfolder for each head; empty: none
     std::vector<std::string> names;   ///< empty: there are no shapes
     std::vector<std::filesystem::path>
-        files;  ///< #names, of the template; empty: it lacks that shape
-    std::vector<std::vector<std::filesystem::path>> of_head;  ///< #heads by #names; likewise
+        files;  ///< #names, the template's shapes; an empty path: the template lacks that shape
+    std::vector<std::vector<std::filesystem::path>>
+        of_head;  ///< #heads by #names; an empty path: the head lacks that shape
   } shapes;
 
-  std::filesystem::path points;  ///< that follow the face: a file; empty: none
-  std::filesystem::path rig;     ///< joints and what is bound to them: a GLB file; empty: none
+  std::filesystem::path points;  ///< file of points that follow the face; empty: none
+  std::filesystem::path rig;     ///< GLB file of joints and the parts bound to them; empty: none
 
-  /// Something that may sit on a head, in a mesh of its own.
+  /// An item that a head may wear, such as hair or glasses; a separate mesh.
   struct Attachment : AttachmentItem {
     std::filesystem::path file;
     AttachmentMove moves = AttachmentMove::kBend;
   };
   struct Attachments {
-    /// What all were fitted to: a head, or a file in the heads' topology; neither: the mean of the heads.
+    /// All items were fitted to this head, or to the mesh `file`, which has the heads' topology.
+    /// Without either, they were fitted to the mean of the heads.
     std::optional<Eigen::Index> head;
     std::filesystem::path file;
     std::vector<Attachment> items;
-    std::map<std::string, double> none;    ///< by kind: the share of faces without one
-    std::map<std::string, double> quotas;  ///< by kind, name or colour: of those who wear one
+    std::map<std::string, double> none;  ///< by kind: share of faces without an item of that kind
+    std::map<std::string, double>
+        quotas;  ///< by kind, name or colour: share of the sampled faces that wear it
   } attachments;
 
   struct Textures {
     TextureBlend blend = TextureBlend::kAuto;
-    std::optional<std::uint64_t> size;  ///< texels of the longer side; none: the largest head's
+    std::optional<std::uint64_t>
+        size;  ///< texels of the longer side; none: the size of the largest head texture
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// Tags in which drawn colours are like the shape; nothing: all.
+    /// For ColourWeights::kDrawn: textures come only from heads that agree with the face's target in
+    /// each of these tags; none: in all tags.
     std::optional<std::vector<std::string>> alike;
   } textures;
 
   struct Plane {
     Layout layout = Layout::kCircle;
-    std::map<Eigen::Index, PlanePoint> anchors;  ///< by head; override the layout, all if kManual
+    std::map<Eigen::Index, PlanePoint>
+        anchors;  ///< by head; override the layout; kManual needs an anchor for every head
   } plane;
 
   SamplingOptions sampling;
 
-  /// What counts when two faces are compared.
+  /// Which vertices count in the distance between two faces.
   struct Distance {
     FaceArea area = FaceArea::kFront;
-    std::optional<std::string> mask;  ///< image path, may hold <UDIM>; its first channel counts
+    std::optional<std::string> mask;  ///< image path, may contain <UDIM>; first channel = weight
   } distance;
   DiversityOptions diversity;
   BelievabilityOptions believability;
@@ -194,59 +202,61 @@ struct Config {
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> texts;  ///< of each
-    std::vector<Review> reviews;     ///< what stands in each
+    std::vector<std::string> texts;  ///< #files, the files' texts
+    std::vector<Review> reviews;     ///< #files, the parsed texts
   } review;
-  std::filesystem::path edits;  ///< what `crowdface edit` saved, merged already; empty: nothing
+  std::filesystem::path edits;  ///< file saved by `crowdface edit`, already merged; empty: none
 
-  /// What a face is compared with, point by point.
+  /// The mesh that each face is compared with, vertex by vertex, in a colour map.
   struct Comparison {
     enum class With { kNothing, kTarget, kNearest, kFile } with = With::kNothing;
     std::filesystem::path file;  ///< a mesh, or the folder of a crowd whose faces have the same ids
-    double scale_mm = 6;         ///< where the colour scale ends
+    double scale_mm = 6;         ///< distance at the end of the colour scale
   };
   struct ContactSheet {
     int columns = 6;
     int rows = 4;
-    int cell = 256;  ///< pixels, one view
+    int cell = 256;  ///< width and height of one view in pixels
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
     Comparison compare;
-    std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< png is always among them
-    int shapes = 0;  ///< faces that are shown with each of their shapes, on pages of their own
+    std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
+    int shapes = 0;  ///< number of faces whose shapes are shown, on separate pages
     SheetTexture texture = SheetTexture::kAuto;
 
-    /// A cell without a distance map, with two lines of text, as heads and families have them.
+    /// The size of a cell without a distance map and with two lines of text, as on the sheets of
+    /// heads and families.
     CellSize plain_cell_size() const;
   };
   struct Output {
     std::filesystem::path directory;
-    std::vector<MeshFormat> meshes = {MeshFormat::kObj};  ///< each once; may be empty
+    std::vector<MeshFormat> meshes = {MeshFormat::kObj};  ///< no duplicates; may be empty
     std::vector<double> lods;  ///< levels of detail: percent of the triangles, descending
-    Subdivision subdivision = Subdivision::kNone;  ///< what USD meshes say of themselves
+    Subdivision subdivision = Subdivision::kNone;  ///< subdivision scheme that USD files declare
     std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
     Gallery gallery = Gallery::kAuto;
-    /// Numbered subfolders of meshes, renders, … hold so many; none, 0: all in one folder.
+    /// Number of faces in each numbered subfolder of meshes, renders, …; none or 0: no subfolders.
     std::optional<std::uint64_t> faces_per_folder;
-    std::map<std::string, SurfaceChoice> surfaces;  ///< by the material's name
+    std::map<std::string, SurfaceChoice> surfaces;  ///< by material name
   } output;
 
-  /// Region names as they stand in a plan: `regions.names`, or "all".
+  /// Returns `regions.names`, or {"all"} if there are no regions. Plans use these names.
   std::vector<std::string> region_names() const;
-  /// Of what may be locked or inherited: the regions, or with bands "top/build", "top/skin", …
+  /// Returns the names of the parts that can be locked or inherited: the regions, or with bands
+  /// "top/build", "top/skin", …
   std::vector<std::string> part_names() const;
   PlanNames plan_names() const;
 };
 
-/// The config as YAML with every default spelled out, keys in a fixed order: the same config gives
-/// the same bytes. Read from a file in `directory`, it gives the same config again.
-/// \param directory  where the text will be written; paths in it are relative to this folder.
+/// Returns the config as YAML with every default written out and keys in a fixed order. The same
+/// config gives the same bytes. A file in `directory` with this text reads back as the same config.
+/// \param directory  the folder that the written paths are relative to.
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
-/// The part of the effective config that a file of a face may depend on beside its recipe and what is read from
-/// files: every key but those that are marked as `apart_from_faces`. A key at its default is left out, so that
-/// faces made before the key existed count as done.
+/// Returns the part of the effective config that a face's files may depend on, apart from its
+/// recipe and the input files: every key that is not marked with Key::apart_from_faces. Keys at
+/// their default are left out, so that faces written before a key existed stay up to date.
 std::string face_settings(const Config& config);
 
 }  // namespace crowdface

@@ -7,8 +7,9 @@
 namespace crowdface {
 namespace {
 
-/// The first node of `b`, or else of `a`, that the other lacks or has otherwise.
-/// \param defaults  the values that keys have which `a` lacks, as it was written before they existed; may be null.
+/// Returns the first node of `b` that differs from `a` or is missing in `a`; else the first node of
+/// `a` that is missing in `b`; else null.
+/// \param defaults  values for keys that `a` lacks because an older version wrote `a`; may be null.
 const YamlNode* first_difference(const YamlNode& a, const YamlNode& b, const YamlNode* defaults) {
   if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return &b;
   for (std::size_t i = 0; i < a.items.size(); ++i) {
@@ -28,7 +29,7 @@ const YamlNode* first_difference(const YamlNode& a, const YamlNode& b, const Yam
   return nullptr;
 }
 
-/// Reviews go with a crowd: a folder keeps them, and further ones add to them.
+/// Removes the key `review`: a crowd's folder stores its reviews, and later runs may add to them.
 void forget_reviews(YamlNode& root) {
   std::erase_if(root.entries, [](const YamlEntry& entry) { return entry.key == "review"; });
 }

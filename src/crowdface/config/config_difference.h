@@ -6,10 +6,12 @@
 
 namespace crowdface {
 
-/// Where a crowd's config.yaml differs from the one of a run, whatever comments and layout. A key that the crowd's config
-/// lacks has its default there: an older version, which did not know the key, wrote that config.
-/// \return the first key, such as "sampling.age"; nothing if both are of the same crowd, which further
-///         reviews are allowed to have changed: the old ones first, in their order.
+/// Compares the config.yaml of a crowd with the config of a run; ignores comments, layout and the
+/// key `review`. A key that the old config lacks counts as its default, because an older version
+/// that did not know the key may have written that config.
+/// \param old_text  the crowd's config.yaml.
+/// \param text      the config of the run.
+/// \return the first differing key, such as "sampling.age"; nothing if the configs are equivalent.
 std::optional<std::string> config_difference(const std::string& old_text, const std::string& text);
 
 }  // namespace crowdface

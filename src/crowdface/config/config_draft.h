@@ -11,42 +11,46 @@
 
 namespace crowdface {
 
-/// A config half-way through reading. The sections are read from the top down, and each may use
-/// what those before it found.
+/// A partly read config. Sections are read in the order of root_keys, and each section may use the
+/// values of earlier sections.
 struct ConfigDraft {
   explicit ConfigDraft(Complaints& out) : complaints(out) { config.sampling.regions.resize(1); }
 
   Config config;
   Complaints& complaints;
-  std::filesystem::path folder;  ///< of the config file; relative paths start there
-  /// After a complaint about the heads, tags, regions or smoothing what they hold is not known, and
-  /// values elsewhere are not held against it.
+  std::filesystem::path folder;  ///< folder of the config file; relative paths start here
+  /// Each flag is false after a complaint about the heads, tags, regions or smoothing. Values that
+  /// refer to them are then not checked, so that one mistake gives one message.
   bool heads_known = false;
   bool tags_known = true;
   bool regions_known = true;
   bool smoothing_known = true;
 };
 
-/// Which of part_names() are meant: by a region's name all its bands, by a band's that of all regions,
-/// or one part. Empty if there is none of that name.
+/// Returns the indices in part_names() that a name selects: a region selects all its bands, a band
+/// selects itself in all regions, a part selects itself. Empty if nothing has that name.
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
 
+/// Returns whether `of_head`, the tags of a head, contains all of `tags`.
 bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::string>& tags);
-/// The heads that have all of these tags.
+/// Returns the heads that have all of these tags, ascending.
 std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
                                      const Config::Faces& faces);
 
-/// A path relative to the folder, with "a/../" taken out by its text.
+/// Resolves a path against the folder and removes "a/../" lexically, without reading links.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
-/// Whether the file is there; a complaint if not. \param what  before the file's name.
+/// Returns whether the file exists. If not, adds a complaint of kind kMissingInput.
+/// \param what  text before the file's name in the message.
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what = "the file ");
 
-/// The head of that name; nothing after a complaint, or silently where the heads are not known.
+/// Returns the head with that name. If there is none, returns nothing and adds a complaint, unless
+/// the heads are not known.
 std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& place,
                                       const std::string& path, ConfigDraft& draft);
-/// The head of that name, or all heads with that tag; empty after a complaint.
+/// Returns the head with that name, or all heads with that tag. If there are none, returns an empty
+/// list and adds a complaint, unless heads or tags are not known.
 std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& place,
                                      const std::string& path, ConfigDraft& draft);
 

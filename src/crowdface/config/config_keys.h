@@ -12,19 +12,19 @@ namespace crowdface {
 
 struct StarterFacts;
 
-/// A key in a starter config.
+/// A key and its comments in a starter config.
 struct StarterLines {
-  std::string value;        ///< as entry() takes it; empty: only the comment above stands there
-  std::string beside = {};  ///< a comment behind it
-  std::string above = {};   ///< one before it, of one or more lines
+  std::string value;        ///< value for entry(); empty: only the comment `above` is written
+  std::string beside = {};  ///< comment on the same line
+  std::string above = {};   ///< comment before the key, one or more lines
 };
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
 /// A row of the tables in docs/config.md.
 struct KeyRow {
   std::string section, key;
-  std::string takes;    ///< which values
-  std::string initial;  ///< the value if the key is left out; "required", or empty for none
+  std::string takes;    ///< accepted values
+  std::string initial;  ///< default value; "required"; or empty if there is no default
 };
 
 template <class Section>
@@ -33,20 +33,20 @@ template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
 
-/// One key of a section: a row from which it is known, read and written.
+/// One key of a section: its name, how to read and write its value, and its documentation.
 template <class Section>
 struct Key {
   std::string_view name;
-  /// Reads the value into the section. After a complaint the section may stay as it was.
+  /// Reads the value into the section. After a complaint the section may be unchanged.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
-  /// Likewise as entry() takes it; empty: the key is left out.
+  /// Returns the section's value as text for entry(); an empty text leaves the key out.
   std::function<std::string(const Section&, const ConfigWriting&)> write;
-  std::string_view required = {};  ///< for a key that must be there: what would do
-  Starter starter = {};            ///< none: it is not in a starter config
-  std::string takes = {};          ///< the values, for docs/config.md
-  /// The rows of the keys in its own mapping, if there are any. \param section  the path of that mapping.
+  std::string_view required = {};  ///< required keys only: an example, for the message
+  Starter starter = {};            ///< empty: the key is not in a starter config
+  std::string takes = {};          ///< accepted values, for docs/config.md
+  /// Documents the nested keys, if the value is a mapping. \param section  path of that mapping.
   std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
-  bool shapes_faces = true;  ///< whether a file of a face may depend on the value itself
+  bool shapes_faces = true;  ///< whether a face's files may depend on the value itself
 
   Key in_starter(const Starter& lines) const {
     Key key = *this;
@@ -61,7 +61,7 @@ struct Key {
     key.takes = std::move(values);
     return key;
   }
-  /// \param keys  of its own mapping.
+  /// Documents a value that is a mapping. \param keys  keys of that mapping; must outlive this key.
   template <class Inner>
   Key holding(const std::vector<Key<Inner>>& keys, const Inner& initial = {}) const {
     Key key = *this;
@@ -70,13 +70,14 @@ struct Key {
     };
     return key;
   }
-  /// No file of a face depends on this key, or only by what the key names or casts: other digests cover that.
+  /// Marks a key that no file of a face depends on directly. Other digests cover the input files
+  /// that the key names and the recipes that follow from it.
   Key apart_from_faces() const {
     Key key = *this;
     key.shapes_faces = false;
     return key;
   }
-  /// Of other sections the key is left out.
+  /// Writes the key only if `is(section, writing)` holds.
   template <class Is>
   Key written_if(const Is& is) const {
     Key key = *this;
@@ -96,10 +97,10 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
-/// "key: value   # beside" under its comment, each line after an '\n'.
+/// Returns the comment above, then "key: value   # beside"; each line starts with '\n'.
 std::string starter_lines(std::string_view key, const StarterLines& lines);
 
-/// Reads a mapping with these keys. \return whether it is one.
+/// Reads a mapping with these keys into the section. \return whether the node is a mapping.
 template <class Section>
 bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section,
                ConfigDraft& draft) {
@@ -112,7 +113,8 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
   return node.kind == YamlNode::Kind::kMap;
 }
 
-/// "key: value" for each key that is not left out.
+/// Returns "key: value" for each key whose text is not empty. If `writing.only_for_faces` is set,
+/// also skips keys that are apart from faces or at their default.
 template <class Section>
 std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
                                     const ConfigWriting& writing) {
@@ -126,10 +128,10 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
   return entries;
 }
 
-/// A value as it stands in docs/config.md.
+/// Shortens a value to one line for docs/config.md: removes a leading "default: ".
 std::string in_one_line(std::string_view value);
 
-/// The rows of a section's keys, and of those in their mappings.
+/// Returns the rows of a section's keys and of all nested keys.
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& keys,
                              const Section& initial) {
@@ -150,10 +152,10 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
   return rows;
 }
 
-/// The rows of all keys of a config.
+/// Returns the rows of all keys of a config.
 std::vector<KeyRow> config_key_rows();
 
-/// A list of such sections.
+/// Writes a list of sections that have the same keys.
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
                            const ConfigWriting& writing) {
@@ -162,7 +164,7 @@ std::string write_sections(const Keys<Section>& keys, const std::vector<Section>
   }));
 }
 
-/// The keys that a starter config has, as the value of their section; empty if it has none.
+/// Writes the section's keys that have a starter, as the value of that section; empty if none has.
 template <class Section>
 std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   std::string text;
@@ -173,7 +175,7 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Of a section whose keys are these.
+/// Makes the starter of a section with these keys, which must outlive the starter.
 template <class Section>
 Starter starter_section(const Keys<Section>& keys, const std::string& above = {}) {
   return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
@@ -183,7 +185,7 @@ Starter starter_section(const Keys<Section>& keys, const std::string& above = {}
   };
 }
 
-/// A key whose value stands in one member. A member that is an empty optional is not written.
+/// A key whose value is stored in one member. An empty optional is not written.
 template <class Section, class Member, class Value>
 Key<Section> key(std::string_view name, Member Section::*member, const Codec<Value>& codec,
                  std::string_view required = {}) {
@@ -205,10 +207,10 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
           codec.takes};
 }
 
-/// What is looked at once a section is read. \param sound  whether it had no complaint.
+/// Checks a section after it has been read. \param sound  whether reading added no complaint.
 using SectionCheck = void (*)(const YamlNode& node, bool sound, ConfigDraft& draft);
 
-/// A key whose value is a mapping with keys of its own.
+/// A key whose value is a mapping with the given keys.
 template <class Section, class Member>
 Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Member>& keys,
                          std::string_view required = {}, SectionCheck check = nullptr) {
@@ -234,7 +236,8 @@ Key<Section> word_key(std::string_view name, Value Section::*member,
   return key(name, member, word<Value>(), required);
 }
 
-/// The keys of a config: its sections. Each has its keys in a table like this one.
+/// The top-level keys of a config, in the order in which they are read. Each section has a similar
+/// table.
 const Keys<Config>& root_keys();
 const Keys<Config::Distance>& distance_keys();
 const Keys<DiversityOptions>& diversity_keys();
@@ -248,7 +251,7 @@ Key<Config> believability_key();
 Key<Config> recipes_key();
 Key<Config> groups_key();
 Key<Config> families_key();
-/// The ids of a family's members, and of parents who are drawn.
+/// Returns the ids of a family's members and of its sampled parents.
 std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_review(const Config& config, const ConfigWriting& writing);

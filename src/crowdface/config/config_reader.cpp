@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// The value of an option, as if it stood in the file.
+/// Returns the value of a command-line option as a YAML node.
 YamlNode option_node(const char* option, const std::string& text) {
   YamlNode node;
   node.kind = YamlNode::Kind::kScalar;
@@ -18,7 +18,7 @@ YamlNode option_node(const char* option, const std::string& text) {
   return node;
 }
 
-/// The reviews that a crowd's folder keeps, before those that the config names.
+/// Inserts the reviews stored in the crowd's folder before those that the config names.
 void put_first(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
   YamlNode reviews;
   reviews.kind = YamlNode::Kind::kList;
@@ -51,7 +51,8 @@ void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complai
   if (!overrides.kept_reviews.empty()) put_first(overrides.kept_reviews, root);
 }
 
-/// `--review` and `--out`: unlike the paths of the file, relative to the working directory.
+/// Reads `--review` and `--out`. Their paths are relative to the working directory, not to the
+/// config file.
 void read_path_options(const ConfigOverrides& overrides, ConfigDraft& draft) {
   draft.folder.clear();
   for (const std::string& file : overrides.review) {
@@ -62,7 +63,7 @@ void read_path_options(const ConfigOverrides& overrides, ConfigDraft& draft) {
   if (folder) draft.config.output.directory = *folder;
 }
 
-/// \param parse  gives the YAML tree, or complains.
+/// \param parse  returns the YAML tree; adds complaints to its argument.
 template <class Parse>
 ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrides& overrides,
                           Problems& problems, const Parse& parse) {

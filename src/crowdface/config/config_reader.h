@@ -12,37 +12,39 @@
 
 namespace crowdface {
 
-/// What the command line changes in a config, as the user typed it.
+/// Command-line options that change a config, as the user typed them.
 struct ConfigOverrides {
   std::vector<std::string> set;          ///< `--set`: "key.path=value"; later ones win
   std::optional<std::string> count;      ///< `--count`, wins over `--set crowd.count`
   std::optional<std::string> seed;       ///< `--seed`
   std::optional<std::string> out;        ///< `--out`, relative to the working directory
-  std::vector<std::string> review = {};  ///< `--review`, likewise; after those of the key `review`
-  /// Reviews that the crowd's folder keeps: they come first, and none of them comes again.
+  std::vector<std::string> review = {};  ///< `--review`, relative to the working directory; read
+                                         ///< after the files of the key `review`
+  /// Reviews stored in the crowd's folder. They are read first; a later copy with the same bytes is
+  /// ignored.
   std::vector<std::filesystem::path> kept_reviews = {};
 };
 
-/// What could be read of a config, whatever is wrong with the rest.
+/// A config that may be read only in part because of problems.
 struct ConfigReading {
-  Config config;               ///< to be used only as far as the flags go
-  bool complete = false;       ///< no problem at all
-  bool heads_known = false;    ///< faces.files and faces.names
-  bool regions_known = false;  ///< regions.names and regions.mask
+  Config config;               ///< only the parts that the flags confirm are valid
+  bool complete = false;       ///< there was no problem; the whole config is valid
+  bool heads_known = false;    ///< faces.files and faces.names are valid
+  bool regions_known = false;  ///< regions.names and regions.mask are valid
 };
 
-/// Reads a config and checks all of it that can be checked without opening a mesh or an image.
-/// docs/config.md is the reference. Adds every problem, in the order of the file: 64 for what is
-/// wrong in the config, 66 for files and folders that are not there.
+/// Reads a config and checks everything that can be checked without opening a mesh or an image.
+/// docs/config.md is the reference. Adds every problem in the order of the file, with exit code 64
+/// for mistakes in the config and 66 for missing files and folders.
 ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
                                 Problems& problems);
 
-/// The same of a text, wherever it is from.
-/// \param file  its name in messages, which need not be there; relative paths start at its folder.
+/// Like read_config_parts, but reads the config from a text.
+/// \param file  name in messages, need not exist; relative paths start at its folder.
 ConfigReading read_config_text(std::string_view text, const std::filesystem::path& file,
                                const ConfigOverrides& overrides, Problems& problems);
 
-/// A file's, for those who need all of it. \return nothing if there is any problem.
+/// Like read_config_parts, but returns nothing if there is any problem.
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems);
 

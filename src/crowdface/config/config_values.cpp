@@ -21,7 +21,7 @@ std::string unknown_key(const YamlNode& map, const std::string& key,
                 hint.empty() ? concat("; expected one of ", join(keys)) : hint);
 }
 
-/// The number's text if it may be read as one: neither in quotes nor with a leading zero.
+/// Returns the node's text for parsing as a number. Refuses quoted numbers and leading zeros.
 std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
                                        Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
@@ -34,7 +34,7 @@ std::optional<std::string> number_text(const YamlNode& node, const std::string& 
   const std::string digits = first == std::string::npos ? "" : node.text.substr(first);
   if (digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9' &&
       parse_double(digits)) {
-    // "007" is 7, "00.5" is 0.5
+    // Suggest the number without leading zeros: 7 for "007", 0.5 for "00.5".
     std::size_t kept = std::min(digits.find_first_not_of('0'), digits.size() - 1);
     if (digits[kept] < '0' || digits[kept] > '9') --kept;
     out.about(node,
@@ -45,7 +45,7 @@ std::optional<std::string> number_text(const YamlNode& node, const std::string& 
   return node.text;
 }
 
-/// Every line but the first two further in.
+/// Indents every line except the first by two spaces.
 std::string indented(std::string_view text) {
   std::string out;
   for (const char c : text) out += c == '\n' ? "\n  " : std::string(1, c);

@@ -14,17 +14,20 @@
 
 namespace crowdface {
 
-inline constexpr double kMaxDistance = 1000;  ///< between heads, mm
+inline constexpr double kMaxDistance = 1000;  ///< largest distance between heads, mm
 
-/// The entries of one mapping. Unknown keys are complained of when it is made.
+/// Looks up the entries of one mapping. The constructor adds a complaint for each unknown key.
 class MapReader {
  public:
-  /// \param node  if it is no mapping (a complaint), it has none of the keys, and none is missing.
+  /// \param node  if this is not a mapping, the constructor adds one complaint; find() and require()
+  ///              then return null without further complaints. Must outlive the reader.
+  /// \param keys  the known keys.
   MapReader(const YamlNode& node, const std::vector<std::string>& keys, Complaints& complaints);
 
-  /// The key's value; null if the key is not there or (a complaint) has no value.
+  /// Returns the key's value; null if the key is missing. A key without a value gives null and a
+  /// complaint.
   const YamlNode* find(std::string_view key) const;
-  /// The same; a key that is not there is a complaint. `hint` says what would do.
+  /// Like find(), but a missing key is a complaint. \param hint  an example, for the message.
   const YamlNode* require(std::string_view key, std::string_view hint) const;
 
  private:
@@ -32,17 +35,19 @@ class MapReader {
   Complaints& complaints_;
 };
 
-/// Each reads one value and returns nothing after a complaint. Bounds are inclusive.
+/// Each of these functions reads one value; it returns nothing after a complaint. Bounds are
+/// inclusive.
 std::optional<double> read_number(const YamlNode& node, double low, double high, Complaints& out);
 std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,
                                         Complaints& out);
-/// A text without control characters that is not empty. \param expected  "a file name".
+/// Reads a non-empty text without control characters.
+/// \param expected  for messages, such as "a file name".
 std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
                                      Complaints& out);
-/// A text that can be part of a file name on any system, and cannot lead to another folder.
+/// Reads a text that is a valid part of a file name on every system and contains no path separator.
 std::optional<std::string> read_name(const YamlNode& node, Complaints& out);
 
-/// What `text` makes of each item.
+/// Applies `text` to each item.
 template <class Items, class Text>
 std::vector<std::string> texts_of(const Items& items, const Text& text) {
   std::vector<std::string> texts;
@@ -50,9 +55,9 @@ std::vector<std::string> texts_of(const Items& items, const Text& text) {
   return texts;
 }
 
-/// Complains that the node is none of the words.
+/// Adds a complaint that lists the accepted words.
 void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
-/// The value of one of the words.
+/// Reads one of the words and returns its value.
 template <class Value>
 std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words, Complaints& out) {
   const auto texts = texts_of(words, [](const Word<Value>& word) { return word.text; });
@@ -64,25 +69,26 @@ std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words
   return std::nullopt;
 }
 
-/// Complains of items of a list that are the same text.
+/// Adds a complaint for each item that repeats the text of an earlier item.
 void refuse_repeated(const YamlNode& list, Complaints& out);
 bool is_word(const YamlNode& node, std::string_view word);
 bool has_control_character(std::string_view text);
 
-/// A bound without exponent: -1000000, not -1e+06.
+/// Formats a bound, rounded to a whole number, without exponent: -1000000, not -1e+06.
 std::string plain_number(double value);
 
-/// A list or mapping in one line, "[a, b]".
+/// Return a list or mapping in YAML's flow style, in one line: "[a, b]", "{a: 1, b: 2}".
 std::string flow_list(const std::vector<std::string>& items);
 std::string flow_map(const std::vector<std::string>& entries);
 std::string flow_names(const std::vector<std::string>& names);
-/// The same, a line each, for entry() and block_list() to set further in; "[]" if it is empty.
+/// Return a list or mapping in YAML's block style, one line per item, for entry() or block_list(),
+/// which indent the lines; "[]" or "{}" if empty.
 std::string block_list(const std::vector<std::string>& items);
 std::string block_map(const std::vector<std::string>& entries);
-/// "key: value".
+/// Returns "key: value"; indents the lines of a value in block style.
 std::string entry(std::string_view key, std::string_view value);
 
-/// `; did you mean "count"?`, or nothing if no candidate is near.
+/// Returns `; did you mean "count"?`, or an empty text if no candidate is similar.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an editor changes, read and written without the rest of a config.
+// Reads and writes the config entries that `crowdface edit` changes, without the rest of the config.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace crowdface {
 
-/// Reads one entry of `recipes` by itself, in YAML (or JSON, which is YAML), as a config of these
-/// heads and regions would take it; its id may be any name.
-/// \param source    what messages call the text.
-/// \param problems  takes every problem.
-/// \return nothing if there is any.
+/// Reads one entry of `recipes` from YAML (or JSON, which is YAML). The entry is checked against the
+/// heads and regions of `config`, but its id may be any name.
+/// \param source    name of the text in messages.
+/// \param problems  receives every problem.
+/// \return nothing if there is a problem.
 std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::string& source,
                                             const Config& config, Problems& problems);
 
-/// The same as YAML: one item of the list `recipes`, without the dash before it.
+/// Writes a recipe as YAML: one item of the list `recipes`, without its leading dash.
 std::string format_hand_recipe(const HandRecipe& recipe, const Config& config);
 
-/// Reads a review as a config of this crowd would that names it, for its problems alone.
-/// \param source    what messages call the text.
-/// \param problems  takes every problem.
+/// Checks the text of a review file as if the crowd's config named that file.
+/// \param source    name of the text in messages.
+/// \param problems  receives every problem.
 void check_review(std::string_view text, const std::string& source, const Config& config,
                   Problems& problems);
 

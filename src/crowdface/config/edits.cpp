@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// The text of a recipe's id, empty without one.
+/// Returns a recipe's id; empty if it has none.
 std::string id_of(const YamlNode& recipe) {
   const YamlEntry* id = recipe.find("id");
   return id != nullptr ? id->value.text : std::string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file that a config names as `edits`: recipes and regions that `crowdface edit` saved.
+// The file of the config key `edits`: recipes and regions that `crowdface edit` saved.
 #pragma once
 
 #include "crowdface/config/config_draft.h"
@@ -7,11 +7,11 @@
 
 namespace crowdface {
 
-/// Puts each section of `edits` in place of the one in `root`. Recipes are added to those in `root`, or
-/// replace the recipe with the same id.
+/// Replaces each section of `root` by the one in `edits`, except `recipes`: each edited recipe
+/// replaces the recipe with the same id, or is appended.
 void merge_edits(const YamlNode& edits, YamlNode& root);
 
-/// Merges the file that the config names as `edits`, if it names one.
+/// Merges the file of the key `edits` into `root`, if the config has that key.
 void read_edits(YamlNode& root, ConfigDraft& draft);
 
 }  // namespace crowdface

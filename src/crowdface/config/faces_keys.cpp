@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Faces = Config::Faces;
 
-/// Adds a head; refuses what would make a name mean two things.
+/// Adds a head. Refuses a missing file, an invalid name, and a name with another meaning.
 void add_head(const fs::path& file, const std::string& name, const YamlNode& node, Faces& faces,
               ConfigDraft& draft) {
   const std::string shown = quoted(file.string());
@@ -55,7 +55,8 @@ bool expect_head_count(const YamlNode& node, std::size_t count, const std::strin
   return false;
 }
 
-/// What a folder without heads may hold instead: a pattern for one mesh in each of its folders.
+/// Returns a hint for a folder without heads whose subfolders contain one mesh each: a pattern for
+/// these meshes. Empty if no pattern fits.
 std::string pattern_below(const fs::path& folder) {
   for (const fs::path& below : list_folder(folder)) {
     if (!is_folder(below)) continue;
@@ -127,7 +128,7 @@ std::string write_files(const Faces& faces, const ConfigWriting& writing) {
       texts_of(faces.files, [&](const fs::path& file) { return path("").write(file, writing); }));
 }
 
-/// A tag may not be read as a head, nor as the word for all of them.
+/// Refuses a tag that is also a head's name, `all` or `target`.
 void check_tag(const YamlNode& node, const Faces& faces, Complaints& out) {
   const std::string& tag = node.text;
   if (contains(faces.names, tag)) {
@@ -185,7 +186,7 @@ Codec<Axis> axis() {
           "axis: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`"};
 }
 
-/// In a comment: what is no head's name might end the line.
+/// Returns a name for a comment. Quotes an invalid head name, because it may contain a line end.
 std::string shown(const std::string& name) {
   return is_name(name) ? name : quoted(name);
 }

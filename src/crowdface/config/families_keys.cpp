@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint64_t kMostMembers = 1000;
 
-/// Whether a family before this one has a member, or a parent who is drawn, of that id, with or without
-/// the crowd's name.
+/// Returns whether an earlier family has a member or a sampled parent with this id. The id may lack
+/// the prefix "CROWD_".
 bool is_of_a_family(const std::string& id, const Config& config) {
   return std::ranges::any_of(config.families, [&](const FamilyOptions& family) {
     const std::vector<std::string> ids = ids_of(family, config.crowd.name);
@@ -37,7 +37,7 @@ Codec<std::size_t> group() {
           "name of a [group](#groups)"};
 }
 
-/// \param role  "mother" or "father", after which one who is drawn is called.
+/// \param role  "mother" or "father", part of the name of a sampled parent.
 std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
                                   const FamilyOptions& family, ConfigDraft& draft) {
   Parent drawn{std::nullopt, concat(family.name, '_', role), true};
@@ -49,7 +49,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto name = read_name(node, draft.complaints);
   if (!name) return std::nullopt;
   if (*name == "drawn") {
-    // Mothers stand on heads that are tagged as a woman's, fathers on a man's, if there are such heads.
+    // The targets of mothers are the heads with the tag `female`, those of fathers `male`, if any.
     drawn.targets = heads_with({role == word_of(0) ? "female" : "male"}, draft.config.faces);
     return drawn;
   }
@@ -94,7 +94,7 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     draft.complaints.about(node, "only a family with parents inherits");
   }
   if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
-  // The later has the last word: a band over a region, "top/skin" over both.
+  // Later names override earlier ones: bands override regions, "top/skin" overrides both.
   std::vector<std::string> names = draft.config.region_names();
   for (const std::string& more : draft.config.plan_names().bands) names.push_back(more);
   for (const std::string& part : draft.config.part_names()) {

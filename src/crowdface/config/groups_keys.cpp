@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// A share that is not given: what the others leave is parted evenly.
+/// Marks a group without share and count; such groups divide the remainder equally.
 constexpr double kOpenShare = -1;
 
-/// Targets and sources are the heads that have all of these tags.
+/// Sets targets and sources to the heads that have all of these tags.
 void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
   if (!tags || tags->empty()) return;
@@ -27,14 +27,14 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Neither targets nor sources are heads that have one of these tags.
+/// Removes the heads that have one of these tags from targets, sources and bands.
 void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, bearded]").read(node, draft);
   if (!tags) return;
   const bool known = draft.heads_known && draft.tags_known;
   SamplingOptions& sampling = group.sampling;
   const bool had_some = !sampling.targets.empty() && !sampling.sources.empty();
-  std::vector<std::string> emptied;  // bands
+  std::vector<std::string> emptied;  // names of bands without a remaining head
   for (const std::string& tag : *tags) {
     const std::vector<Eigen::Index> tagged = heads_with({tag}, draft.config.faces);
     if (known && tagged.empty()) {
@@ -79,7 +79,7 @@ const Keys<Group>& group_keys() {
                        return write(group.sampling, writing);
                      }});
     }
-    // After all that names heads.
+    // `without` must follow all keys that name heads.
     own.push_back(Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.taking(
         "list of tags"));
     return own;
@@ -97,7 +97,8 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Parts among the groups that name neither what shares and counts leave.
+/// Divides the remaining share equally among the groups that give neither share nor count. Refuses
+/// shares and counts whose sums are too large.
 void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;
@@ -135,7 +136,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
-  const auto mixes = [&](const std::string& tag) {  // one head alone gives one face
+  const auto mixes = [&](const std::string& tag) {  // a blend needs at least two heads
     return std::ranges::count_if(
                facts.tags, [&](const auto& head) { return has_tags(head.second, {tag}); }) > 1;
   };

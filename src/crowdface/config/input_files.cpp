@@ -42,7 +42,7 @@ std::vector<fs::path> visible_files(const fs::path& folder,
       concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
 }
 
-/// Files of other programs that hold meshes, or may.
+/// Returns whether the file's extension belongs to a format that may contain a mesh.
 bool may_hold_mesh(const fs::path& path) {
   static const std::set<std::string> kEndings = {
       ".3ds",  ".3mf",  ".abc", ".blend", ".bgeo", ".c4d", ".dae", ".gz",  ".lwo",
@@ -51,7 +51,7 @@ bool may_hold_mesh(const fs::path& path) {
   return kEndings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
-/// Whether a pattern's part, with * and ?, is that of a name.
+/// Returns whether a name matches a pattern with the wildcards `*` and `?`.
 bool is_like(std::string_view pattern, std::string_view name) {
   if (pattern.empty()) return name.empty();
   if (pattern[0] != '*') {
@@ -74,6 +74,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
     return ending == ".gltf" ? ".glb" : ending;
   };
   std::vector<fs::path> files = visible_files(folder, is_head_file);
+  // Find the most frequent format if there are fewer than two OBJ files.
   std::map<std::string, std::size_t> counts;
   for (const fs::path& file : files) ++counts[ending_of(file)];
   std::string kind = ".obj";
@@ -82,6 +83,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
       if (count > counts[kind]) kind = ending;
     }
   }
+  // Remove files of other formats, and those with the stem of an OBJ file.
   std::set<std::string> named;
   for (const fs::path& file : files) {
     if (is_obj(file)) named.insert(file.stem().string());
@@ -145,6 +147,7 @@ std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
     return std::set(names.begin(), names.end()).size() == names.size();
   };
   if (all_differ() || files.empty()) return names;
+  // Split the paths into parts. Paths of different depths cannot be compared part by part.
   std::vector<std::vector<std::string>> parts;
   for (const fs::path& file : files) {
     const fs::path plain = file.lexically_normal();
@@ -153,6 +156,7 @@ std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
     of.push_back(plain.stem().string());
     if (of.size() != parts[0].size()) return names;
   }
+  // Join the parts that differ, from the root down, until all names differ.
   const std::vector<std::string> stems = names;
   names.assign(files.size(), "");
   for (std::size_t p = 0; p < parts[0].size() && !all_differ(); ++p) {

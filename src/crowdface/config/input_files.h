@@ -11,34 +11,39 @@
 
 namespace crowdface {
 
-inline constexpr std::size_t kFewestHeads = 2, kMostHeads = 50;  ///< of one job
+inline constexpr std::size_t kFewestHeads = 2, kMostHeads = 50;  ///< number of heads of one job
 
-/// The heads directly in the folder, by name: its OBJ files; where it has fewer than two of them, also the files of the
-/// kind (is_head_file) that most are of. Hidden files (such as the "._head.obj" that some systems leave behind) and
-/// folders do not count; a link that leads nowhere does, as a file that is missing.
+/// Lists the head files directly in the folder, sorted by name: all OBJ files. If there are fewer
+/// than two OBJ files, also lists the files of the most frequent other format (is_head_file), except
+/// files with the stem of an OBJ file. Skips folders and hidden files, such as the "._head.obj" that
+/// some systems create. Includes dangling links, so that they are reported as missing files.
 /// \throws MissingInput if the folder cannot be read.
 std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folder);
 
-/// A sentence for all files of the folder that hold meshes, and that list_heads leaves out; empty if there are none.
+/// Returns a message that names the files in the folder that may contain a mesh but are not in
+/// list_heads; empty if there are none. \throws MissingInput if the folder cannot be read.
 std::string left_out_of_heads(const std::filesystem::path& folder);
 
-/// The files that a pattern such as "people/*/neutral.obj" names, by name: `*` stands for any letters but '/', `?` for
-/// one. \throws MissingInput if a folder cannot be read.
+/// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path: `*` matches
+/// any number of characters except '/', `?` matches one. Wildcards do not match hidden files.
+/// \throws MissingInput if a folder cannot be read.
 std::vector<std::filesystem::path> files_like(const std::filesystem::path& pattern);
 
-/// A name for each head: its file's without ending or, where these are not all different, the parts of the paths that
-/// differ ("people/ann/neutral.obj": "ann").
+/// Returns a name for each head: the file's stem. If two stems are equal, uses the parts of the
+/// paths that differ instead ("people/ann/neutral.obj": "ann").
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
-/// Every file that a job reads: its config, heads, masks with all their tiles, reviews, and a mesh
-/// that faces are compared with. (Material files and textures are found through the heads.)
+/// Lists every file that the config names: the config itself, heads, shapes, points, rig,
+/// attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Material
+/// files and textures are not listed, because the head files name them.
 std::vector<std::filesystem::path> input_files(const Config& config);
 
-/// \throws UsageError if a path is not UTF-8 or holds a control character: no config can name it.
+/// \throws UsageError if a path is not UTF-8 or contains a control character, because a config
+/// cannot store such a path.
 void refuse_path_no_config_can_hold(const std::filesystem::path& path);
 
-/// Adds each such path among the absolute ones of all inputs and of the crowd's folder: the crowd's
-/// own config names them.
+/// Adds a problem for each input file, and for the crowd's folder, whose absolute path a config
+/// cannot store (see refuse_path_no_config_can_hold): the crowd's config.yaml stores these paths.
 void check_paths(const Config& config, Problems& problems);
 
 }  // namespace crowdface

@@ -39,7 +39,7 @@ std::string write_comparison(const Sheet& sheet, const ConfigWriting& writing) {
                                            : std::string(word_of(sheet.compare.with));
 }
 
-/// "#rrggbb".
+/// Parses "#rrggbb".
 std::optional<std::array<std::uint8_t, 3>> parse_colour(std::string_view text) {
   std::uint32_t colour = 0;
   const char* const end = text.data() + text.size();
@@ -69,7 +69,7 @@ void read_surfaces(const YamlNode& node, Output& output, ConfigDraft& draft) {
   }
 }
 
-/// The number of "20 %", above 0 and below 100.
+/// Parses a percentage such as "20 %", above 0 and below 100.
 std::optional<double> parse_percent(std::string_view text) {
   if (!text.ends_with('%')) return std::nullopt;
   text.remove_suffix(1);
@@ -79,7 +79,7 @@ std::optional<double> parse_percent(std::string_view text) {
   return percent;
 }
 
-/// "LOD1" and so on: what stands after the id in a level's files.
+/// Returns whether a name is that of a level of detail, "LOD1" and so on.
 bool is_level_name(std::string_view name) {
   return name.starts_with("LOD") && parse_unsigned(name.substr(3)).has_value();
 }
@@ -118,7 +118,9 @@ std::string write_surfaces(const Output& output, const ConfigWriting&) {
   }));
 }
 
-/// Of how many faces the shapes are shown.
+/// Refuses the key `shapes` of a contact sheet if the config has no shapes or writes no meshes.
+/// Returns true in any case.
+/// \param faces  number of faces whose shapes are shown.
 bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
   if (faces > 0 && draft.config.shapes.names.empty()) {
     draft.complaints.about(node, "there are no shapes: the key shapes is missing, or none");
@@ -159,7 +161,7 @@ const Keys<Sheet>& contact_sheet_keys() {
   return keys;
 }
 
-/// Whether a page as the config wants it is not too large to be made.
+/// Returns whether a page with these options is within the size limit.
 bool fits_on_a_page(const Sheet& sheet) {
   CellSize cell = sheet.plain_cell_size();
   cell.label_lines = std::max(cell.label_lines, static_cast<int>(sheet.labels.size()));
@@ -191,14 +193,14 @@ std::string write_contact_sheet(const Output& output, const ConfigWriting& writi
   return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, writing));
 }
 
-/// The keys that one changes first, at their defaults.
+/// The first four keys, which users change most, at their defaults.
 StarterLines starter_sheet(const StarterFacts&) {
   std::vector<std::string> entries = write_keys(contact_sheet_keys(), Sheet{}, {Config{}, {}});
   entries.resize(4);
   return {flow_map(entries)};
 }
 
-/// The words of all formats but the first.
+/// Returns the names of all mesh formats except the first.
 std::vector<std::string> other_formats() {
   std::vector<std::string> words =
       texts_of(all_mesh_formats(), [](MeshFormat format) { return name_of(format); });

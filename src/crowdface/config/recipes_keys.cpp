@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `recipes`: faces spelled out by hand.
+// The section `recipes`: faces specified by hand.
 #include <algorithm>
 #include <map>
 
@@ -54,7 +54,7 @@ const Keys<HandBand>& recipe_band_keys() {
                       return band.weights.empty() ? "" : write_weights(band.weights, writing);
                     }}
           .taking("`{head: weight}`"),
-      // Both stand in one member: its unit tells which is written.
+      // Both keys are stored in one member; its unit selects the key to write.
       key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
       key("iterations", &HandBand::smoothness, iterations()).written_if(in_iterations),
       key("extrapolation", &HandBand::extrapolation, extrapolation())};
@@ -114,7 +114,8 @@ HandRegion read_region(const YamlNode& node, ConfigDraft& draft) {
   return region;
 }
 
-/// Every region takes its own entry, or that of `all`, or is left to sampling.
+/// Reads the values of the regions. A region without an entry takes that of `all`; without `all`,
+/// sampling chooses its values.
 void read_regions_of(const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
   if (!draft.complaints.expect_map(node, "a mapping from regions, or all, to their values")) return;
   const std::vector<std::string>& names = draft.config.regions.names;
@@ -142,7 +143,7 @@ std::string write_regions_of(const HandRecipe& recipe, const ConfigWriting& writ
   return block_map(entries);
 }
 
-/// Whether an id is one that a sampled face of this crowd could get: NAME_0001 and so on.
+/// Returns whether a sampled face of this crowd could get this id: NAME_0001 and so on.
 bool looks_sampled(std::string_view id, std::string_view crowd) {
   constexpr std::size_t kDigits = 4;
   if (crowd.empty() || !id.starts_with(crowd)) return false;
@@ -151,7 +152,7 @@ bool looks_sampled(std::string_view id, std::string_view crowd) {
          id.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
-/// \param places  of the ids before this one.
+/// \param places  places of the earlier ids.
 void check_id(const YamlNode& node, const std::string& id, std::map<std::string, YamlPlace>& places,
               ConfigDraft& draft) {
   if (looks_sampled(id, draft.config.crowd.name)) {

@@ -44,7 +44,8 @@ std::string write_masks(const Regions& regions, const ConfigWriting& writing) {
       regions.mask, [&](const std::string& mask) { return path("").write(mask, writing); }));
 }
 
-/// Region names stand among keys of the config, and in the columns of crowd.csv.
+/// Reads a region name. Region names are also keys of the config and part of the columns of
+/// crowd.csv, hence some words are reserved.
 void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   static const std::set<std::string> reserved = {"all", "default", "none", "iterations"};
   auto& names = regions.names;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The key `review` and the files it names.
+// The key `review` and the review files that it lists.
 #include <algorithm>
 
 #include "crowdface/cast/family_draws.h"
@@ -15,7 +15,7 @@ using Verdict = ReviewMark::Verdict;
 
 constexpr std::size_t kLongestNote = 2000;
 
-/// Every id that this config's crowd will have, but for those of sampled faces.
+/// Returns every id of this config's crowd except those of sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
   std::vector<std::string> ids;
   for (const HandRecipe& recipe : config.recipes) ids.push_back(recipe.id);
@@ -134,7 +134,7 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   return review;
 }
 
-/// Adds what a review file says, unless one before it says the same to the byte.
+/// Adds a review file, unless an earlier one has the same bytes.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections of a config, and those with plain values: crowd, smoothing, blending, parts, textures,
-// plane.
+// The top-level keys of a config, and the simple sections: crowd, smoothing, blending, parts,
+// textures, plane.
 #include <algorithm>
 
 #include "crowdface/blend/recipe_bounds.h"
@@ -117,7 +117,7 @@ const Keys<Plane>& plane_keys() {
   return keys;
 }
 
-/// A layout by hand leaves no head without its place.
+/// Refuses `layout: manual` if a head has no anchor.
 void check_plane(const YamlNode& node, bool sound, ConfigDraft& draft) {
   const Config& config = draft.config;
   if (config.plane.layout != Layout::kManual || !draft.heads_known || !sound) return;
@@ -161,7 +161,7 @@ std::string write_parts(const Config& config, const ConfigWriting& writing) {
   return block_map(write_keys(parts_keys(), config.parts, writing));
 }
 
-/// A file that is there, or `none`.
+/// A key whose value is an existing file or `none`.
 Key<Config> file_key(std::string_view name, std::filesystem::path Config::*member,
                      const std::string& expected) {
   return {name,
@@ -176,7 +176,7 @@ Key<Config> file_key(std::string_view name, std::filesystem::path Config::*membe
           }};
 }
 
-/// A GLB file holds pictures, and knows no EXR.
+/// Refuses GLB meshes if textures are EXR only: GLB embeds textures but does not support EXR.
 void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
   const Config& config = draft.config;
   const bool only_exr = std::ranges::all_of(
@@ -193,7 +193,7 @@ void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   draft.complaints.about(node, concat("this crowdface reads schema 1, found ", describe(node)));
 }
 
-/// Sampling as it is where all is left out.
+/// Returns the default sampling options, for one region.
 SamplingOptions with_a_region() {
   SamplingOptions sampling;
   sampling.regions.resize(1);
@@ -230,14 +230,14 @@ const Keys<Config>& root_keys() {
       recipes_key().apart_from_faces(),
       families_key().apart_from_faces(),
       Key<Config>{"review", read_review, write_review}.apart_from_faces(),
-      // Merged before the keys are read.
+      // read_edits merges the file before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
       section_key("output", &Config::output, output_keys(), {}, check_output)};
   return keys;
 }
 
 std::string in_one_line(std::string_view value) {
-  constexpr std::string_view kEverywhere = "\ndefault: ";  // of a value for each region
+  constexpr std::string_view kEverywhere = "\ndefault: ";  // start of a value per region
   if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
   return std::string(value);
 }

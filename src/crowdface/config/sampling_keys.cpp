@@ -16,21 +16,23 @@ constexpr std::uint64_t kMostSources = 50;
 using Names = std::vector<std::string>;
 using Kind = PositionDistribution::Kind;
 
-/// A value that may differ from region to region.
+/// A value that may differ between regions.
 struct PerRegion {
-  std::optional<YamlNode> whole;  ///< for every region that has no value of its own
-  std::vector<std::pair<std::size_t, const YamlNode*>> of_region;
+  std::optional<YamlNode> whole;  ///< value of the regions that are not in of_region
+  std::vector<std::pair<std::size_t, const YamlNode*>> of_region;  ///< region and its value
 };
 
-/// Takes a value apart: one for all regions, or `{default: …, top: …}`, or both in one mapping.
-/// \param parameters  the keys of a value that is itself a mapping. A region may bear the name of
-/// one whose own values are never mappings: those then tell which is meant.
+/// Splits a value by region: one value for all regions, `{default: …, top: …}`, or a mapping with
+/// keys of the value and names of regions.
+/// \param parameters  keys of a value that is itself a mapping. A region may have the name of a
+///                    parameter whose value is never a mapping: a mapping there is the region's.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {
     split.whole = node;
     return split;
   }
+  // Sort the entries: values of regions, the default, and keys of a value for all regions.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();
@@ -67,8 +69,8 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
   return split;
 }
 
-/// A value for each of a section's regions; those that are empty optionals are not written.
-/// \param parameters  as of split_by_region.
+/// A key with a value for each region of a section. Empty optionals are not written.
+/// \param parameters  see split_by_region.
 template <class Section, class Region, class Member, class Value>
 Key<Section> per_region_key(std::string_view name, Member Region::*member,
                             const Codec<Value>& codec, const Names& parameters = {}) {
@@ -99,7 +101,7 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
           codec.takes};
 }
 
-/// The head of that name, or the face's own target.
+/// The head that a position refers to: a head's name, or `target` for the target of the face.
 const Key<PositionDistribution> kFaceKey = {
     "face",
     [](const YamlNode& node, PositionDistribution& position, ConfigDraft& draft) {
@@ -119,7 +121,7 @@ const Keys<PositionDistribution>& position_keys() {
   return keys;
 }
 
-/// The keys that each distribution has, and of the last what must be there.
+/// The keys of each kind of distribution, and the message if the last one is required and missing.
 struct KindKeys {
   Kind kind;
   Names keys;
@@ -162,7 +164,7 @@ std::string write_position(const PositionDistribution& position, const ConfigWri
   return flow_map(write_keys(keys, position, writing));
 }
 
-/// As everywhere, or `{iterations: …}`.
+/// A smoothness as in smoothness(), or `{iterations: …}`.
 Codec<SmoothnessDistribution> sampled_smoothness() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
             if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
@@ -194,7 +196,7 @@ const Keys<BandSampling>& band_keys() {
   return keys;
 }
 
-/// Its values, or in short where it begins.
+/// Reads a band: a mapping, or just its smoothness (the size at which the band begins).
 void read_band(const YamlNode& node, BandSampling& band, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kMap) {
     read_keys(node, band_keys(), band, draft);
@@ -217,7 +219,7 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
   if (!why.empty()) draft.complaints.add(entry.key_place, concat(quoted(entry.key), ' ', why));
 }
 
-/// Those of the crowd, coarse to fine; a group takes them and may change their values.
+/// Reads the bands of the crowd, from coarse to fine, or changes to their values in a group.
 void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
   draft.complaints.expect_map(
       node, "a mapping from bands to sizes, coarse to fine, {build: 240 mm, skin: 8 mm}");
@@ -232,7 +234,7 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       }
       check_band_name(entry, sampling, draft);
       const bool first = sampling.bands.empty();
-      const bool is_build = first && node.entries.size() > 1;  // which does not age
+      const bool is_build = first && node.entries.size() > 1;  // the coarsest band does not age
       band = sampling.bands.insert(band, {entry.key, {}, {}, is_build ? 0.0 : 1.0});
       band->regions.resize(sampling.regions.size());
       const YamlNode& value = entry.value;

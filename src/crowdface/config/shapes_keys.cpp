@@ -19,7 +19,7 @@ using Shapes = Config::Shapes;
 
 constexpr std::size_t kMostShapes = 1000;
 
-/// The OBJ files of a folder by the names of their shapes, in the files' order.
+/// The OBJ files of a folder: name of the shape and path, in the order of the files.
 using ShapeFiles = std::vector<std::pair<std::string, fs::path>>;
 ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::path& neutral,
                        ConfigDraft& draft) {
@@ -40,7 +40,7 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
   return shapes;
 }
 
-/// Every OBJ file of the folder but the neutral mesh, which comes first in the section.
+/// Reads the OBJ files of a folder as shapes, except the neutral mesh, whose key is read first.
 void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
@@ -64,7 +64,8 @@ void add_name(const std::string& name, Shapes& shapes) {
   shapes.files.emplace_back();
 }
 
-/// A folder a head, of its own name. The file of a head at rest may lie among its shapes.
+/// Reads the shapes of each head from the subfolder with the head's name. The subfolder may also
+/// contain the head's neutral mesh.
 void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder with one of OBJ files for each head").read(node, draft);
   if (!folder) return;
@@ -87,6 +88,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
     }
     for (const auto& [name, file] : found[h]) add_name(name, shapes);
   }
+  // All names are known now: sort the files of each head by name.
   for (const auto& files : found) {
     std::vector<fs::path>& of_head = shapes.of_head.emplace_back(shapes.names.size());
     for (const auto& [name, file] : files) {
@@ -112,7 +114,7 @@ const Keys<Shapes>& shapes_keys() {
   return keys;
 }
 
-/// A shape that a head lacks is carried to it from the template.
+/// Refuses a shape that neither a head nor the template has: the template supplies missing shapes.
 void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
   for (std::size_t h = 0; h < shapes.of_head.size(); ++h) {
     std::vector<std::string> lacking;

@@ -39,7 +39,7 @@ std::string starter_attachments(const YamlNode& section, const StarterFacts& fac
   draft.folder = heads;
   draft.config.faces.names = facts.names;
   draft.heads_known = true;
-  draft.tags_known = false;  // of what nobody may wear nothing is said: it is left out
+  draft.tags_known = false;  // no complaints about items that no head may wear: removed below
   attachments_key().read(section, draft.config, draft);
   if (!complaints.empty()) return {};
   Config::Attachments& attachments = draft.config.attachments;

@@ -16,30 +16,30 @@ namespace crowdface {
 
 /// What `crowdface init` knows about a folder of heads.
 struct StarterFacts {
-  std::filesystem::path heads;     ///< the folder, relative to where the config will be written
-  std::vector<std::string> names;  ///< of the heads
-  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess
+  std::filesystem::path heads;     ///< folder of the heads, relative to the folder of the config
+  std::vector<std::string> names;  ///< #heads
+  LengthUnit units = LengthUnit::kCentimetre;  ///< guessed from head_height
   std::string units_reason;                    ///< "the first mesh is 27.3 units high"
-  double head_height = 0;                      ///< of the first head, in its own units
-  Eigen::Index vertices = 0;                   ///< of each head
+  double head_height = 0;                      ///< height of the first head, in its own units
+  Eigen::Index vertices = 0;                   ///< number of vertices of each head
   Axis up = {1, 1};
   Axis front = {2, 1};
   std::string crowd_name = "crowd";
-  std::string mask;  ///< of three bands, from the config's folder; empty: none
-  std::vector<std::string> regions = {"top", "middle",
-                                      "bottom"};  ///< what the mask's bands are called
-  std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< heads and theirs
-  std::string attachments = {};  ///< that section, from starter_attachments; empty: there is none
+  std::string mask;  ///< region mask, relative to the folder of the config; empty: none
+  std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels
+  std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< head, its tags
+  std::string attachments = {};  ///< text from starter_attachments; empty: no such section
 };
 
-/// The text of a first config for these heads: short, every line explained, ready to run.
+/// Returns a first config for these heads: short, with comments, ready to run.
 std::string starter_config(const StarterFacts& facts);
 
-/// The section `attachments` of a file that lies beside heads, without what none of them may wear, its
-/// files named from where the config will be written. Empty if nothing is left, or after a complaint.
-/// \param section  what stands under `attachments`; files in it relative to `heads`.
+/// Adapts the section `attachments` of a file in the folder of the heads: removes the items that no
+/// head may wear and makes file paths relative to the config. Empty if no item is left, or after a
+/// complaint.
+/// \param section  the value of `attachments`; its file paths are relative to `heads`.
 /// \param facts    names and tags of the heads.
-/// \param heads, config_folder  absolute.
+/// \param heads, config_folder  absolute folders of the heads and of the config.
 std::string starter_attachments(const YamlNode& section, const StarterFacts& facts,
                                 const std::filesystem::path& heads,
                                 const std::filesystem::path& config_folder, Complaints& complaints);

@@ -11,18 +11,18 @@
 
 namespace crowdface {
 
-/// A value and the word for it in a config.
+/// A value of an enumeration and its word in a config.
 template <class Value>
 struct Word {
   std::string_view text;
   Value value;
 };
 
-/// In the order in which messages name them.
+/// Words of one type, in the order in which messages list them.
 template <class Value>
 using Words = std::vector<Word<Value>>;
 
-/// The words of values that have a name_of.
+/// Makes words from values that have a function `name_of`.
 template <class Values>
 auto words_by_name(const Values& values) {
   Words<typename Values::value_type> words;
@@ -30,13 +30,13 @@ auto words_by_name(const Values& values) {
   return words;
 }
 
-/// The words of every type that has some. Configs and options are read and written by them.
+/// The words of every enumeration in configs and command-line options, for reading and writing.
 inline const auto& all_words() {
   using Kind = PositionDistribution::Kind;
   using Mode = DiversityOptions::Mode;
   using Meshes = BelievabilityOptions::Meshes;
   using Verdict = ReviewMark::Verdict;
-  using With = Config::Comparison::With;  // kFile is written as the file itself
+  using With = Config::Comparison::With;  // kFile has no word: a config gives the file's path
   static const std::tuple words = {
       Words<bool>{{"true", true}, {"false", false}},
       words_by_name(all_mesh_formats()),
@@ -113,7 +113,7 @@ const Words<Value>& words_of() {
   return std::get<Words<Value>>(all_words());
 }
 
-/// The word of a value, which must have one.
+/// Returns the word of a value. \param value  must have a word.
 template <class Value>
 std::string_view word_of(Value value) {
   const auto& words = words_of<Value>();

@@ -18,13 +18,13 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxNodes = 100'000;
-constexpr std::size_t kMaxComplaints = 50;  // of one file's YAML; more would only bury the first
-constexpr std::size_t kMaxPath = 120;  // keeps messages, and the memory of a hostile file, small
+constexpr std::size_t kMaxComplaints = 50;  // per file; a longer list would hide the first problems
+constexpr std::size_t kMaxPath = 120;  // bytes; limits messages, and memory for malicious files
 
-/// Ends the parsing of a file; the problem is told where it is thrown.
+/// Exception that ends the parsing of a file. Code that throws it has added a complaint.
 struct Stop {};
 
-/// Builds the tree from yaml-cpp's events.
+/// Builds a YamlNode tree from yaml-cpp's events.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(const YamlText& text, Complaints& out) : text_(text), out_(out) {}
@@ -41,8 +41,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
     YamlNode node = make(YamlNode::Kind::kNothing, mark);
-    // yaml-cpp places an empty value at whatever follows it; the key or list it is missing from is
-    // where the user has to look.
+    // yaml-cpp reports an empty value at the position of the next token. Report the key or the list
+    // that lacks the value instead.
     if (!frames_.empty() && !expects_key()) {
       const Frame& frame = frames_.back();
       if (frame.node.kind == YamlNode::Kind::kMap) {
@@ -106,14 +106,14 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
  private:
-  /// A list or map that is not closed yet.
+  /// A list or map whose end has not been reached.
   struct Frame {
     YamlNode node;
     bool has_key = false;
     bool key_refused = false;
     std::string key;
     YamlPlace key_place;
-    std::unordered_map<std::string, int> lines;  ///< of the keys seen
+    std::unordered_map<std::string, int> lines;  ///< line of each key so far
   };
 
   bool expects_key() const {
@@ -215,7 +215,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t complaints_ = 0;
 };
 
-/// yaml-cpp's words for a syntax error, in words for people who do not write parsers.
+/// Translates yaml-cpp's message for a syntax error into plain words.
 std::string explain(const std::string& message) {
   struct Entry {
     std::string_view theirs, ours;

@@ -9,27 +9,27 @@
 
 namespace crowdface {
 
-/// Reads one YAML document. Complains of everything that is not plain YAML: syntax,
+/// Reads one YAML document. Adds a complaint about everything that is not plain YAML: syntax errors,
 /// duplicate keys (the second is refused), anchors and aliases, tags, several documents, bytes that
-/// are no UTF-8, more than 1 MiB, 64 levels or 100,000 values.
-/// \param source  the file's name as it is to stand in messages.
-/// \return        what could be read; nothing after a syntax error.
+/// are not UTF-8, and inputs beyond the limits (100,000 values; by default 1 MiB and 64 levels, see
+/// input_limits).
+/// \param source  name of the file in messages.
+/// \return        the tree without the refused parts; nothing after a syntax error.
 std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& source,
                                    Complaints& out);
 
-/// Reads a file the same way. A file that cannot be opened is a complaint of kind 66.
+/// Like parse_yaml, for a file. A file that cannot be read is a complaint of kind kMissingInput (66).
 std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out);
 
-/// The text as a YAML scalar that reads back as this text: plain where that is safe, else in
-/// quotes.
+/// Returns a YAML scalar that reads back as this text: plain if that is safe, else in quotes.
 std::string write_scalar(std::string_view text);
 
-/// Sets one value of the tree, as the command line asks for it. Mappings on the way are made.
-/// \param assignment  "key.path=value", the value in YAML, such as "sampling.smoothness=[0.1,
-/// 0.5]". Messages show "--set key.path=value" for a place.
+/// Sets one value of the tree, as the option `--set` does. Creates missing mappings on the path.
+/// \param assignment  "key.path=value" with a YAML value, such as "sampling.smoothness=[0.1, 0.5]".
+///                    Messages show "--set key.path=value" in place of a line number.
 void set_value(YamlNode& root, std::string_view assignment, Complaints& out);
 
-/// Sets one value of the tree to this text, whatever it looks like in YAML.
+/// Sets one value of the tree to this text, without parsing it as YAML.
 /// \param shown  what the user typed, for messages: "--count 24".
 void set_text(YamlNode& root, std::string_view key_path, std::string_view text,
               const std::string& shown, Complaints& out);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxKeys = 8;
 
-/// Whether no reader of YAML could take the text for anything but this text.
+/// Returns whether every YAML reader takes the unquoted text for this text.
 bool is_plain(std::string_view text) {
   static const std::set<std::string_view> words = {
       "null", "Null", "NULL", "true", "True", "TRUE", "false", "False", "FALSE",
@@ -30,7 +30,7 @@ bool is_plain(std::string_view text) {
                             "_-./") == std::string_view::npos;
 }
 
-/// Every node of a value that came from the command line stands at the option itself.
+/// Sets the place of every node of a command-line value to the option itself.
 void place_at(YamlNode& node, const YamlPlace& place, const std::string& path) {
   node.place = place;
   node.path = path;
@@ -43,7 +43,7 @@ void place_at(YamlNode& node, const YamlPlace& place, const std::string& path) {
   }
 }
 
-/// The node at that key, made if it is not there.
+/// Returns the value of a key of a mapping; adds the key without value if it is missing.
 YamlNode& child(YamlNode& map, std::string_view key, const YamlPlace& place) {
   for (YamlEntry& entry : map.entries) {
     if (entry.key == key) return entry.value;
@@ -55,10 +55,10 @@ YamlNode& child(YamlNode& map, std::string_view key, const YamlPlace& place) {
   return map.entries.back().value;
 }
 
-/// Puts a value where the keys lead.
+/// Sets the value at the path of keys; creates missing mappings.
 void put(YamlNode& root, const std::vector<std::string_view>& keys, YamlNode value,
          const YamlPlace& place, Complaints& out) {
-  if (root.kind != YamlNode::Kind::kMap) return;  // whoever reads the root will say so
+  if (root.kind != YamlNode::Kind::kMap) return;  // reading the root adds the complaint
   YamlNode* target = &root;
   for (const std::string_view key : keys) {
     if (target->kind == YamlNode::Kind::kNothing) target->kind = YamlNode::Kind::kMap;
@@ -91,7 +91,7 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return refuse("the config cannot be opened");
-  // One byte more than is allowed tells a file that is too long, however long it is.
+  // Read at most a few bytes beyond the limit: YamlText::find_problem then refuses longer files.
   std::string text(input_limits().yaml_bytes + 4, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) return refuse("the config cannot be read");
@@ -124,7 +124,7 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
   if (equals == std::string_view::npos || keys.size() > kMaxKeys || contains(keys, "")) {
     return out.add(place, "expected key.path=value, such as crowd.count=20");
   }
-  // No value at all is a matter for whoever reads the key, as it is in a file.
+  // An empty value becomes a null node, as in a file; the code that reads the key complains.
   const std::string_view value = assignment.substr(equals + 1);
   const bool empty = value.find_first_not_of(' ') == std::string_view::npos;
   Complaints of_value;

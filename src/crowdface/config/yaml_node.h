@@ -8,36 +8,36 @@
 
 namespace crowdface {
 
-/// Where a piece of a config stands: in a file, or (line 0) on the command line.
+/// The location of a config value: in a file, or (line 0) on the command line.
 struct YamlPlace {
-  std::shared_ptr<const std::string> source;  ///< file name, or the option as it was given
-  int line = 0;                               ///< from 1
-  int column = 0;                             ///< from 1, counted in characters, not bytes
-  /// "file:line:column", or the option.
+  std::shared_ptr<const std::string> source;  ///< file name, or the option as the user typed it
+  int line = 0;                               ///< from 1; 0: command line or whole file
+  int column = 0;                             ///< from 1, in characters, not bytes
+  /// Returns "file:line:column", or `source` alone if line is 0.
   std::string text() const;
 };
 
 struct YamlEntry;
 
-/// A checked YAML tree: plain data, no anchors, aliases, tags or duplicate keys, every node with
-/// its place. (yaml-cpp's own nodes let the first of two equal keys win and read 010 as 8.)
+/// A checked YAML tree without anchors, aliases, tags or duplicate keys. Every node has its place.
+/// (yaml-cpp's own nodes silently keep the first of two equal keys and read 010 as 8.)
 struct YamlNode {
   enum class Kind {
     kNothing,  ///< no value, `~` or `null`
     kScalar,
     kList,
     kMap,
-    kRefused,  ///< a complaint was made of it already
+    kRefused,  ///< not usable; a complaint about the node exists
   };
   Kind kind = Kind::kNothing;
   YamlPlace place;
-  std::string
-      path;  ///< the keys that lead here, "crowd.count"; list items count from 1: "recipes #2"
-  std::string text;                ///< kScalar, as written
-  bool quoted = false;             ///< kScalar: between quotes, so text and never a number
+  std::string path;  ///< keys from the root, "crowd.count"; list items count from 1: "recipes #2"
+  std::string text;  ///< kScalar: the value as written
+  bool quoted = false;             ///< kScalar: in quotes, hence text and never a number
   std::vector<YamlNode> items;     ///< kList
   std::vector<YamlEntry> entries;  ///< kMap, in the order of the file
 
+  /// Returns the entry with this key, or null.
   const YamlEntry* find(std::string_view key) const;
 };
 
@@ -47,7 +47,7 @@ struct YamlEntry {
   YamlNode value;
 };
 
-/// What is found, in words for a message: "a mapping", "a list of 3", the text in quotes.
+/// Describes a node for a message: "a mapping", "a list of 3", or the text in quotes.
 std::string describe(const YamlNode& node);
 
 }  // namespace crowdface

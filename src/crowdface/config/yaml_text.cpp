@@ -13,16 +13,15 @@ bool is_utf16(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
 }
 
-/// Control characters but tab and line ends; a carriage return counts as a line end only before
-/// '\n'.
+/// Returns whether the text starts with a control character. Tab, '\n' and "\r\n" are allowed.
 bool is_control(std::string_view text) {
   const auto c = static_cast<unsigned char>(text[0]);
   if (c == '\r') return text.size() < 2 || text[1] != '\n';
   return c == 0x7f || (c < 0x20 && c != '\t' && c != '\n');
 }
 
-/// Offset of a tab in the white space that a line starts with, unless the line is blank or a
-/// comment.
+/// Returns the offset of the first tab in a line's indentation, or npos. Ignores blank lines and
+/// comments.
 std::size_t find_indenting_tab(std::string_view line) {
   const std::size_t text = line.find_first_not_of(" \t\r\n");
   if (text == std::string_view::npos || line[text] == '#') return std::string_view::npos;
@@ -111,7 +110,7 @@ bool YamlText::quote_left_open(int line, int byte_column) const {
       ++i;
     } else if (rest[i] == quote) {
       if (quote == '"' || i + 1 >= rest.size() || rest[i + 1] != '\'') return false;
-      ++i;  // '' stands for one '
+      ++i;  // '' is an escaped quote
     }
   }
   return true;

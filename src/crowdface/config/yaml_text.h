@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The characters of a YAML file: finds what yaml-cpp lets through, and tells lines and columns as
-/// an editor does. Lines and columns that come in are yaml-cpp's, from 0 and in bytes.
+/// The text of a YAML file. Finds problems that yaml-cpp accepts, and converts yaml-cpp's positions
+/// (lines and columns from 0, in bytes) to those of an editor (from 1, in characters).
 class YamlText {
  public:
   /// \param text  must outlive this object; a byte order mark at its start is skipped.
@@ -24,14 +24,14 @@ class YamlText {
     YamlPlace place;
     std::string what;
   };
-  /// The first byte or line that no YAML file of ours may hold: too long a file, not UTF-8, control
-  /// characters, tabs in the indentation.
+  /// Returns the first of these problems: the file is too long, is not UTF-8, contains a control
+  /// character, or has a tab in an indentation.
   std::optional<Problem> find_problem() const;
 
-  /// Whether `~` or `null` is written there (rather than nothing at all).
+  /// Returns whether `~` or `null` is written at this position.
   bool null_stands_at(int line, int byte_column) const;
-  /// Whether a quote starts there that nothing closes; yaml-cpp takes the rest of the file for
-  /// text.
+  /// Returns whether a quote starts at this position and is never closed. yaml-cpp accepts such a
+  /// quote and reads the rest of the file as its text.
   bool quote_left_open(int line, int byte_column) const;
 
  private:
@@ -41,7 +41,7 @@ class YamlText {
   std::string_view text_;
   std::shared_ptr<const std::string> source_;
   std::vector<std::size_t> line_starts_;
-  std::vector<std::size_t> continuations_;  ///< bytes that continue a character, ascending
+  std::vector<std::size_t> continuations_;  ///< offsets of UTF-8 continuation bytes, ascending
 };
 
 }  // namespace crowdface
