@@ -2,96 +2,63 @@
 #include "crowdface/cast/face_point_index.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
+#include <utility>
+
+#include "crowdface/smooth/columns.h"
 
 namespace crowdface {
 namespace {
 
 /// searching this many points in order is as fast as searching a tree
 constexpr Index kNewest = 2048;
-constexpr std::size_t kLeaf = 2 * PointBlocks::kLanes;
+constexpr std::uint32_t kLeaf = 2 * PointBlocks::kLanes;
 
 }  // namespace
 
-/// The points of a new tree, their leading coordinates, and their order in the tree.
-struct PointTree::Building {
-  std::vector<std::array<float, LeadingBox::kDimensions>> leading;
-  std::vector<std::pair<const PointBlocks*, Index>> sources;
-  std::vector<std::size_t> order;
-
-  Index number(std::size_t at) const { return sources[at].first->number(sources[at].second); }
-};
-
 PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& points)
     : points_(dimensions) {
-  Building building;
+  std::vector<std::pair<const PointBlocks*, Index>> sources;
   for (const PointBlocks* blocks : points) {
-    for (Index at = 0; at < blocks->size(); ++at) {
-      auto& leading = building.leading.emplace_back();
-      for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
-        leading[d] = blocks->value(at, static_cast<Index>(d));
-      }
-      building.sources.emplace_back(blocks, at);
-    }
+    for (Index at = 0; at < blocks->size(); ++at) sources.emplace_back(blocks, at);
   }
-  building.order.resize(building.leading.size());
-  std::iota(building.order.begin(), building.order.end(), std::size_t{0});
-  build(building, 0, building.order.size());
+  Columns leading(static_cast<Index>(sources.size()), LeadingBox::kDimensions);
+  std::vector<std::uint32_t> rows(sources.size());
+  std::iota(rows.begin(), rows.end(), 0U);
+  for (const std::uint32_t row : rows) {
+    const auto& [blocks, at] = sources[row];
+    for (Index d = 0; d < leading.cols(); ++d) leading(row, d) = blocks->value(at, d);
+  }
+  tree_ = MedianSplitTree(std::move(rows), leading, kLeaf);
   std::vector<float> values(static_cast<std::size_t>(points_.padded_dimensions()));
-  for (const std::size_t at : building.order) {
-    const auto& [blocks, source] = building.sources[at];
+  for (const std::uint32_t row : tree_.order) {
+    const auto& [blocks, at] = sources[row];
     for (std::size_t d = 0; d < values.size(); ++d) {
-      values[d] = blocks->value(source, static_cast<Index>(d));
+      values[d] = blocks->value(at, static_cast<Index>(d));
     }
-    points_.add(building.number(at), values.data());
+    points_.add(blocks->number(at), values.data());
   }
-}
-
-std::int32_t PointTree::build(Building& building, std::size_t begin, std::size_t end) {
-  const auto at = static_cast<std::int32_t>(nodes_.size());
-  Node node;
-  LeadingBox& box = node.box;
-  const auto first = building.order.begin() + static_cast<std::ptrdiff_t>(begin);
-  const auto last = building.order.begin() + static_cast<std::ptrdiff_t>(end);
-  const auto [least, greatest] = std::minmax_element(
-      first, last, [&](auto a, auto b) { return building.number(a) < building.number(b); });
-  node.least = building.number(*least);
-  node.greatest = building.number(*greatest);
-  std::size_t widest = 0;
-  for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
-    const auto [low, high] = std::minmax_element(first, last, [&](auto a, auto b) {
-      return building.leading[a][d] < building.leading[b][d];
-    });
-    box.low[d] = building.leading[*low][d];
-    box.high[d] = building.leading[*high][d];
-    if (box.high[d] - box.low[d] > box.high[widest] - box.low[widest]) widest = d;
+  for (const auto& [begin, end, second] : tree_.nodes) {
+    Bounds bounds{{}, points_.number(begin), points_.number(begin)};
+    for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
+      bounds.box.low[d] = bounds.box.high[d] = points_.value(begin, static_cast<Index>(d));
+    }
+    for (Index at = begin; at < end; ++at) {
+      bounds.least = std::min(bounds.least, points_.number(at));
+      bounds.greatest = std::max(bounds.greatest, points_.number(at));
+      for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
+        const float value = points_.value(at, static_cast<Index>(d));
+        bounds.box.low[d] = std::min(bounds.box.low[d], value);
+        bounds.box.high[d] = std::max(bounds.box.high[d], value);
+      }
+    }
+    bounds_.push_back(bounds);
   }
-  nodes_.push_back(node);
-  if (end - begin <= kLeaf) {
-    nodes_.back().block = static_cast<std::int32_t>(begin / PointBlocks::kLanes);
-    nodes_.back().blocks =
-        static_cast<std::int32_t>((end - begin + PointBlocks::kLanes - 1) / PointBlocks::kLanes);
-    return at;
-  }
-  // Split at a multiple of the leaf size, so that each leaf begins with a whole block.
-  const std::size_t middle = begin + std::max(std::size_t{1}, (end - begin) / 2 / kLeaf) * kLeaf;
-  std::nth_element(first, building.order.begin() + static_cast<std::ptrdiff_t>(middle), last,
-                   [&](auto a, auto b) {
-                     const float left = building.leading[a][widest];
-                     const float right = building.leading[b][widest];
-                     return left != right ? left < right : building.number(a) < building.number(b);
-                   });
-  const std::int32_t left = build(building, begin, middle);
-  const std::int32_t right = build(building, middle, end);
-  nodes_[static_cast<std::size_t>(at)].left = left;
-  nodes_[static_cast<std::size_t>(at)].right = right;
-  return at;
 }
 
 void PointTree::search(const std::vector<float>& query, Index begin, Index end, double enough,
                        NearestPoint& best) const {
-  const auto wanted = [&](float squared, const Node& node) {
+  const auto wanted = [&](float squared, const Bounds& node) {
     return !(best.squared < enough) && node.least < end && node.greatest >= begin &&
            static_cast<double>(squared) * (1 - PointBlocks::kRounding) <= best.squared;
   };

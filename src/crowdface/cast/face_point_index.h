@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@
 
 #include "crowdface/cast/face_space.h"
 #include "crowdface/cast/point_blocks.h"
+#include "crowdface/mesh/median_split_tree.h"
 
 namespace crowdface {
 
@@ -23,40 +23,38 @@ class PointTree {
   void search(const std::vector<float>& query, Index begin, Index end, double enough,
               NearestPoint& best) const;
 
-  struct Node {
+  /// Bounds of the points of a node.
+  struct Bounds {
     LeadingBox box;
-    Index least = 0, greatest = 0;       ///< smallest and largest number of its points
-    std::int32_t left = -1, right = -1;  ///< −1: leaf
-    std::int32_t block = 0, blocks = 0;  ///< first block and number of blocks; leaves only
+    Index least, greatest;  ///< smallest and largest number of its points
   };
   /// Visits the blocks of leaves; of two children, the one nearer to the query first.
   ///
-  /// \param wanted  (squared distance, node) → whether to visit the node.
+  /// \param wanted  (squared distance, bounds) → whether to visit the node.
   /// \param use     Called with the number of each block.
   template <class Wanted, class Use>
   void visit(const std::vector<float>& query, const Wanted& wanted, const Use& use,
-             std::size_t at = 0) const {
-    const Node& node = nodes_[at];
-    for (std::int32_t b = node.block; b < node.block + node.blocks; ++b) use(Index{b});
-    if (node.left < 0) return;
-    std::array<std::pair<float, std::size_t>, 2> children;
-    for (std::size_t c = 0; c < 2; ++c) {
-      const auto child = static_cast<std::size_t>(c == 0 ? node.left : node.right);
-      children[c] = {nodes_[child].box.squared_distance(query), child};
+             std::uint32_t at = 0) const {
+    const MedianSplitTree::Node& node = tree_.nodes[at];
+    if (node.is_leaf()) {
+      for (Index block = node.begin / PointBlocks::kLanes; block * PointBlocks::kLanes < node.end;
+           ++block) {
+        use(block);
+      }
+      return;
     }
-    if (children[1].first < children[0].first) std::swap(children[0], children[1]);
-    for (const auto& [squared, child] : children) {
-      if (wanted(squared, nodes_[child])) visit(query, wanted, use, child);
+    const auto squared = [&](std::uint32_t n) { return bounds_[n].box.squared_distance(query); };
+    std::pair near{squared(at + 1), at + 1}, far{squared(node.second), node.second};
+    if (far.first < near.first) std::swap(near, far);
+    for (const auto& [distance, child] : {near, far}) {
+      if (wanted(distance, bounds_[child])) visit(query, wanted, use, child);
     }
   }
 
  private:
-  struct Building;
-
-  std::int32_t build(Building& building, std::size_t begin, std::size_t end);
-
-  PointBlocks points_;
-  std::vector<Node> nodes_;
+  PointBlocks points_;  ///< in the tree's order
+  MedianSplitTree tree_;
+  std::vector<Bounds> bounds_;  ///< of each node
 };
 
 /// A growing set of points with nearest-point queries: trees whose sizes double, so that each point

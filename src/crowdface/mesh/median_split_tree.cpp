@@ -2,24 +2,36 @@
 #include "crowdface/mesh/median_split_tree.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
-
-#include <Eigen/Geometry>
-
-#include "crowdface/mesh/vector3.h"
 
 namespace crowdface {
 namespace {
 
-void add_nodes(MedianSplitTree& tree, const Positions& points, std::uint32_t leaf_size,
-               std::uint32_t begin, std::uint32_t end) {
+/// The axis along which some points extend farthest; of equals the first.
+Index widest_axis(const MedianSplitTree::Points& points, std::span<const std::uint32_t> rows) {
+  Index widest = 0;
+  double width = -1;
+  for (Index axis = 0; axis < points.cols(); ++axis) {
+    double low = points(rows[0], axis), high = low;
+    for (const std::uint32_t row : rows) {
+      low = std::min(low, points(row, axis));
+      high = std::max(high, points(row, axis));
+    }
+    if (high - low > width) {
+      width = high - low;
+      widest = axis;
+    }
+  }
+  return widest;
+}
+
+void add_nodes(MedianSplitTree& tree, const MedianSplitTree::Points& points,
+               std::uint32_t leaf_size, std::uint32_t begin, std::uint32_t end) {
   const std::size_t node = tree.nodes.size();
   tree.nodes.push_back({begin, end, 0});
   if (end - begin <= leaf_size) return;
-  Eigen::AlignedBox3d box;
-  for (std::uint32_t i = begin; i < end; ++i) box.extend(row3(points, tree.order[i]));
-  Index axis = 0;
-  box.sizes().maxCoeff(&axis);
+  const Index axis = widest_axis(points, std::span(tree.order).subspan(begin, end - begin));
   const std::uint32_t leaves = (end - begin + leaf_size - 1) / leaf_size;
   const std::uint32_t middle = begin + (leaves + 1) / 2 * leaf_size;
   const auto at = [&](std::uint32_t place) { return tree.order.begin() + place; };
@@ -33,7 +45,7 @@ void add_nodes(MedianSplitTree& tree, const Positions& points, std::uint32_t lea
 
 }  // namespace
 
-MedianSplitTree::MedianSplitTree(std::vector<std::uint32_t> rows, const Positions& points,
+MedianSplitTree::MedianSplitTree(std::vector<std::uint32_t> rows, const Points& points,
                                  std::uint32_t leaf_size)
     : order(std::move(rows)) {
   if (!order.empty())

@@ -16,30 +16,23 @@ namespace {
 
 constexpr std::uint32_t kLeaf = TriangleTree::kLeaf;
 
-class Ray {
- public:
-  Ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
-      : origin_(origin), direction_(direction) {}
-
-  /// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
-  bool meets(const Positions& positions, const Triangle& triangle) const {
-    const Eigen::Vector3d a = row3(positions, triangle[0]);
-    const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
-    const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
-    const Eigen::Vector3d p = direction_.cross(ac);
-    const double determinant = ab.dot(p);
-    if (determinant == 0) return false;
-    const Eigen::Vector3d from_a = origin_ - a;
-    const double u = from_a.dot(p) / determinant;
-    if (u < 0 || u > 1) return false;
-    const Eigen::Vector3d q = from_a.cross(ab);
-    const double v = direction_.dot(q) / determinant;
-    return v >= 0 && u + v <= 1 && ac.dot(q) / determinant > 0;
-  }
-
- private:
-  Eigen::Vector3d origin_, direction_;
-};
+/// Whether a ray meets a triangle.
+/// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
+bool meets_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                    const Positions& positions, const Triangle& triangle) {
+  const Eigen::Vector3d a = row3(positions, triangle[0]);
+  const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
+  const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
+  const Eigen::Vector3d p = direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (determinant == 0) return false;
+  const Eigen::Vector3d from_a = origin - a;
+  const double u = from_a.dot(p) / determinant;
+  if (u < 0 || u > 1) return false;
+  const Eigen::Vector3d q = from_a.cross(ab);
+  const double v = direction.dot(q) / determinant;
+  return v >= 0 && u + v <= 1 && ac.dot(q) / determinant > 0;
+}
 
 }  // namespace
 
@@ -184,10 +177,9 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
 
 std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     std::uint32_t start, std::uint32_t guess) const {
-  const Ray ray(origin, direction);
   const auto is_met = [&](std::uint32_t place) {
     const std::uint32_t triangle = tree_.order[place];
-    return triangle != start && ray.meets(positions_, triangles_[triangle]);
+    return triangle != start && meets_triangle(origin, direction, positions_, triangles_[triangle]);
   };
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;

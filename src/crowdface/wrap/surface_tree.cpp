@@ -2,7 +2,6 @@
 #include "crowdface/wrap/surface_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -40,45 +39,33 @@ SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>
     if (!area_vector(positions, triangles[t]).normalized().isZero()) rows.push_back(t);
   }
   tree_ = MedianSplitTree(std::move(rows), centres, kMostInLeaf);
-  for (const MedianSplitTree::Node& node : tree_.nodes) bounds_.push_back(bounds_of(node));
+  for (const auto& [begin, end, second] : tree_.nodes) {
+    Eigen::AlignedBox3d& box = boxes_.emplace_back();
+    for (const std::uint32_t t : std::span(tree_.order).subspan(begin, end - begin)) {
+      for (const std::uint32_t v : triangles[t]) box.extend(row3(positions, v));
+    }
+  }
 }
 
-SurfaceTree::Bounds SurfaceTree::bounds_of(const MedianSplitTree::Node& node) const {
-  const std::span triangles = std::span(tree_.order).subspan(node.begin, node.end - node.begin);
-  Bounds bounds{{}, Eigen::Vector3d::Zero(), 1, 0};
-  for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t v : triangles_[t]) bounds.box.extend(row3(positions_, v));
-    bounds.axis += facing_[t];
-  }
-  bounds.axis.normalize();
-  for (const std::uint32_t t : triangles) {
-    bounds.cosine = std::min(bounds.cosine, bounds.axis.dot(facing_[t]));
-  }
-  bounds.cosine = std::max(-1.0, bounds.cosine - 1e-9);
-  bounds.sine = std::sqrt(1 - bounds.cosine * bounds.cosine);
-  return bounds;
-}
-
-template <class AcceptNode, class Accept>
+template <class Accept>
 SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, const SurfaceHit& start,
-                               const AcceptNode& accept_node, const Accept& accept) const {
+                               const Accept& accept) const {
   struct Waiting {
     std::uint32_t node;
     double squared;
   };
   SurfaceHit best = start;
-  if (bounds_.empty()) return best;
+  if (boxes_.empty()) return best;
   std::array<Waiting, kDeepestTree> stack;
   std::size_t waiting = 0;
-  stack[waiting++] = {0, bounds_[0].box.squaredExteriorDistance(point)};
+  stack[waiting++] = {0, boxes_[0].squaredExteriorDistance(point)};
   while (waiting > 0) {
     const Waiting next = stack[--waiting];
     if (next.squared > best.distance * best.distance) continue;
-    if (!accept_node(bounds_[next.node])) continue;
     const MedianSplitTree::Node& node = tree_.nodes[next.node];
     if (!node.is_leaf()) {
-      Waiting near = {next.node + 1, bounds_[next.node + 1].box.squaredExteriorDistance(point)};
-      Waiting far = {node.second, bounds_[node.second].box.squaredExteriorDistance(point)};
+      Waiting near = {next.node + 1, boxes_[next.node + 1].squaredExteriorDistance(point)};
+      Waiting far = {node.second, boxes_[node.second].squaredExteriorDistance(point)};
       if (far.squared < near.squared) std::swap(near, far);
       stack[waiting++] = far;
       stack[waiting++] = near;
@@ -109,23 +96,15 @@ SurfaceHit SurfaceTree::on_triangle(std::uint32_t triangle, const Eigen::Vector3
 
 SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,
                                 std::uint32_t guess) const {
-  return search(
-      point, on_triangle(guess, point, reach), [](const Bounds&) { return true; },
-      [](std::uint32_t) { return true; });
+  return search(point, on_triangle(guess, point, reach), [](std::uint32_t) { return true; });
 }
 
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                        double least_cosine, double reach,
                                        std::uint32_t guess) const {
   const auto accept = [&](std::uint32_t t) { return facing_[t].dot(facing) >= least_cosine; };
-  // The angle to the axis is at most the cone's plus that of least_cosine.
-  const double least_sine = std::sqrt(1 - least_cosine * least_cosine);
-  const auto accept_node = [&](const Bounds& node) {
-    if (node.cosine <= -least_cosine) return true;  // together 180° or more
-    return node.axis.dot(facing) >= node.cosine * least_cosine - node.sine * least_sine;
-  };
   if (guess != kNoIndex && !accept(guess)) guess = kNoIndex;
-  return search(point, on_triangle(guess, point, reach), accept_node, accept);
+  return search(point, on_triangle(guess, point, reach), accept);
 }
 
 }  // namespace crowdface

@@ -43,24 +43,17 @@ class SurfaceTree {
                             std::uint32_t guess = kNoIndex) const;
 
  private:
-  /// What the triangles of a node of the tree lie and face within.
-  struct Bounds {
-    Eigen::AlignedBox3d box;
-    Eigen::Vector3d axis;  ///< the triangles face within an angle of this one
-    double cosine, sine;   ///< of the angle; 180° where they face everywhere
-  };
-  Bounds bounds_of(const MedianSplitTree::Node& node) const;
   /// That of one triangle; none beyond the reach.
   SurfaceHit on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point, double reach) const;
-  template <class AcceptNode, class Accept>
+  template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,
-                    const AcceptNode& accept_node, const Accept& accept) const;
+                    const Accept& accept) const;
 
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;
-  std::vector<Eigen::Vector3d> facing_;  ///< of each triangle
-  MedianSplitTree tree_;                 ///< of the triangles with an area
-  std::vector<Bounds> bounds_;           ///< of each node
+  std::vector<Eigen::Vector3d> facing_;     ///< of each triangle
+  MedianSplitTree tree_;                    ///< of the triangles with an area
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of each node
 };
 
 }  // namespace crowdface
