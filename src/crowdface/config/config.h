@@ -176,8 +176,8 @@ struct Config {
         size;  ///< texels of the longer side; none: the size of the largest head texture
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// For ColourWeights::kDrawn: textures come only from heads that agree with the face's target in
-    /// each of these tags; none: in all tags.
+    /// For ColourWeights::kDrawn: textures come only from heads that agree with the face's target
+    /// in each of these tags; none: in all tags.
     std::optional<std::vector<std::string>> alike;
   } textures;
 

@@ -19,8 +19,8 @@ inline constexpr double kMaxDistance = 1000;  ///< largest distance between head
 /// Looks up the entries of one mapping. The constructor adds a complaint for each unknown key.
 class MapReader {
  public:
-  /// \param node  if this is not a mapping, the constructor adds one complaint; find() and require()
-  ///              then return null without further complaints. Must outlive the reader.
+  /// \param node  if this is not a mapping, the constructor adds one complaint; find() and
+  ///              require() then return null without further complaints. Must outlive the reader.
   /// \param keys  the known keys.
   MapReader(const YamlNode& node, const std::vector<std::string>& keys, Complaints& complaints);
 

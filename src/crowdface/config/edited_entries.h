@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes the config entries that `crowdface edit` changes, without the rest of the config.
+// Reads and writes the config entries that `crowdface edit` changes, without the rest of the
+// config.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,8 @@
 
 namespace crowdface {
 
-/// Reads one entry of `recipes` from YAML (or JSON, which is YAML). The entry is checked against the
-/// heads and regions of `config`, but its id may be any name.
+/// Reads one entry of `recipes` from YAML (or JSON, which is YAML). The entry is checked against
+/// the heads and regions of `config`, but its id may be any name.
 /// \param source    name of the text in messages.
 /// \param problems  receives every problem.
 /// \return nothing if there is a problem.

@@ -14,9 +14,10 @@ namespace crowdface {
 inline constexpr std::size_t kFewestHeads = 2, kMostHeads = 50;  ///< number of heads of one job
 
 /// Lists the head files directly in the folder, sorted by name: all OBJ files. If there are fewer
-/// than two OBJ files, also lists the files of the most frequent other format (is_head_file), except
-/// files with the stem of an OBJ file. Skips folders and hidden files, such as the "._head.obj" that
-/// some systems create. Includes dangling links, so that they are reported as missing files.
+/// than two OBJ files, also lists the files of the most frequent other format (is_head_file),
+/// except files with the stem of an OBJ file. Skips folders and hidden files, such as the
+/// "._head.obj" that some systems create. Includes dangling links, so that they are reported as
+/// missing files.
 /// \throws MissingInput if the folder cannot be read.
 std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folder);
 
@@ -24,8 +25,9 @@ std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folde
 /// list_heads; empty if there are none. \throws MissingInput if the folder cannot be read.
 std::string left_out_of_heads(const std::filesystem::path& folder);
 
-/// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path: `*` matches
-/// any number of characters except '/', `?` matches one. Wildcards do not match hidden files.
+/// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path: `*`
+/// matches any number of characters except '/', `?` matches one. Wildcards do not match hidden
+/// files.
 /// \throws MissingInput if a folder cannot be read.
 std::vector<std::filesystem::path> files_like(const std::filesystem::path& pattern);
 

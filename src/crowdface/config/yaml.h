@@ -9,16 +9,17 @@
 
 namespace crowdface {
 
-/// Reads one YAML document. Adds a complaint about everything that is not plain YAML: syntax errors,
-/// duplicate keys (the second is refused), anchors and aliases, tags, several documents, bytes that
-/// are not UTF-8, and inputs beyond the limits (100,000 values; by default 1 MiB and 64 levels, see
-/// input_limits).
+/// Reads one YAML document. Adds a complaint about everything that is not plain YAML: syntax
+/// errors, duplicate keys (the second is refused), anchors and aliases, tags, several documents,
+/// bytes that are not UTF-8, and inputs beyond the limits (100,000 values; by default 1 MiB and 64
+/// levels, see input_limits).
 /// \param source  name of the file in messages.
 /// \return        the tree without the refused parts; nothing after a syntax error.
 std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& source,
                                    Complaints& out);
 
-/// Like parse_yaml, for a file. A file that cannot be read is a complaint of kind kMissingInput (66).
+/// Like parse_yaml, for a file. A file that cannot be read is a complaint of kind kMissingInput
+/// (66).
 std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out);
 
 /// Returns a YAML scalar that reads back as this text: plain if that is safe, else in quotes.

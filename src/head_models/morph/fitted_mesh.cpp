@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// The array of this name: three numbers a vertex.
+/// Returns the JSON array `name`; checks that it has one row of three numbers per vertex.
 const json& triples(const json& root, const char* name, Index vertices, const fs::path& file) {
   const json& rows = root.at(name);
   if (!rows.is_array() || static_cast<Index>(rows.size()) != vertices) {
@@ -102,7 +102,8 @@ void FittedMesh::hold_to(const std::vector<std::uint32_t>& rows, const Positions
       near.emplace_back((base.row(row) - places.row(v)).norm(), row);
     }
     std::ranges::partial_sort(near, near.begin() + 3);
-    constexpr double kSoft = 0.005;  // decimetres
+    // Inverse-distance weights; kSoft (decimetres) avoids a division by zero.
+    constexpr double kSoft = 0.005;
     Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) sum += 1 / (near[k].first + kSoft);

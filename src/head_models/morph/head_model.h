@@ -11,38 +11,40 @@
 
 namespace crowdface {
 
-/// What a model tells of a head beside its shape.
+/// Sex and age of a head.
 struct HeadPerson {
   bool male = false;
   double years = 0;
 };
 
-/// Heads as sums of morph targets: one topology, any number of heads. Lengths in centimetres, +Y up,
-/// looking along +Z.
+/// A generator of random heads: sums of morph targets in one topology. Lengths are in centimetres,
+/// +Y is up, heads face +Z.
 class HeadModel {
  public:
   virtual ~HeadModel() = default;
-  /// The model's own average head.
+  /// Returns the model's average head.
   virtual const Mesh& neutral() const = 0;
-  /// Of the faces, ascending; may be empty.
+  /// Returns the materials of the faces, by ascending first face; may be empty.
   virtual const std::vector<MaterialRange>& materials() const = 0;
-  /// Head number `index` of a seed: #V by 3. The same bits on every machine.
+  /// Returns the vertices of head number `index` of a seed: #V by 3. The same bits on every
+  /// machine.
   virtual Positions positions(std::uint64_t seed, std::uint64_t index) const = 0;
-  /// Nothing where the model does not know.
+  /// Returns sex and age of that head; nothing if the model does not define them.
   virtual std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 
-/// Heights of eyes and mouth in the neutral head.
+/// Heights (y) of eyes and mouth in the neutral head.
 struct FaceHeights {
   double eyes = 0, mouth = 0;
 };
 
-/// Rows of the vertices that faces of materials with these words in their names use, ascending.
+/// Returns the vertices of all faces whose material's name contains one of the words, ascending.
 std::vector<std::uint32_t> vertices_of_material(const Topology& topology,
                                                 const std::vector<MaterialRange>& materials,
                                                 const std::vector<std::string>& words);
 
-/// Mean of these rows, in their order. \throws InvalidInput if there is none.
+/// Returns the mean of the given rows, summed in their order. \throws InvalidInput if `rows` is
+/// empty.
 Eigen::RowVector3d mean_of(const Positions& positions, const std::vector<std::uint32_t>& rows);
 
 }  // namespace crowdface

@@ -12,11 +12,12 @@
 namespace crowdface {
 namespace {
 
-constexpr double kYoung = 25, kOld = 90;  // the ages for which MakeHuman has targets
+constexpr double kYoung = 25, kOld = 90;  // ages in years of MakeHuman's young and old targets
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
-/// A measure with a target for either direction. '*' stands for l and r: both sides alike but for a
-/// little. `aged` and `weight` are what 20 years beyond 45, or the heaviest body, add.
+/// A measure with one target for each direction. '*' in `stem` stands for l and r, whose values
+/// differ slightly. `spread` is the standard deviation. `aged` is the change of the mean per 20
+/// years of age above 45, `weight` its change for the heaviest body.
 struct Control {
   std::string_view stem, less, more;
   double spread;
@@ -151,12 +152,13 @@ std::span<const char> sides_of(const Control& control) {
   return std::span(kSides).first(paired ? 2 : 1);
 }
 
-/// Shares of min, average and max at an amount from 0 to 1.
+/// Returns the interpolation weights of min, average and max at an amount in [0, 1].
 std::array<double, 3> amounts(double x) {
   return {std::max(0.0, 1 - 2 * x), 1 - std::abs(2 * x - 1), std::max(0.0, 2 * x - 1)};
 }
 
-/// MakeHuman's own scheme: between sexes, ages and builds its targets are mixed in proportion.
+/// Adds the targets of the person by MakeHuman's own scheme: linear interpolation between the
+/// targets of both sexes, two ages and three builds.
 void add_person(const MakeHumanPerson& person, double male_share, std::vector<TargetWeight>& out) {
   const double old_share = std::clamp((person.years - kYoung) / (kOld - kYoung), 0.0, 1.0);
   const auto muscle = amounts(person.muscle), weight = amounts(person.weight);
@@ -181,12 +183,12 @@ void add_person(const MakeHumanPerson& person, double male_share, std::vector<Ta
 
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index) {
   MakeHumanPerson person;
-  // Evenly spread, so that a handful of heads has both sexes and several ages.
+  // Stratified, so that a few heads already have both sexes and several ages.
   person.male = random_stratified({seed, index, "makehuman/sex"}, 2) < 0.5;
   person.years = std::floor(20 + 60 * random_stratified({seed, index, "makehuman/age"}, 5));
   double sum = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
-    // The fourth power: one ancestry prevails in most.
+    // The fourth power makes one ancestry dominant in most people.
     const double x = 0.02 + random_unit({seed, index, "makehuman/ancestry"}, a);
     person.ancestry[a] = x * x * x * x;
     sum += person.ancestry[a];
@@ -203,7 +205,7 @@ MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index) {
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index) {
   std::vector<TargetWeight> out;
-  // Nobody is all one or all the other.
+  // Mix in up to 20 % of the other sex.
   const double mixed = random_between({seed, index, "makehuman/sex_share"}, 0, 0.2);
   add_person(person, person.male ? 1 - mixed : mixed, out);
   for (const Control& control : kControls) {

@@ -13,22 +13,23 @@ namespace crowdface {
 
 inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 
-/// What a MakeHuman head's targets hang together with.
+/// Attributes of a person that determine the averages of its measures.
 struct MakeHumanPerson {
   bool male = false;
   double years = 0;                   ///< 20 … 80
   std::array<double, 3> ancestry{};   ///< shares of kAncestries; sum 1
-  double muscle = 0.5, weight = 0.5;  ///< 0 least … 1 most
+  double muscle = 0.5, weight = 0.5;  ///< 0 (least) … 1 (most)
 };
+/// Draws the person of head `index` of a seed.
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index);
 
-/// The targets that make this head of the base mesh, each with its weight: the person's, then some
-/// hundred drawn measures of head, forehead, brows, eyes, nose, mouth, chin, cheeks, ears, neck, and
-/// what makes left and right differ.
+/// Returns the weighted morph targets of head `index`: first those of the person (sex, age,
+/// ancestry, build), then about a hundred random measures of head, forehead, brows, eyes, nose,
+/// mouth, chin, cheeks, ears, neck and asymmetry. Weights of zero are left out.
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index);
 
-/// Every target that `makehuman_targets` can ask for.
+/// Returns the name of every target that `makehuman_targets` can return.
 std::vector<std::string> makehuman_target_names();
 
 }  // namespace crowdface

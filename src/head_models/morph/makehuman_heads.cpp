@@ -22,7 +22,8 @@ namespace {
 
 constexpr double kCentimetresPerUnit = 10;
 
-// The plane of the cut, in decimetres: it keeps to one loop of 42 edges round the lower neck.
+// The plane y + kCutSlope · z = kCutHeight (decimetres) that cuts the neck. The cut follows one
+// loop of 42 edges.
 constexpr double kCutHeight = 5.84, kCutSlope = 0.4;
 
 struct Part {
@@ -31,7 +32,7 @@ struct Part {
 constexpr std::array<Part, 3> kParts = {
     {{"body", "skin"}, {"helper-r-eye", "eyeball_r"}, {"helper-l-eye", "eyeball_l"}}};
 
-/// Mean height of the corners of these helpers' faces.
+/// Returns the mean height of the corners of the helpers' faces.
 double mean_height(const ThreeMesh& mesh, const std::array<std::string_view, 2>& helpers,
                    const std::filesystem::path& file) {
   double sum = 0;
@@ -111,8 +112,8 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
               kCentimetresPerUnit * (mesh_.heights.mouth - origin)};
 }
 
-/// Bodies differ in height: heads are brought together at the eyes.
-/// \param base  all vertices of the same body.
+/// Converts to centimetres and moves the mean of the eyeballs to the origin, because bodies differ
+/// in height. \param base  all vertices of the same body.
 Positions MakeHumanHeads::in_frame(const Positions& decimetres, const Positions& base) const {
   const Eigen::RowVector3d origin = mean_of(base, eyes_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
@@ -126,6 +127,7 @@ std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
 }
 
 void MakeHumanHeads::wear(std::vector<WornPart> parts) {
+  // Keep the faces of the skin, the first material.
   const Topology& naked = mesh_.head.topology;
   Topology topology;
   for (Index f = 0; f < mesh_.materials[1].first_face; ++f) {
@@ -135,6 +137,7 @@ void MakeHumanHeads::wear(std::vector<WornPart> parts) {
   for (std::uint32_t& row : skin_) row = mesh_.rows[row];
   const auto uv_rows = renumber(topology.corner_uvs, mesh_.head.uvs.rows());
   TextureCoordinates uvs = mesh_.head.uvs(uv_rows, kAllColumns);
+  // Append the parts, with their indices shifted.
   materials_ = {mesh_.materials[0]};
   auto vertices = static_cast<std::uint32_t>(skin_.size());
   for (const auto& [material, mesh] : parts) {

