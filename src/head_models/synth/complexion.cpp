@@ -10,7 +10,7 @@
 namespace crowdface::synth {
 namespace {
 
-/// At t in [0, 1] along evenly spaced colours.
+/// Interpolates linearly between evenly spaced colours at t, clamped to [0, 1].
 template <std::size_t N>
 ScreenColour along(const std::array<ScreenColour, N>& colours, double t) {
   const double place = std::clamp(t, 0.0, 1.0) * (N - 1);
@@ -19,9 +19,9 @@ ScreenColour along(const std::array<ScreenColour, N>& colours, double t) {
   return (1 - part) * colours[i] + part * colours[i + 1];
 }
 
-/// Faces' skin from very light to dark, about along the line that measured skin follows in CIELAB (Chardon and
-/// others 1991, "Skin colour typology and suntanning pathways"): L* from 72 to 29, yellowness and
-/// redness largest in the middle.
+/// Facial skin colours from very light to dark. They follow the distribution of measured skin in
+/// CIELAB (Chardon et al. 1991, "Skin colour typology and suntanning pathways"): L* from 72 to 29,
+/// a* and b* largest in the middle.
 const auto& skin_tones() {
   static const std::array<ScreenColour, 8> tones = {
       from_bytes(201, 171, 151), from_bytes(192, 156, 135), from_bytes(181, 141, 120),
@@ -30,7 +30,7 @@ const auto& skin_tones() {
   return tones;
 }
 
-/// From blond to black.
+/// Hair colours from blond to black.
 const auto& natural_hair() {
   static const std::array<ScreenColour, 5> colours = {
       from_bytes(176, 146, 104), from_bytes(124, 96, 70), from_bytes(82, 62, 49),
@@ -38,7 +38,9 @@ const auto& natural_hair() {
   return colours;
 }
 
-/// Light eyes go with light skin.
+/// Draws the colour of the iris; light eyes occur only with light skin.
+/// \param kind   0 … 1: from blue to brown.
+/// \param light  0 … 1: brightness.
 ScreenColour draw_iris(double tone, double kind, double light) {
   static const std::array<ScreenColour, 6> colours = {
       from_bytes(98, 122, 142), from_bytes(112, 126, 120), from_bytes(100, 104, 72),
@@ -47,7 +49,8 @@ ScreenColour draw_iris(double tone, double kind, double light) {
   return (0.85 + 0.3 * light) * along(colours, brown + (1 - brown) * kind * 0.9);
 }
 
-/// Two fifths are shaven, a quarter stubbly; the others wear a moustache, a chin beard or all of it.
+/// Sets the beard for `kind` in [0, 1): 42 % shaven, 25 % stubble, 18 % moustache (more than half
+/// of them with a chin beard), 15 % full beard.
 void grow_beard(double kind, Complexion& look) {
   const double everywhere = kind < 0.42 ? 0.12 : kind < 0.67 ? 0.45 : kind < 0.85 ? 0.2 : 1;
   look.beard = look.moustache = look.chin_beard = everywhere;
@@ -65,7 +68,7 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   look.tone =
       random_stratified({seed, index / 2, male ? "synth/tone_of_men" : "synth/tone_of_women"}, 5);
   look.skin = along(skin_tones(), look.tone);
-  // Light hair goes with light skin only.
+  // Light hair occurs only with light skin.
   const double darkest = smooth_step(0.15, 0.65, look.tone);
   const double hair = darkest + (1 - darkest) * unit("synth/hair");
   const double grey = smooth_step(38, 74, person.age + 12 * (unit("synth/grey") - 0.5));
@@ -79,7 +82,7 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = draw_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
-    // Of five successive men two are shaven.
+    // Stratified: among five successive men, about two are shaven.
     grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
     look.receding = smooth_step(28, 80, person.age + 45 * (unit("synth/receding") - 0.5));
   } else {

@@ -16,15 +16,17 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// From the head's skin over the rim into the bowl: distance from the ear's middle (parts of its
-// outline) and height over the skin (parts of the rim's), at these ring coordinates.
+// Profile of the ear at the ring coordinates kRing, from the skin of the head over the rim into the
+// bowl: kReach is the distance from the ear's centre (relative to its outline), kHeight the height
+// above the skin (relative to that of the rim).
 constexpr std::size_t kKnots = 9;
-constexpr double kAttached = 0.18;  // up to here the ring lies on the head
+constexpr double kAttached = 0.18;  // ring coordinates below this lie on the head
 constexpr std::array<double, kKnots> kRing = {0, kAttached, 0.32, 0.44, 0.54, 0.64, 0.76, 0.88, 1};
 constexpr std::array<double, kKnots> kReach = {1.3, 0.80, 0.84, 1.0, 0.97, 0.86, 0.74, 0.58, 0.46};
 constexpr std::array<double, kKnots> kHeight = {0, 0.0, 0.5, 0.92, 1.02, 0.70, 0.92, 0.62, 0.12};
 
-/// Monotone enough: cubic through the knots with the chords' slopes.
+/// Interpolates knot values at ring coordinate b: cubic Hermite spline with finite-difference
+/// slopes.
 double along(const std::array<double, kKnots>& values, double b) {
   std::size_t k = 0;
   while (k + 2 < kKnots && kRing[k + 1] <= b) ++k;
@@ -37,7 +39,9 @@ double along(const std::array<double, kKnots>& values, double b) {
          h * t * (1 - t) * ((1 - t) * slope(k) - t * slope(k + 1));
 }
 
-/// A disc place of the ear: y up, x towards the back, 1 on the outline.
+/// Returns the 3D point of the ear for a point of its disc.
+/// \param place   y up, x to the back; length 1 on the outline.
+/// \param height  height above the skin, cm.
 Vector3d raised(const Vector2d& place, double height) {
   const double up = place.y() * (place.y() > 0 ? 2.75 : 2.85);
   const double back = place.x() * (place.x() > 0 ? 1.6 : 1.1) * (1 + 0.22 * place.y());
@@ -46,17 +50,18 @@ Vector3d raised(const Vector2d& place, double height) {
   return skin + height * Vector3d(0.86, 0.0, -0.5);
 }
 
-/// How far the rim stands off the head, in a direction from the ear's middle.
+/// Height of the rim above the head, cm. \param round  unit direction from the ear's centre.
 double stand_off(const Vector2d& round) {
   const double back = smooth_step(-0.9, 0.9, round.x());
   const double lobe = smooth_step(-0.3, -1.0, round.y());
   return (0.5 + 1.35 * back) * (1 - 0.45 * lobe);
 }
 
+/// Height of the ear above the skin in direction `round` at ring coordinate b, cm.
 double height_at(const Vector2d& round, double b) {
   const double lobe = smooth_step(-0.55, -0.95, round.y());
   const double tragus = smooth_step(0.35, 0.05, (round - Vector2d(-1, -0.1)).norm());
-  const double smooth = 0.9 * smooth_step(0, 0.5, b);  // the lobe has no gutter
+  const double smooth = 0.9 * smooth_step(0, 0.5, b);  // the lobe is flat inside its rim
   const double inner = smooth_step(0.6, 1.0, b);
   double h = along(kHeight, b) * stand_off(round);
   const double flat = smooth * stand_off(round) * (1 - 0.7 * inner);
@@ -68,7 +73,7 @@ Vector3d on_ring(double around, double b) {
   const Vector2d round = on_circle(around);
   const double front = smooth_step(0.2, -0.8, round.x());
   const double from = std::max(b, kAttached);
-  // At the front the ear joins the cheek without an overhang.
+  // At the front the ear meets the cheek without an overhang.
   const double reach = along(kReach, from) + front * 0.3 * smooth_step(0.5, 0.2, from);
   Vector3d ear = raised(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;
@@ -83,7 +88,7 @@ Vector3d on_ring(double around, double b) {
 
 Vector3d ear_point(const Address& address) {
   if (address.sheet == Sheet::kEar) return on_ring(address.a, address.b);
-  // The bowl: the ring's last round, sunk towards the middle.
+  // The bowl: the innermost ring, lowered towards the centre.
   const Vector2d square(2 * address.a - 1, 1 - 2 * address.b);
   const double m = std::max(std::abs(square.x()), std::abs(square.y()));
   if (m == 0) return raised({0, 0}, 0.05);

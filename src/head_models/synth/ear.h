@@ -7,10 +7,10 @@
 
 namespace crowdface::synth {
 
-/// A place on the average ear, side x > 0, for ring and core addresses.
+/// Returns the point of the average ear at x > 0 for an address in the ear's rings or core, cm.
 Eigen::Vector3d ear_point(const Address& address);
 
-/// The middle of the ear on the head's side.
+/// Centre of the ear at x > 0, on the side of the head, cm.
 inline Eigen::Vector3d ear_centre() {
   return {6.9, -2.55, -1.0};
 }

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kPlaced = 10;  // columns placed by hand: the first nine and the midline of the back
+constexpr int kPlaced = 10;  // hand-placed columns: the first nine and the midline of the back
 struct LatticeRow {
   double origin_y, origin_z;
   std::array<std::array<double, 3>, kPlaced> points;
@@ -21,7 +21,7 @@ struct LatticeRow {
 
 // clang-format off
 constexpr std::array<LatticeRow, kRows> kLattice = {{
-    // the cap's edge, above the forehead
+    // edge of the cap, above the forehead
     {2, -0.5, {{{0, 9.0, 6.9}, {0.8, 9.0, 6.85}, {2.0, 8.95, 6.6}, {3.4, 8.8, 5.9}, {4.6, 8.6, 4.7},
                 {5.4, 8.4, 3.1}, {5.9, 8.4, 1.0}, {6.1, 8.4, -2.6}, {5.0, 8.2, -5.2}, {0, 8.0, -7.6}}}},
     // forehead
@@ -33,10 +33,10 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
     // under the eyes
     {-1, 0, {{{0, -1.6, 10.6}, {0.4, -1.6, 10.5}, {1.35, -1.7, 9.3}, {3.2, -2.0, 8.6}, {5.4, -1.7, 6.6},
               {6.7, -1.7, 4.0}, {7.0, -1.7, 1.4}, {6.3, -1.8, -3.6}, {4.7, -2.0, -6.6}, {0, -1.8, -9.2}}}},
-    // across the nose's tip, above the nostrils
+    // across the tip of the nose, above the nostrils
     {-3, 0, {{{0, -3.9, 11.9}, {0.2, -3.9, 11.85}, {1.7, -3.1, 9.7}, {3.3, -3.4, 8.5}, {5.2, -3.5, 6.4},
               {6.4, -3.7, 3.8}, {6.7, -4.1, 1.3}, {4.9, -4.1, -3.6}, {3.9, -4.5, -6.0}, {0, -4.3, -8.3}}}},
-    // the nose's base
+    // base of the nose
     {-3.5, 0, {{{0, -4.75, 10.0}, {0.2, -4.75, 9.95}, {1.75, -4.6, 9.2}, {3.3, -4.9, 8.4}, {5.0, -5.0, 6.2},
                 {6.1, -5.4, 3.7}, {6.2, -6.1, 1.2}, {4.8, -6.3, -3.3}, {3.9, -6.5, -5.8}, {0, -6.4, -7.6}}}},
     // above the lips
@@ -48,19 +48,20 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
     // chin
     {-8, 1, {{{0, -10.4, 9.5}, {0.5, -10.4, 9.5}, {1.6, -10.3, 8.8}, {3.0, -9.8, 7.1}, {4.3, -9.3, 5.0},
               {5.0, -9.1, 3.0}, {5.1, -9.6, 1.2}, {5.2, -10.5, -1.9}, {4.9, -11.2, -4.8}, {0, -11.7, -7.2}}}},
-    // under the chin, along the jaw's edge
+    // under the chin, along the edge of the jaw
     {-9, 1.5, {{{0, -11.4, 7.2}, {0.55, -11.4, 7.1}, {1.6, -11.3, 6.7}, {2.9, -11.0, 5.5}, {4.0, -10.7, 3.9},
                 {4.6, -10.5, 2.2}, {4.9, -10.7, 0.6}, {5.1, -11.4, -2.0}, {4.9, -12.2, -4.7}, {0, -13.0, -7.4}}}},
     // throat
     {-9.2, 1.8, {{{0, -12.6, 3.6}, {0.7, -12.6, 3.55}, {1.9, -12.6, 3.2}, {3.1, -12.6, 2.4}, {4.1, -12.6, 1.3},
                   {4.8, -12.7, 0.1}, {5.1, -12.8, -1.2}, {5.2, -13.3, -3.2}, {4.7, -13.8, -5.3}, {0, -14.4, -7.7}}}},
-    // the neck's end
+    // end of the neck
     {-16.5, -2.7, {{{0, -16.5, 2.6}, {0.8, -16.5, 2.5}, {2.1, -16.5, 2.2}, {3.5, -16.5, 1.5}, {4.6, -16.5, 0.5},
                     {5.3, -16.5, -0.6}, {5.6, -16.5, -2.0}, {5.5, -16.5, -4.0}, {4.6, -16.5, -6.0}, {0, -16.5, -8.0}}}},
 }};
 // clang-format on
 
-/// Around the nose and under the chin the rays start nearby, so that they meet the skin squarely.
+/// A ray origin that replaces the default. Around the nose and under the chin the rays start close
+/// to the skin, so that they meet the skin at nearly right angles.
 struct NearOrigin {
   int row, column;
   double x, y, z;
@@ -73,6 +74,7 @@ constexpr std::array<NearOrigin, 13> kNearOrigins = {{
     {9, 0, 0, -7.5, 6.6}, {9, 1, 0.2, -7.5, 6.6}, {9, 2, 0.6, -7.5, 6.0}, {9, 3, 1.1, -8.0, 4.2}}};
 // clang-format on
 
+/// The rays of all lattice points.
 struct Web {
   Web() {
     for (int j = 0; j < kRows; ++j) {
@@ -100,12 +102,13 @@ struct Web {
     for (const NearOrigin& o : kNearOrigins) {
       if (o.row == j && o.column == k) ray.origin = {o.x, o.y, o.z};
     }
-    // On the skin at the lattice's own points, the web stays near it between them.
+    // Move the guides onto the skin, so that interpolated guides stay near the skin.
     ray.guide = onto_skin(ray.origin, ray.guide);
     rays[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] = ray;
   }
 
-  /// Column 13 and −13 are the same; beyond the midline of the back come the other side's.
+  /// Returns the ray of row j and column k. Columns wrap around at the midline of the back
+  /// (columns 13 and −13); negative columns are mirrored.
   GuideRay at(int j, int k) const {
     const int around = 2 * (kColumns - 1);
     if (k > kColumns - 1) k -= around;
@@ -126,7 +129,7 @@ const Web& web() {
   return instance;
 }
 
-/// Unit of lattice column k, also beyond the midline of the back.
+/// Like column_unit, but continues beyond the midline of the back.
 double wide_column_unit(int k) {
   const int last = kColumns - 1;
   if (k > last) return 2 * column_unit(last) - column_unit(2 * last - k);
@@ -134,8 +137,8 @@ double wide_column_unit(int k) {
   return column_unit(k);
 }
 
-/// Weights of the four knots around x on a cubic through knots at u[1], u[2] whose slopes there are
-/// those of the chords beside them (Catmull-Rom for uneven knots).
+/// Weights of the four knots u at x in [u[1], u[2]]: cubic Hermite interpolation with
+/// finite-difference slopes (a Catmull-Rom spline for uneven knots).
 std::array<double, 4> cubic_weights(const std::array<double, 4>& u, double x) {
   const double h = u[2] - u[1], t = (x - u[1]) / h;
   const double h00 = (1 + 2 * t) * (1 - t) * (1 - t), h10 = t * (1 - t) * (1 - t);
@@ -144,7 +147,7 @@ std::array<double, 4> cubic_weights(const std::array<double, 4>& u, double x) {
   return {-m1, h00 - m2, h01 + m1, m2};
 }
 
-/// A lattice interval and the weights of the knots around it.
+/// The four knots around a lattice interval and their interpolation weights.
 struct Interval {
   std::array<int, 4> knots;
   std::array<double, 4> weights;
@@ -184,6 +187,7 @@ GuideRay strip_ray(double a, double b) {
 }
 
 GuideRay cap_ray(double a, double b) {
+  // A Coons patch between the four sides of the cap's rim, plus a bulge of 2.5 cm.
   const double front = column_unit(kFrontColumn), deep = column_unit(kBackColumn) - front;
   const double s = (a / front + 1) / 2, t = b / deep;
   const double behind = 2 * front + deep;

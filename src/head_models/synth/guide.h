@@ -7,17 +7,19 @@
 
 namespace crowdface::synth {
 
-/// A line from inside the head through a point near the skin; where it meets the skin, the mesh
-/// has its vertex.
+/// A line from a point inside the head through a point near the skin, cm. The intersection with the
+/// skin is a vertex of the mesh.
 struct GuideRay {
   Eigen::Vector3d origin, guide;
 };
 
-/// Rays for strip and cap: a smooth web through hand-placed points of a lattice.
+/// Return the rays for an address (a, b) of strip and cap: a smooth interpolation of hand-placed
+/// lattice points.
 GuideRay strip_ray(double a, double b);
 GuideRay cap_ray(double a, double b);
 
-/// The strip ray where a window's ring address starts (side x > 0).
+/// Returns the ray at the outer edge of a window (ring coordinate b = 0), at x > 0.
+/// \param around  ring coordinate a, 0 … 4.
 GuideRay window_ray(const Window& window, double around);
 
 }  // namespace crowdface::synth

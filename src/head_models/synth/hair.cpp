@@ -15,14 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Around the head: 0 ahead, 1 at the side, 2 behind.
+/// Position around the head: 0 at the front, 1 at the side, 2 at the back.
 double around_head(const Vector3d& p) {
   const double x = std::abs(p.x()), z = std::abs(p.z());
   const double quarter = x / std::max(x + z, 1e-9);
   return p.z() >= 0 ? quarter : 2 - quarter;
 }
 
-/// 0 on the ears and close around them, 1 from `away` ears' sizes on.
+/// Returns 0 on the ears, 1 at a distance of `away` ear sizes from their centres.
 double off_ears(const Vector3d& p, double away) {
   const double y = (p.y() + 2.6) / 4.6, z = (p.z() + 1.6) / 3.4;
   const double beside = smooth_step(4.5, 6, std::abs(p.x()));
@@ -72,7 +72,7 @@ Hair::Hair(std::uint64_t seed, std::uint64_t index)
       locks_(mix(seed, index, 109), 0.55) {}
 
 double Hair::strand(const Vector3d& p) const {
-  // Straight hair is drawn out away from the face, curls are not.
+  // Straight hair is stretched noise, in strands from the face to the back; curls are isotropic.
   const double across = p.x() / (p - Vector3d(0, -4, -4)).norm();
   const double straight = hairs_.at({9 * across, 0.05 * p.y(), 0.05 * p.z()}) +
                           0.6 * tufts_.at({13 * across, 0.04 * p.y(), 0.04 * p.z()});
@@ -80,7 +80,7 @@ double Hair::strand(const Vector3d& p) const {
   return straight + style_.curls * (curled - straight);
 }
 
-/// Hair that falls down the neck begins behind the ears.
+/// Returns the share of long hair on the neck, 0 … 1; it begins behind the ears.
 double Hair::falling(const Vector3d& p) const {
   if (style_.nape <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
@@ -98,7 +98,7 @@ double above_hairline(const Vector3d& p, bool low_edge, double receding) {
   return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
 }
 
-/// Bald heads thin out from the crown.
+/// Returns the density that balding leaves, 0 … 1; hair thins from the crown.
 double Hair::thinned(const Vector3d& p) const {
   const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
   return 1 - smooth_step(0.45, 0.9, receding_) * crown;
@@ -122,9 +122,10 @@ double Hair::thickness(const Vector3d& p) const {
   const double curl = 1 + style_.curls * 0.22 * locks_.at(p);
   double thick =
       rise * curl * (top * fuller * style_.top + (1 - top) * off_ears(p, 1.6) * style_.sides);
+  // The bun.
   const double knot = (p - Vector3d(0, 11.5, -3.5)).norm();
   thick += style_.bun * smooth_step(3.2, 1.2, knot);
-  // Locks hang down.
+  // Hanging locks: noise stretched along y.
   const double wave = 1 + 0.12 * locks_.at({p.x(), 0.1 * p.y(), p.z()});
   return thick + style_.nape * falling(p) * off_ears(p, 1.6) * wave;
 }

@@ -10,35 +10,37 @@
 
 namespace crowdface::synth {
 
-/// How somebody wears their hair: as thick as this, in centimetres, before it thins out with the years.
+/// A hair style: thickness of the hair layer in cm, before age-related thinning.
 struct HairStyle {
   double top = 0;         ///< above the forehead and on the crown
-  double sides = 0;       ///< above the ears and behind
-  double nape = 0;        ///< hair that falls behind the ears and down the neck
-  double bun = 0;         ///< a knot on top, its height
-  double curls = 0;       ///< 0 straight … 1 tight curls
-  double lean = 0;        ///< −1 … 1: how much fuller one side of the top is
-  bool low_edge = false;  ///< it covers the temples, and runs down before the ears
+  double sides = 0;       ///< above and behind the ears
+  double nape = 0;        ///< of hair that falls behind the ears and down the neck
+  double bun = 0;         ///< height of a bun on top; 0: none
+  double curls = 0;       ///< 0 (straight) … 1 (tight curls)
+  double lean = 0;        ///< −1 … 1: additional volume on one side of the top
+  bool low_edge = false;  ///< the hairline covers the temples and extends in front of the ears
 };
 
-/// Centimetres above the hairline. \param low_edge  as women's: it covers the temples.
+/// Returns the height of a point above the hairline, cm; negative below.
+/// \param low_edge  hairline of women, which covers the temples.
+/// \param receding  0 (full hairline) … 1 (bald); ignored if `low_edge` is set.
 double above_hairline(const Eigen::Vector3d& p, bool low_edge, double receding = 0);
 
-/// Whether somebody's hair is curly rather than straight.
+/// Returns whether a person's hair is curly.
 bool has_curls(std::uint64_t seed, std::uint64_t index);
 
-/// The hair on the head of one person, as a layer of the scalp. Points are the average head's.
+/// A person's hair as a layer on the scalp. All points are points of the average head, cm.
 class Hair {
  public:
   Hair(std::uint64_t seed, std::uint64_t index);
 
-  /// Whether any hair may be here.
+  /// Returns whether hair may grow here; a fast conservative test.
   bool reaches(const Eigen::Vector3d& p) const;
-  /// How light the hair is here against its own colour, about −1 … 1.
+  /// Returns the brightness of the strand here relative to the hair colour, about −1 … 1.
   double strand(const Eigen::Vector3d& p) const;
-  /// How much of the skin it hides, 0 … 1, by the strand that is here.
+  /// Returns the fraction of the skin that hair hides here, 0 … 1. \param strand  strand(p).
   double cover(const Eigen::Vector3d& p, double strand) const;
-  /// How far it stands off the scalp, in centimetres.
+  /// Returns the thickness of the hair layer, cm.
   double thickness(const Eigen::Vector3d& p) const;
 
  private:

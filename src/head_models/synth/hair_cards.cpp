@@ -23,22 +23,22 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kPieces = 9, kPiecesOfShort = 6, kPiecesOfCurl = 6;  // quads along a card
-constexpr double kShort = 10;                                      // centimetres
-constexpr double kBetween = 0.78;                                  // centimetres from root to root
-constexpr double kCardWidth = 1.1;                                 // centimetres
+constexpr double kShort = 10;                                      // length of short hair, cm
+constexpr double kBetween = 0.78;                                  // distance between roots, cm
+constexpr double kCardWidth = 1.1;                                 // cm
 
 struct Root {
   Vector3d place, normal;
 };
 
-/// Evenly over the scalp, none nearer to another than kBetween.
+/// Returns roots spread over the scalp with a minimum distance of kBetween.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const double least = cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
   for (const Address& address : make_layout(24'000).addresses) {
     const SkinPoint skin = mean_skin_with_sockets(address);
     const Vector3d& p = skin.position;
-    const bool at_nape = cut.layers > 1 && p.y() < 0;  // curls would stand off the neck
+    const bool at_nape = cut.layers > 1 && p.y() < 0;  // keep curls off the neck
     if (skin.relief < 0.5 || hair_within(cut, p) < (at_nape ? 0.6 : least)) continue;
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
       return (other.place - p).squaredNorm() < kBetween * kBetween;
@@ -48,11 +48,12 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
   return roots;
 }
 
-/// One card's middle line, and where across it is widest.
+/// Centre line of a card, and the unit vectors across the card at each of its points.
 struct Card {
   std::vector<Vector3d> middle, across;
 };
 
+/// Grows the cards of one cut.
 class Grower {
  public:
   explicit Grower(const HairCut& cut)
@@ -65,7 +66,8 @@ class Grower {
   }
 
  private:
-  /// A lock that lies on the head, or hangs from it.
+  /// Traces a lock from its root: the lock first follows the combing direction on the head, then
+  /// hangs down.
   Card comb(const Root& root, std::uint64_t number) const {
     const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
     const double top = smooth_step(3, 8, root.place.y()), level = unit("level");
@@ -85,7 +87,7 @@ class Grower {
       card.middle.push_back(p);
       card.across.push_back((direction.cross(normal) + twist * normal).normalized());
       if (i == pieces_ || (i > 1 && cut_off(p, hem, fringe))) return evened(card);
-      // Short pieces where it leaves the head, whose curve they follow.
+      // Pieces near the root are short, because they follow the curvature of the head.
       const double t = static_cast<double>(i + 1) / pieces_, grown = along(t) * length;
       const double step = grown - along(static_cast<double>(i) / pieces_) * length;
       const double held = cut_.tied ? smooth_step(-3, -6, p.z()) : 1;
@@ -96,9 +98,10 @@ class Grower {
       const double swing = cut_.wave * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
       next = beside_face(next, fringe);
-      // Hair lies on what grows below it, wherever it has come from.
+      // A lock lies on the hair below: its distance from the head never decreases along the lock.
       rest = std::max(rest, hair_stand_off(cut_, next));
       next = laid(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
+      // Cut the lock at the fringe or the hem.
       const double limit = over_face(next) ? fringe : hem;
       if (i > 0 && next.y() < limit && p.y() > limit)
         next = p + (p.y() - limit + 1e-3) / (p.y() - next.y()) * (next - p);
@@ -107,7 +110,8 @@ class Grower {
     }
   }
 
-  /// At this distance from the head; what hangs only leans towards it.
+  /// Moves a point to the distance `off` from the head. A point outside is moved only partly where
+  /// hair hangs freely.
   Vector3d laid(Vector3d p, double off) const {
     for (int k = 0; k < 2; ++k) {
       const double missing = off + 0.05 - head_distance(p);
@@ -125,7 +129,7 @@ class Grower {
     return p.y() < (over_face(p) ? fringe : hem);
   }
 
-  /// A short curl in any direction, at one of the heights above the scalp.
+  /// Returns a short curl in a random direction; `layer` sets its height above the scalp.
   Card tangle(const Root& root, std::uint64_t number, int layer) const {
     const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
     const double top = smooth_step(1, 7, root.place.y());
@@ -140,7 +144,7 @@ class Grower {
     for (int i = 0; i <= kPiecesOfCurl; ++i) {
       card.middle.push_back(p);
       card.across.push_back((axis + 0.3 * any).normalized());
-      // Some fifty degrees a piece around the axis.
+      // Turn by about 50° around the axis per piece.
       direction = (0.64 * direction + 0.77 * axis.cross(direction) + 0.1 * axis).normalized();
       p += length / kPiecesOfCurl * direction;
       const double missing = 0.15 - head_distance(p);
@@ -149,10 +153,10 @@ class Grower {
     return card;
   }
 
-  /// How much of its length a lock has at piece t of all.
+  /// Maps the fraction t of pieces to the fraction of the lock's length.
   static double along(double t) { return t * (0.3 + 0.7 * t); }
 
-  /// No lock hangs over the face.
+  /// Moves a point sideways off the face. Points of a fringe stay.
   static Vector3d beside_face(Vector3d p, double fringe) {
     const double wide = 5.5 * smooth_step(0.5, 4, p.z()) * smooth_step(6.2, 1.5, p.y());
     if (fringe < 99 && p.y() > fringe) return p;
@@ -160,7 +164,7 @@ class Grower {
     return p;
   }
 
-  /// The same line in pieces of one length.
+  /// Resamples a card to `pieces_` pieces at equal steps of the index.
   Card evened(const Card& card) const {
     Card even;
     const auto last = static_cast<double>(card.middle.size() - 1);

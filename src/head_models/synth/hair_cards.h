@@ -6,12 +6,12 @@
 
 namespace crowdface::synth {
 
-/// Adds the hair in cards (narrow strips of quads, seen from both sides), as it sits on the average head.
-/// Each card shows one of the first strips of hair_picture from its root (v = 1) to its tips. The same on every
-/// machine.
+/// Adds hair cards (narrow, two-sided strips of quads) on the average head. Each card shows one of
+/// the first kCardStrips strips of hair_picture from its root (v = 1) to its tip. The same bits on
+/// every machine.
 void add_hair_cards(const HairCut& cut, HairMesh& hair);
 
-/// Cards and what lies below them.
+/// Returns the hair cards and the cap below them (add_hair_cap).
 Mesh head_of_hair(const HairCut& cut);
 
 }  // namespace crowdface::synth

@@ -8,29 +8,29 @@
 
 namespace crowdface::synth {
 
-/// A way to wear hair, as it is cut and combed on the average head. Lengths in centimetres.
+/// A haircut: how hair is cut and combed on the average head. Lengths are in cm.
 struct HairCut {
   std::string_view name;
   bool female = false;
   bool curly = false;
-  bool crown_bald = false;  ///< it grows around a bald crown
-  double parting = 0;       ///< x of the line from which it is combed to both sides
-  double sideways = 1;      ///< how strongly it is combed to the sides …
-  double back = 0;          ///< … and back (below 0: forward)
-  double length = 5;        ///< on top
-  double sides = 5;         ///< above the ears and behind; 0: none grows there
-  double hem = -30;         ///< it is cut at this height
-  double fringe = 99;       ///< over the forehead it is cut here; 99: there is none
-  double volume = 1;        ///< how far it stands off the scalp
-  double wave = 0;          ///< how far locks swing to and fro
-  int layers = 1;           ///< one above the other, each in directions of its own; 1: combed
-  bool tied = false;        ///< held on the head until it is behind the ears
+  bool crown_bald = false;  ///< the crown is bald
+  double parting = 0;       ///< x of the parting
+  double sideways = 1;      ///< component of the combing direction away from the parting
+  double back = 0;          ///< component of the combing direction to the back (negative: forward)
+  double length = 5;        ///< length on top
+  double sides = 5;         ///< length above and behind the ears; 0: no hair there
+  double hem = -30;         ///< height y at which hair is cut
+  double fringe = 99;       ///< height y of the fringe over the forehead; 99: no fringe
+  double volume = 1;        ///< factor of the distance from the scalp
+  double wave = 0;          ///< amplitude of waves in the locks
+  int layers = 1;           ///< 1: combed locks; more: layers of curls in random directions
+  bool tied = false;        ///< tied at the back: lies on the head until behind the ears
 
   bool has_fringe() const { return fringe < 99; }
 };
 std::span<const HairCut> hair_cuts();
 
-/// Colours that hair in cards comes in.
+/// A colour of hair cards.
 struct HairColour {
   std::string_view name;
   ScreenColour colour;

@@ -20,17 +20,17 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Index kCapLayout = 12'000;
-constexpr double kCapEdge = 0.45;    // centimetres, about its quads' size
-constexpr double kRim = 0.55;        // centimetres by which thin hair runs beyond the edge
-constexpr double kStripWidth = 1.5;  // centimetres of the cap that a strip is laid over
+constexpr double kCapEdge = 0.45;    // size of the cap's quads, cm
+constexpr double kRim = 0.55;        // width of thin hair beyond the hairline, cm
+constexpr double kStripWidth = 1.5;  // width of the cap that one texture strip covers, cm
 
-/// To and fro between 0 and 1, so that a strip meets itself.
+/// A triangle wave between 0 and 1, so that neighbouring copies of a strip match.
 double to_and_fro(double x) {
   const double whole = std::floor(x), part = x - whole;
   return std::fmod(std::abs(whole), 2.0) < 0.5 ? part : 1 - part;
 }
 
-/// Centimetres across the hair, as it is mostly combed.
+/// Returns a coordinate across the main combing direction, cm.
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.back >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
@@ -65,7 +65,7 @@ double hair_stand_off(const HairCut& cut, const Vector3d& p) {
 }
 
 Vector3d combed_way(const HairCut& cut, const Vector3d& p) {
-  // A parting ends at the crown; behind it hair falls as it grows.
+  // The parting ends at the crown; further back the direction changes gradually.
   const double wide = cut.back >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
   const double side = std::clamp((p.x() - cut.parting) / wide, -1.0, 1.0);
   Vector3d way(cut.sideways * side, -0.15, -cut.back);

@@ -10,30 +10,31 @@
 
 namespace crowdface::synth {
 
-/// From the average head's skin, the ears as lumps; centimetres.
+/// Returns the approximate signed distance to the average head with ellipsoids as ears, cm.
 double head_distance(const Eigen::Vector3d& p);
+/// Returns the unit gradient of head_distance.
 Eigen::Vector3d away_from_head(const Eigen::Vector3d& p);
 
-// The large form of hair of one cut on the average head. Points are on or near its scalp, centimetres.
-/// Centimetres from the edge of where hair grows, inwards.
+// The overall form of a haircut on the average head. Points are on or near the scalp, cm.
+/// Returns the distance from the edge of the hair-covered area, cm; positive inside.
 double hair_within(const HairCut& cut, const Eigen::Vector3d& p);
-/// How far all of the hair stands off the scalp; flat at its edges and where it is parted.
+/// Returns the distance of the hair from the scalp, cm; small at the edges and at the parting.
 double hair_stand_off(const HairCut& cut, const Eigen::Vector3d& p);
-/// Which way it is combed, a unit vector along the scalp.
+/// Returns the combing direction, a unit vector tangent to the scalp.
 Eigen::Vector3d combed_way(const HairCut& cut, const Eigen::Vector3d& p);
 
-/// Hair in the making: quads at whose corners texture coordinates are the vertices' own.
+/// An incomplete hair mesh of quads; each vertex has one texture coordinate with the same index.
 struct HairMesh {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> uvs;  ///< #points
   Topology topology;
 
-  /// Of at least one point.
+  /// Returns the mesh. There must be at least one point.
   Mesh finished() &&;
 };
 
-/// Adds what lies below the cards, so that nobody sees between them: the scalp where hair grows, lifted to where it
-/// stands. Shows the last strip of hair_picture, with tips at the edge.
+/// Adds a cap below the cards, which fills the gaps between them: the hair-covered scalp, raised by
+/// hair_stand_off. Shows the last strip of hair_picture, with the tips at the edge of the cap.
 void add_hair_cap(const HairCut& cut, HairMesh& hair);
 
 }  // namespace crowdface::synth

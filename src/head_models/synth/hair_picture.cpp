@@ -12,15 +12,15 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kStrands = 13;          // a strip
-constexpr double kAcross = 4.5, kDown = 2.3;  // of short curls on the strip below the cards
+constexpr std::size_t kStrands = 13;          // strands per strip
+constexpr double kAcross = 4.5, kDown = 2.3;  // noise frequencies of curls on the cap's strip
 
 struct Strand {
-  double place = 0;  ///< across all strips, a strip is 1
-  double half = 0;   ///< of its width
-  double start = 0;  ///< of the card's length …
-  double end = 1;
-  double light = 1;  ///< against the hair's colour
+  double place = 0;  ///< horizontal position, in units of a strip's width
+  double half = 0;   ///< half of its width, in units of a strip's width
+  double start = 0;  ///< start as a fraction of the card's length
+  double end = 1;    ///< end as a fraction of the card's length
+  double light = 1;  ///< brightness relative to the hair colour
 };
 
 std::vector<Strand> draw_strands() {
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const auto strip = static_cast<std::size_t>(u);
       const bool below = strip >= kCardStrips;
       double cover = below ? smooth_step(0.9, 0.72, t) : 0, light = below ? 0.8 : 0.7;
-      if (below && curly) {  // short curls in the shade of the rest
+      if (below && curly) {  // short, darker curls
         const double clump = clumps.at({kAcross * u, kDown * t, 0});
         light = 0.6 + 0.3 * clump;
         cover = smooth_step(0.95, 0.7, t + 0.12 * clump);
@@ -72,8 +72,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
           cover = std::max(cover, inside);
         }
       }
-      if (!below)
-        light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // roots lie in the shade of the rest
+      if (!below) light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // darken the roots
       std::uint8_t* texel = &bytes[4 * (y * side + x)];
       for (Eigen::Index c = 0; c < 3; ++c)
         texel[c] = to_byte(std::clamp(colour[c] * light, 0.0, 1.0));

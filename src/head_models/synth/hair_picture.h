@@ -8,11 +8,13 @@
 
 namespace crowdface::synth {
 
-/// Strips that stand side by side in hair_picture: those of cards, then one for what lies below them.
+/// Number of vertical strips in hair_picture: kCardStrips for hair cards, then one for the cap
+/// below.
 inline constexpr int kCardStrips = 4, kHairStrips = 5;
 
-/// Strands side by side in strips, from roots (v = 1) to tips that stand apart; the last strip is closed but at its tips.
-/// size × size × 4 bytes (sRGB and alpha), row by row, first row at v = 1.
+/// Paints a hair texture: vertical strips of strands from roots (v = 1) to separate tips (v = 0).
+/// The last strip is opaque except at the tips.
+/// \return size × size × 4 bytes (sRGB and alpha), row by row, first row at v = 1.
 std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, bool curly);
 
 }  // namespace crowdface::synth

@@ -34,7 +34,7 @@ Pull mirrored(Pull pull) {
 
 Person draw_person(std::uint64_t seed, std::uint64_t index) {
   Person person;
-  // Evenly spread, so that a handful of heads has both sexes and several ages.
+  // Stratified, so that a few heads already have both sexes and several ages.
   person.male = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
   person.age = std::floor(18 + 60 * random_stratified({seed, index, "synth/age"}, 5));
   person.build = std::clamp(random_normal({seed, index, "synth/build"}), -2.0, 2.0);
@@ -54,7 +54,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
   for (const Measure& measure : measures()) {
     double value = measure.male * person_.male + measure.aged * aged +
                    measure.build * person_.build + measure.spread * normal(measure.name);
-    // Even extreme people stay people.
+    // Keep extreme heads plausible.
     value = std::clamp(value, -2.4, 2.4);
     Pull pull = measure.pull;
     pull.shift *= value;
@@ -66,7 +66,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
   scale_ =
       Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
                1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
-  // Faces grow less even with the years (Skomina et al. 2020).
+  // The asymmetry of faces increases with age (Skomina et al. 2020).
   unevenness_ = 0.05 * (1 + 0.25 * aged);
   face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
   pulls_.push_back(
@@ -77,7 +77,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
 Vector3d Identity::deform(const Vector3d& point) const {
   Vector3d moved = point;
   for (const Pull& pull : pulls_) moved += displacement(pull, point);
-  // Everything below the eyes longer or shorter, without a kink at the eyes.
+  // Lengthen or shorten the face below the eyes, with a smooth transition at the eyes.
   moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
   const double uneven = lopsided_.at(point), other = lopsided_.at(point + Vector3d(40, 0, 0));
   moved += unevenness_ * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));

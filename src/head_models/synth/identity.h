@@ -11,27 +11,28 @@
 
 namespace crowdface::synth {
 
-/// What a head's measures hang together with.
+/// Attributes of a person that determine the averages of its measures.
 struct Person {
-  double male = 0;   ///< −1 female … 1 male
-  double age = 40;   ///< years, 18 … 78
-  double build = 0;  ///< standard normal, cut at ±2: slight … heavy
+  double male = 0;   ///< −1 (female) … 1 (male)
+  double age = 40;   ///< years, 18 … 77
+  double build = 0;  ///< standard normal, clamped to ±2: slight … heavy
 
-  /// −1 … 1.9: 40 years is 0, 60 is 1.
+  /// Returns the age in units of 20 years from 40: −1.1 … 1.85.
   double aged() const { return (age - 40) / 20; }
 };
-/// Of two successive heads (indices 2k and 2k + 1) one is female and one male; of five (from 5k on)
-/// each is of another fifth of the ages.
+/// Draws the person of head `index` of a seed. Stratified: of two successive heads (2k, 2k + 1) one
+/// is female and one male; of five (5k to 5k + 4) each has an age in a different fifth of the
+/// range.
 Person draw_person(std::uint64_t seed, std::uint64_t index);
 
-/// Who a head is: its person and, drawn around what that person's are on average, its measures.
+/// The identity of a head: its person, and measures drawn around the averages for that person.
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);
-  /// The average head's: nothing is drawn, no point moves.
+  /// Returns the identity of the average head: deform() moves no point.
   static Identity average() { return Identity(); }
 
-  /// Carries a point of the average head to this one.
+  /// Maps a point of the average head to this head, cm.
   Eigen::Vector3d deform(const Eigen::Vector3d& point) const;
 
   const Person& person() const { return person_; }
@@ -46,8 +47,8 @@ class Identity {
   std::vector<Pull> pulls_;
   Eigen::Vector3d scale_{1, 1, 1};
   double face_length_ = 0;
-  double unevenness_ = 0;  ///< cm
-  SmoothNoise lopsided_;   ///< nobody's left is quite like their right
+  double unevenness_ = 0;  ///< amplitude of lopsided_, cm
+  SmoothNoise lopsided_;   ///< asymmetry between left and right
 };
 
 }  // namespace crowdface::synth

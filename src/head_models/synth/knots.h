@@ -8,7 +8,7 @@
 
 namespace crowdface::synth {
 
-/// The value y at x between knots (x ascending), run through straight; beyond the ends, that of the end.
+/// Interpolates y linearly at x between knots (x ascending); constant beyond the ends.
 template <std::size_t N>
 double between_knots(const std::array<Eigen::Vector2d, N>& knots, double x) {
   if (x <= knots[0].x()) return knots[0].y();

@@ -13,7 +13,7 @@
 namespace crowdface::synth {
 namespace {
 
-/// Sews the pieces together.
+/// Joins the patches (see Sheet) into one mesh.
 class Sewing {
  public:
   explicit Sewing(const QuadCounts& counts)
@@ -103,7 +103,7 @@ class Sewing {
       for (int i = -half_; i <= half_; ++i) {
         if (inside(i, j)) continue;
         const Address address{Sheet::kStrip, 1, column_at(i), row_at(j)};
-        // The seam down the back: one vertex, two texture coordinates.
+        // The texture seam at the back: one vertex, two texture coordinates.
         if (i == half_)
           strip(i, j) = {strip(-half_, j).vertex, add_uv(address)};
         else
@@ -118,7 +118,7 @@ class Sewing {
     }
   }
 
-  /// The strip's vertex at a place of the cap's rim.
+  /// Returns the vertex of the strip at column i and row k of the cap, on the cap's rim.
   std::uint32_t rim(int i, int k) {
     if (k == 0) return strip(i, 0).vertex;
     if (i == front_) return strip(front_ + k, 0).vertex;
@@ -154,14 +154,13 @@ class Sewing {
     }
   }
 
-  /// The window's outline counter-clockwise from its upper left corner, as seen from outside, with
-  /// the ring coordinate of each place.
+  /// A corner on the outline of a window, its ring coordinate a, and its column and row.
   struct Stitch {
     Corner corner;
     double a;
     int i, j;
   };
-  /// The ring coordinate of a place on the outline, the same for a place and its mirror image.
+  /// Returns the ring coordinate of a point on the outline; equal for mirrored points.
   double around(const Span& s, int side, int i, int j) const {
     const double x0 = column_at(side > 0 ? s.i0 : -s.i1), x1 = column_at(side > 0 ? s.i1 : -s.i0);
     const double y0 = row_at(s.j0), y1 = row_at(s.j1);
@@ -173,6 +172,7 @@ class Sewing {
     return 4 - x;
   }
 
+  /// Returns the window's outline, counter-clockwise from its upper left corner, seen from outside.
   std::vector<Stitch> outline(const Span& s, int side) {
     std::vector<Stitch> out;
     const auto put = [&](int i, int j) {
@@ -224,7 +224,7 @@ class Sewing {
   }
 
   QuadCounts counts_;
-  int front_, deep_, half_, rows_;  // quads: half the face, the side, half the head, rows
+  int front_, deep_, half_, rows_;  // numbers of quads: half the face, side, half the head, rows
   std::vector<double> column_units_, row_units_;
   std::vector<Corner> strip_;
   std::vector<Eigen::RowVector2d> uvs_;

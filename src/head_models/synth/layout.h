@@ -14,7 +14,7 @@ struct Layout {
   std::vector<Address> addresses;  ///< #V
 };
 
-/// The quads of a head with nearly this number of vertices. Left and right have the same count.
+/// Makes the quad mesh of a head with about this number of vertices. The topology is symmetric.
 Layout make_layout(Index vertices);
 
 }  // namespace crowdface::synth

@@ -15,15 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// How far the edges of the lids stand off the eyeball, in centimetres.
+/// Gap between the edges of the lids and the eyeball, cm.
 constexpr double kLidGap = 0.025;
-/// Half the width of the jaws' arcs, and how far they reach back there.
+/// Half the width of the dental arches, and their depth, cm.
 constexpr double kArcWidth = 2.1, kArcDepth = 1.9;
 
-/// A ball without poles: the six sides of a cube, blown up; n quads along each edge. Point (i, j) of
-/// a side, −1 … 1.
+/// Maps a point (i, j) in [−1, 1]² of a side of a cube to the unit sphere.
 Vector3d on_ball(int side, double i, double j) {
-  // Evened out, so that quads in the middle are not much larger than at the corners.
+  // This distortion gives quads in the middle and at the corners a similar size.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
   const std::array<Vector3d, 6> on_cube = {
@@ -31,20 +30,21 @@ Vector3d on_ball(int side, double i, double j) {
   return on_cube[static_cast<std::size_t>(side)].normalized();
 }
 
-/// The middle line of a row of teeth at t = −1 … 1, and how tall it is there.
+/// Centre of a row of teeth at one position, and its height there, cm.
 struct Row {
   Vector3d middle;
   double height;
 };
+/// \param t   position along the row, −1 … 1. \param up  1: upper row, −1: lower row.
 Row row_at(double t, double up) {
   const double x = kArcWidth * t * (1.2 - 0.2 * t * t), z = 7.95 - kArcDepth * t * t;
   const double height = (up > 0 ? 0.95 : 0.85) * (1 - 0.25 * t * t);
-  // The upper row ends over the lower one, a little before it.
+  // The upper row is slightly in front of the lower row.
   return {{x * (up > 0 ? 1.0 : 0.96), -7.02 + up * (0.03 + height / 2), z - (up > 0 ? 0 : 0.12)},
           height};
 }
 
-/// Where lids' edges end on the ball, on the mean head; side x > 0.
+/// Returns points at the inner edges of the lids of the mean head, at x > 0.
 std::vector<Vector3d> lid_feet() {
   std::vector<Vector3d> feet;
   constexpr int kFeet = 32;
@@ -54,11 +54,12 @@ std::vector<Vector3d> lid_feet() {
   return feet;
 }
 
-/// A ball that stands behind the lids of a head.
+/// The sphere of an eyeball.
 struct Ball {
   Vector3d centre;
   double radius;
 };
+/// Places an eyeball behind the lids of a head. \param feet  from lid_feet.
 Ball ball_behind_lids(const Identity& identity, const std::vector<Vector3d>& feet, double side) {
   const auto placed = [&](Vector3d p) {
     p.x() *= side;
@@ -69,7 +70,7 @@ Ball ball_behind_lids(const Identity& identity, const std::vector<Vector3d>& fee
   Ball ball{placed(eye_centre()), 0};
   for (const Vector3d& p : edge) ball.radius += (p - ball.centre).norm();
   ball.radius = ball.radius / static_cast<double>(edge.size()) - kLidGap;
-  // Back until no part of the lids' edges is inside.
+  // Move the eyeball back until no lid edge is closer than kLidGap.
   for (int step = 0; step < 6; ++step) {
     double worst = 0;
     for (const Vector3d& p : edge) {
@@ -97,7 +98,8 @@ LooseParts::LooseParts(double edge_cm) {
 void LooseParts::add_eyeball(double side, int n) {
   first_.push_back(vertex_count());
   first_faces_.push_back(face_count());
-  // Points on a cube's surface by their whole-numbered place, so that its sides share their edges.
+  // Index the vertices by integer coordinates on the cube, so that its sides share vertices on
+  // edges.
   std::vector<std::uint32_t> known(static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1)), kNoIndex);
   const auto vertex = [&](int face, int i, int j) {
     const double a = 2.0 * i / n - 1, b = 2.0 * j / n - 1;
@@ -109,7 +111,7 @@ void LooseParts::add_eyeball(double side, int n) {
       slot = static_cast<std::uint32_t>(points_.size());
       const Vector3d p = on_ball(face, a, b);
       points_.push_back(p);
-      // The ball from the front, its back in a ring around its front.
+      // The texture shows the front hemisphere as a disc and the back as a ring around the disc.
       const double flat = std::sqrt(p.x() * p.x() + p.y() * p.y());
       const double out = p.z() > 0 ? 0.8 * flat : 0.9 - 0.1 * flat;
       const Vector2d around =
@@ -140,7 +142,7 @@ void LooseParts::add_teeth(double up, int along, int around) {
     const Vector3d tangent =
         row_at(std::min(t + 0.01, 1.0), up).middle - row_at(std::max(t - 0.01, -1.0), up).middle;
     const Vector3d outward = Vector3d(-tangent.z(), 0, tangent.x()).normalized();
-    // Fourteen teeth, each a little proud of the gaps beside it.
+    // Fourteen teeth, which protrude slightly from the gaps between them.
     const double tooth = 7 * (t + 1) - std::floor(7 * (t + 1));
     const double proud = 0.035 * (4 * tooth * (1 - tooth) - 0.5);
     for (int k = 0; k < around; ++k) {
@@ -162,7 +164,7 @@ void LooseParts::add_teeth(double up, int along, int around) {
   close_band(first, along, around);
 }
 
-/// Quads around the band, and at both ends a vertex's fan of quads over the last ring.
+/// Adds the quads of the band, and closes each end with a centre vertex and a fan of quads.
 void LooseParts::close_band(Index first, int along, int around) {
   const auto at = [&](int i, int k) {
     return static_cast<std::uint32_t>(first + i * around + k % around);
@@ -218,7 +220,7 @@ Positions LooseParts::positions(const Identity& identity) const {
       out.row(i) = (ball.centre + ball.radius * points_[static_cast<std::size_t>(i)]).transpose();
     }
   }
-  // Teeth go where the lining of the lips goes, as large as the mouth is wide.
+  // Move the teeth with the inside of the lips, and scale them with the width of the mouth.
   Vector3d before = Vector3d::Zero(), after = Vector3d::Zero();
   constexpr int kPlaces = 16;
   double width_before = 0, width_after = 0;

@@ -8,33 +8,35 @@
 
 namespace crowdface::synth {
 
-/// Which piece of a head is not skin.
+/// The parts of a head that are not skin.
 enum class LoosePiece { kLeftEye, kRightEye, kUpperTeeth, kLowerTeeth };
 
-/// Eyeballs (closed balls) and two rows of teeth (closed bands along the jaws' arcs), behind lids and
-/// lips: meshes of quads that no identity deforms; they are placed as wholes.
+/// Two eyeballs (spheres) and two rows of teeth (closed bands along the dental arches) as quad
+/// meshes. An identity scales and moves these parts but does not deform them.
 class LooseParts {
  public:
-  /// \param edge_cm  wanted length of their edges
+  /// \param edge_cm  desired edge length in cm.
   explicit LooseParts(double edge_cm);
 
-  /// Adds their faces and texture coordinates, which fill the holes that eyes and mouth leave in the
-  /// texture, behind those of the skin.
+  /// Appends faces and texture coordinates to those of the skin. The texture coordinates lie in the
+  /// holes of eyes and mouth (unwrap_hole).
   void append_to(Topology& topology, TextureCoordinates& uvs) const;
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }
-  /// From which of its vertices on a piece begins; pieces follow each other in their order.
+  /// Returns the first vertex of a piece. Pieces are stored in the order of LoosePiece.
   Index first_vertex(LoosePiece piece) const { return first_[static_cast<std::size_t>(piece)]; }
-  /// The same of its faces.
+  /// Returns the first face of a piece.
   Index first_face(LoosePiece piece) const { return first_faces_[static_cast<std::size_t>(piece)]; }
 
-  /// Whether a vertex is an eyeball's, and where it lies on the unit ball, which looks along +z.
+  /// Returns whether a vertex belongs to an eyeball.
   bool in_eyeball(Index vertex) const { return vertex < first_vertex(LoosePiece::kUpperTeeth); }
+  /// Returns the position of an eyeball's vertex on the unit sphere, whose pupil is at +z.
   const Eigen::Vector3d& on_eyeball(Index vertex) const {
     return points_[static_cast<std::size_t>(vertex)];
   }
 
-  /// Their places in a head, vertex_count() by 3. The same surfaces at every edge length.
+  /// Returns the vertices in a head: vertex_count() by 3, cm. The surfaces do not depend on the
+  /// edge length.
   Positions positions(const Identity& identity) const;
 
  private:
@@ -43,9 +45,9 @@ class LooseParts {
   void close_band(Index first, int along, int around);
 
   std::vector<Eigen::Vector3d>
-      points_;  ///< of an eyeball: on the unit ball; teeth: of the mean head
-  std::vector<Eigen::RowVector2d> uvs_;  ///< one a vertex
-  std::vector<std::uint32_t> corners_;   ///< four a face
+      points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
+  std::vector<Eigen::RowVector2d> uvs_;  ///< one per vertex
+  std::vector<std::uint32_t> corners_;   ///< four per face
   std::vector<Index> first_, first_faces_;
 };
 
