@@ -29,10 +29,10 @@ namespace crowdface {
 /// bit-identical to its target. All const methods may run concurrently.
 class CrowdBlender {
  public:
-  /// \param faces, regions  must outlive this object.
+  /// \param faces           must outlive this object.
   /// \param levels          one for each head.
   /// \param patches         the fields of all heads, compressed.
-  /// \param regions         α, #V by #regions, rows summing to one.
+  /// \param regions         α, #V by #regions, rows summing to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
   CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, FieldPatches patches,
                const RegionWeights& regions);

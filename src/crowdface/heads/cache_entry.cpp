@@ -28,7 +28,7 @@ std::uint64_t aligned(std::uint64_t offset) {
   return (offset + kAlignment - 1) / kAlignment * kAlignment;
 }
 
-Digest digest_of(const CacheKey& key) {
+Digest key_in_header(const CacheKey& key) {
   return Hasher().add(key.kind).add(key.digest).digest();
 }
 
@@ -60,7 +60,7 @@ void write_entry(const fs::path& cache, const CacheKey& key,
   constexpr char kPadding[kAlignment] = {};
   EntryHeader header;
   header.arrays = static_cast<std::uint32_t>(arrays.size());
-  header.key = digest_of(key);
+  header.key = key_in_header(key);
   std::vector<CacheEntry::Row> rows;
   std::uint64_t end = sizeof header + arrays.size() * sizeof(CacheEntry::Row);
   std::vector<std::string_view> pieces = {as_bytes(&header, sizeof header), {}};
@@ -101,7 +101,7 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   std::memcpy(&header, bytes.data(), sizeof header);
   EntryHeader expected;
   expected.arrays = header.arrays;
-  expected.key = digest_of(key);
+  expected.key = key_in_header(key);
   entry.require_same(bytes.starts_with(as_bytes(&expected, sizeof expected)));
   std::uint64_t end = sizeof header + header.arrays * sizeof(Row);
   entry.require_size(end <= size);

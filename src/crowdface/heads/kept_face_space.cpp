@@ -27,7 +27,8 @@ void add_heads(Hasher& hasher, const SampledHeads& heads) {
   if (heads.image != nullptr) add_heads(hasher, *heads.image);
 }
 
-Digest digest_of(const SampledHeads& heads, const std::vector<double>& weights, std::size_t bands) {
+Digest face_space_digest(const SampledHeads& heads, const std::vector<double>& weights,
+                         std::size_t bands) {
   Hasher hasher;
   hasher.add(kFaceSpaceVersion).add(bands).add_array(std::span(weights));
   add_heads(hasher, heads);
@@ -48,7 +49,7 @@ constexpr auto kFaceSpaceArrays = [](auto& arrays, auto& tables) {
 FaceSpace kept_face_space(const CacheFolder& cache, SampledHeads heads,
                           const std::vector<double>& weights, std::size_t bands) {
   if (cache.path.empty()) return FaceSpace(std::move(heads), weights, bands);
-  const CacheKey key{"face-space", digest_of(heads, weights, bands)};
+  const CacheKey key{"face-space", face_space_digest(heads, weights, bands)};
   FaceSpaceTables room;
   if (heads.alpha.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.alpha.cols()));
   auto tables = find_cached(
