@@ -14,7 +14,8 @@ struct Layout {
   std::vector<Address> addresses;  ///< #V
 };
 
-/// Makes the quad mesh of a head with about this number of vertices. The topology is symmetric.
+/// Makes the quad mesh of a head with about this number of vertices. Left and right have the same
+/// number of quads.
 Layout make_layout(Index vertices);
 
 }  // namespace crowdface::synth

@@ -16,22 +16,22 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// The edge of an opening as a ray, for a direction on the unit circle (x outward, y up).
+/// Returns the ray to the edge of the eye's opening. \param c  unit direction (x outward, y up).
 GuideRay eye_edge(const Vector2d& c) {
-  // Almond: pointed at the corners, the upper lid highest towards the nose, the outer corner
-  // a little above the inner one.
+  // Almond shape: pointed corners, the upper lid highest towards the nose, the outer corner
+  // slightly above the inner one.
   const double s = c.y() * (0.72 + 0.28 * c.y() * c.y());
   const double x = 1.52 * c.x() - 0.1 * s;
   const double y = (c.y() > 0 ? 0.62 : 0.48) * s + 0.07 * c.x() - 0.03;
   const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
-  // The ray runs nearly straight ahead: at the corners the skin lies before the ball.
+  // The ray is almost parallel to z, because at the corners the skin lies in front of the eyeball.
   return {eye_centre() + 0.95 * Vector3d(x, y, 0), eye_centre() + Vector3d(x, y, z + 0.12)};
 }
 
 GuideRay mouth_edge(const Vector2d& c) {
-  // The window's short sides gather near the corners.
+  // Concentrate the points of the window's short sides near the corners of the mouth.
   const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
-  // The line between the lips: a dip in the middle, corners a little lower than the bows.
+  // The line between the lips: a dip in the middle, the corners slightly lower.
   const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
   const double gap = 0.03 * c.y() * (1 + 2.2 * q);
   return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};
@@ -48,7 +48,8 @@ GuideRay edge_of(Sheet sheet, const Vector2d& circle) {
   return sheet == Sheet::kNostril ? nostril_edge(circle) : mouth_edge(circle);
 }
 
-/// From the lid's edge inward, over the lid's thickness, along the ball to the pupil.
+/// Continues from the edge of a lid inward: b = 1 … 1.2 is the thickness of the lid, 1.2 … 2 runs
+/// along the eyeball to the pupil.
 Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d spoke = edge - eye_centre();
   const Vector3d foot = eye_centre() + kEyeRadius / spoke.norm() *
@@ -58,18 +59,19 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
   const Vector2d flat = rim + t * (0.26 * c - rim);
   const double r2 = kEyeRadius * kEyeRadius;
-  // The iris is a shallow dish, as sculptors cut it.
+  // The iris is a shallow dish, as in sculpture.
   const double dish = 0.10 * smooth_step(0.62, 0.42, flat.norm());
   return eye_centre() +
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
 }
 
-/// From the lid's edge over the lid's thickness, then back between lid and ball.
+/// Continues from the edge of a lid inward: b = 1 … 1.2 is the thickness of the lid, 1.2 … 2 runs
+/// back between lid and eyeball.
 Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
   if (b <= 1.2) return eye_centre() + foot;
   const double t = (b - 1.2) / 0.8, radius = foot.norm();
-  // Outward along the ball: across the spoke, away from the gaze.
+  // Tangent to the eyeball, away from the viewing direction.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
   return eye_centre() + (radius + 0.02 * t) * (spoke + 0.2 * t * back).normalized();

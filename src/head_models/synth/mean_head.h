@@ -7,17 +7,19 @@
 
 namespace crowdface::synth {
 
-/// A place on the average head, in centimetres: +Y up, looking along +Z, eyes at y = 0.
+/// A point on the average head in cm: +Y is up, the head faces +Z, the eyes are at y = 0.
 struct SkinPoint {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;  ///< unit, outward
-  double relief = 1;       ///< how much fine relief shows here: 0 on eyeballs and inside openings
+  double relief = 1;       ///< weight of fine relief: 0 on eyeballs and inside openings
 };
 
+/// Returns the point of the average head at an address. The skin covers the eyeballs up to the
+/// pupil.
 SkinPoint mean_skin(const Address& address);
 
-/// The same where the eyeballs are pieces of their own: behind the lids' edges the skin does not run
-/// over the ball to a pupil but turns back around it, as a pocket.
+/// Like mean_skin, but for heads with separate eyeballs (LooseParts): behind the lids the skin
+/// forms a pocket around the eyeball.
 SkinPoint mean_skin_with_sockets(const Address& address);
 
 }  // namespace crowdface::synth

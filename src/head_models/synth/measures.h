@@ -8,20 +8,20 @@
 
 namespace crowdface::synth {
 
-/// A smooth displacement of part of the head: (1 − r²)³ · (shift + stretch · (p − centre)), r being
-/// the distance from the centre in radii. Its mirror image at −x goes with it unless the centre
-/// lies in the middle.
+/// A smooth local displacement: (1 − r²)³ · (shift + stretch · (p − centre)) for r < 1, where r is
+/// the distance from the centre relative to the radii. The displacement is mirrored at x = 0 unless
+/// the centre has x = 0. Lengths in cm.
 struct Pull {
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 
-/// One independent measure of a head: how it moves the skin for a value of 1 (one standard
-/// deviation), and how much of its average hangs on the person.
+/// An independent measure of a head. Its value is
+/// male · Person::male + aged · Person::aged() + build · Person::build + spread · N(0, 1).
 struct Measure {
   std::string_view name;
-  double male, aged, build;  ///< the average's change for each
-  double spread;             ///< of what is drawn around it
-  Pull pull;
+  double male, aged, build;  ///< coefficients of the average
+  double spread;             ///< standard deviation of the random part
+  Pull pull;                 ///< displacement for a value of 1
 };
 std::span<const Measure> measures();
 

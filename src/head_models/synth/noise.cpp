@@ -14,7 +14,7 @@ std::uint64_t scramble(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// −1 … 1.
+/// Maps 64 random bits to [−1, 1).
 double signed_unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
 }
@@ -53,7 +53,7 @@ double SmoothNoise::at(const Eigen::Vector3d& point) const {
       sum += weights[0][i] * weights[1][j] * row;
     }
   }
-  return 2.5 * sum;  // the spline's averaging leaves about two fifths of the numbers' range
+  return 2.5 * sum;  // the spline's averaging reduces the range to about two fifths
 }
 
 }  // namespace crowdface::synth

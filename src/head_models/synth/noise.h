@@ -7,10 +7,12 @@
 
 namespace crowdface::synth {
 
-/// Random hills in space, twice continuously differentiable, about −1 … 1: a cubic B-spline over
-/// random numbers on a lattice of the given spacing.
+/// Smooth random noise in 3D: C², about −1 … 1, a uniform cubic B-spline with random coefficients
+/// on a lattice.
 class SmoothNoise {
  public:
+  /// \param key      selects the noise function.
+  /// \param spacing  spacing of the lattice, in the unit of the points.
   SmoothNoise(std::uint64_t key, double spacing) : key_(key), spacing_(spacing) {}
   double at(const Eigen::Vector3d& point) const;
 
@@ -19,8 +21,8 @@ class SmoothNoise {
   double spacing_;
 };
 
-/// A well-mixed number from three (Steele, Lea & Flood 2014, "Fast splittable pseudorandom number
-/// generators": the finaliser of SplitMix64).
+/// Hashes three numbers with the finaliser of SplitMix64 (Steele, Lea & Flood 2014, "Fast
+/// splittable pseudorandom number generators").
 std::uint64_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c);
 
 }  // namespace crowdface::synth

@@ -9,7 +9,7 @@
 namespace crowdface::synth {
 namespace {
 
-/// Where the rings of a window lie: from one b to the next, how many in the smallest layout.
+/// A span of rings in a window: range of the coordinate b, and number of rings at a scale of 1.
 struct RingSpan {
   double from, to, weight;
 };
@@ -32,7 +32,7 @@ QuadCounts::QuadCounts(double scale_in) : scale(scale_in) {
   for (int i = 0; i + 1 < kColumns; ++i) {
     columns[static_cast<std::size_t>(i)] = quads(in_column(i), scale);
   }
-  // The cap carries the face's columns over to the back: same counts, in reverse.
+  // The cap continues the columns of the face to the back: the same counts in reverse order.
   for (std::size_t i = 0; i < kFrontColumn; ++i) columns[columns.size() - 1 - i] = columns[i];
   for (int j = 0; j + 1 < kRows; ++j) rows[static_cast<std::size_t>(j)] = quads(in_row(j), scale);
 }
@@ -62,7 +62,7 @@ Index QuadCounts::vertices() const {
   for (const Window& w : windows()) {
     const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
-    // The strip's own vertices inside a window are gone; an ear has as many in its core.
+    // Subtract the strip's vertices inside the window; the core of an ear has the same number.
     if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
   }

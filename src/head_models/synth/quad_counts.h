@@ -9,17 +9,18 @@
 
 namespace crowdface::synth {
 
-/// Whole numbers of quads in every lattice interval and ring span: what makes a layout of one size.
+/// Number of quads in every lattice interval and ring span of a layout.
 struct QuadCounts {
-  /// \param scale_in  quads a unit, rounded in each interval; at least one.
+  /// \param scale_in  quads per unit. Each interval has the rounded number of quads, at least one.
   explicit QuadCounts(double scale_in);
 
-  /// Quads from the midline to lattice column k, negative to the other side; from the cap to row k.
+  /// Returns the number of quads from the midline to lattice column k; negative if k < 0.
   int column(int k) const;
+  /// Returns the number of quads from the cap to lattice row k.
   int row(int k) const;
-  /// b of every ring of a window after the rectangle itself.
+  /// Returns the coordinate b (see Address) of every ring of a window, without its outline (b = 0).
   std::vector<double> rings(Sheet sheet) const;
-  /// Vertices of the whole layout.
+  /// Returns the number of vertices of the whole layout.
   Index vertices() const;
 
   double scale;
@@ -27,7 +28,7 @@ struct QuadCounts {
   std::array<int, kRows - 1> rows{};
 };
 
-/// The counts whose number of vertices is nearest to the wanted one.
+/// Returns the counts whose number of vertices is nearest to `wanted`.
 QuadCounts nearest_counts(Index wanted);
 
 }  // namespace crowdface::synth

@@ -19,15 +19,16 @@ double bump(double x) {
   return biweight(std::min(1.0, std::abs(x)));
 }
 
-/// A fold as a quadratic Bézier curve in the front view (x, y), side x > 0.
+/// A fold: a quadratic Bézier curve in the front view (x, y), at x > 0.
 struct Fold {
   std::string_view name;
   Vector2d start, control, end;
-  double width, depth;        ///< centimetres
-  double base, aged, spread;  ///< depth's factor at 40, its change to 60, what is drawn around it
-  double bulge;               ///< ridge beside it, away from the curve's left, as part of the depth
-  bool paired = true;
-  double wander = 0;  ///< centimetres by which somebody's line lies elsewhere; it is broken, too
+  double width, depth;  ///< cm
+  double base, aged,
+      spread;          ///< factor of depth at age 40, its change per 20 years, std. deviation
+  double bulge;        ///< height of a ridge left of the curve, relative to the depth
+  bool paired = true;  ///< whether the fold is mirrored to x < 0
+  double wander = 0;   ///< random offset of the curve, cm; if not 0, the curve has interruptions
 };
 
 // clang-format off
@@ -57,7 +58,7 @@ const auto& fold_list() {
 }
 // clang-format on
 
-/// How coarse the skin is at a place: nose, cheeks and chin most, scalp least.
+/// Factor of the amplitude of fine relief: largest on nose, cheeks and chin, smallest on the scalp.
 double coarseness(const Vector3d& p) {
   const double face = smooth_step(2, 6, p.z());
   const double middle = bump(Vector2d(p.x() / 5.5, (p.y() + 4.2) / 6).norm());
@@ -65,7 +66,7 @@ double coarseness(const Vector3d& p) {
   return (0.5 + 0.5 * face + 0.8 * face * middle) * (1 - 0.6 * scalp);
 }
 
-/// How much of an octave of this wavelength edges of this length can carry.
+/// Fraction of the amplitude of this wavelength that a mesh with this edge length can represent.
 double carried(double wavelength, double edge) {
   return smooth_step(2, 4, wavelength / edge);
 }
@@ -90,7 +91,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.base + 1.25 * fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      // Narrow lines on a coarse mesh would be rows of steps.
+      // Fade out lines that are too narrow for the mesh, because they would look like steps.
       const double drawn = fold.wander > 0 ? carried(4 * fold.width, edge_cm) : 1;
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
       if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
@@ -101,7 +102,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
     return Octave{{mix(seed, index, lane), spacing}, amplitude};
   };
   broad_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
-  // A spline's hills are about three spacings from one to the next.
+  // The wavelength of SmoothNoise is about 2.5 to 3 spacings.
   for (const auto& [lane, spacing, amplitude] :
        {std::tuple{23U, 0.22, 0.0035}, std::tuple{24U, 0.1, 0.003}, std::tuple{25U, 0.05, 0.002}}) {
     const double part = carried(2.5 * spacing, edge_cm);
@@ -131,6 +132,7 @@ void Relief::add_stroke(std::size_t which, double side, double depth) {
 
 double Relief::press(const Stroke& stroke, const Vector2d& place) const {
   if (!stroke.reach.contains(place)) return 0;
+  // Find the nearest point of the polyline, its parameter, and the side of the curve.
   double nearest = 1e30, along = 0, side = 1;
   for (std::size_t i = 0; i < Stroke::kPieces; ++i) {
     const Vector2d a = stroke.points[i], ab = stroke.points[i + 1] - a, ap = place - a;
@@ -141,6 +143,7 @@ double Relief::press(const Stroke& stroke, const Vector2d& place) const {
     along = (static_cast<double>(i) + t) / Stroke::kPieces;
     side = ab.x() * ap.y() - ab.y() * ap.x() > 0 ? 1 : -1;
   }
+  // Fade out at the ends and at interruptions; then add the groove and the ridge beside it.
   const double distance = std::sqrt(nearest);
   double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
   if (stroke.length > 0)
@@ -169,7 +172,7 @@ double Relief::grain(const Vector3d& p) const {
   const double lips =
       bump(Vector2d(p.x() / 2.5, (p.y() + 7.05) / 0.95).norm()) * smooth_step(7, 8.5, p.z());
   if (lips > 0) {
-    // Creases run from the lips' edge to the slit: drawn out in y.
+    // Creases run across the lips: noise stretched along y.
     sum += lips * lip_depth_ * lip_creases_.at({p.x(), 0.2 * p.y(), 0.2 * p.z()});
   }
   return sum;

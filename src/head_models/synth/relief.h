@@ -12,27 +12,28 @@
 
 namespace crowdface::synth {
 
-/// What lies on top of a head's shape: folds and lines that deepen with age, uneven skin, lip
-/// creases and pores, each head's own.
+/// The fine relief of a head's skin: folds and lines that deepen with age, uneven skin, lip creases
+/// and pores. Each identity has its own relief.
 class Relief {
  public:
-  /// \param edge_cm  the mesh's usual edge length: relief that it cannot carry is left out.
+  /// \param edge_cm  typical edge length of the mesh; relief too fine for this length is left out.
   Relief(const Identity& identity, double edge_cm);
 
-  /// Height above the average skin in centimetres, along its normal.
+  /// Returns the displacement along the normal of the average skin, cm.
   double height(const SkinPoint& mean) const;
 
-  /// The same of folds and lines alone, at a place of the average head.
+  /// Returns the displacement of folds and lines only, cm. \param position  on the average head.
   double folds(const Eigen::Vector3d& position) const;
 
  private:
-  /// A curve drawn on the face from the front, pressed in (depth > 0) or raised.
+  /// A curve in the front view of the face, engraved (depth > 0) or raised (depth < 0). Lengths in
+  /// cm.
   struct Stroke {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    double lane = 0, length = 0;  ///< where it is broken; length 0: nowhere
-    Eigen::AlignedBox2d reach;    ///< where it has any effect
+    double lane = 0, length = 0;  ///< noise coordinates of interruptions; length 0: uninterrupted
+    Eigen::AlignedBox2d reach;    ///< bounding box of the curve's effect
   };
   double grain(const Eigen::Vector3d& position) const;
   double press(const Stroke& stroke, const Eigen::Vector2d& place) const;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The bodies' distance functions follow Quilez, "Distance functions" (iquilezles.org).
+// The distance functions of the bodies follow Quilez, "Distance functions" (iquilezles.org).
 
 double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radii) {
   const Vector3d q = (p - centre).cwiseQuotient(radii);
@@ -19,18 +19,19 @@ double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radi
   return k1 > 0 ? k0 * (k0 - 1) / k1 : -radii.minCoeff();
 }
 
-/// A rod whose radius changes evenly from one end to the other.
+/// Distance to a capsule whose radius changes linearly from ra to rb.
 double rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double ra, double rb) {
   const Vector3d axis = b - a;
   const double t = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
   return (p - a - t * axis).norm() - (ra + (rb - ra) * t);
 }
 
-/// The smaller of two distances, the joint filled over a width of about k.
+/// Smooth union of two distances with a blend width of about k.
 double melt(double a, double b, double k) {
   const double h = std::max(k - std::abs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * k / 4;
 }
+/// Smooth difference: removes body b from body a.
 double carve(double a, double b, double k) {
   return -melt(-a, b, k);
 }
@@ -78,8 +79,8 @@ double lower_lip(const Vector3d& p) {
 }
 
 double neck(const Vector3d& p) {
-  // An upright sleeve that widens towards the shoulders and ends inside the head; its back stands
-  // upright, its front runs down and back from under the chin.
+  // An elliptic tube that widens towards the shoulders and ends inside the head. Its back is
+  // vertical, its front slopes down and back from the chin.
   const double down = std::max(0.0, -10 - p.y());
   const double z = p.z() + 2.3 + 0.1 * (-10 - p.y());
   const double wide = 4.9 + 0.03 * down * down, deep = 5.15 + 0.014 * down * down;
@@ -90,7 +91,7 @@ double neck(const Vector3d& p) {
 }  // namespace
 
 double skin_distance(const Vector3d& point) {
-  // Left and right are one, joined softly: a plain |x| would leave a crease down the middle.
+  // Mirror with a smooth |x|, because a plain |x| would leave a crease along the midline.
   constexpr double kJoint = 0.3;
   const double x = std::sqrt(point.x() * point.x() + kJoint * kJoint);
   const Vector3d p(x, point.y(), point.z());
@@ -107,7 +108,7 @@ double skin_distance(const Vector3d& point) {
   d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
   d = melt(d, (p - eye_centre()).norm() - (kEyeRadius + 0.13), 0.35);
   d = melt(d, nose(p), 0.6);
-  // The groove between the lips runs out towards the corners.
+  // The groove between the lips fades towards the corners of the mouth.
   const double groove = 0.1 + 0.5 * smooth_step(1.5, 2.4, p.x());
   const double lips = melt(upper_lip(p), lower_lip(p), groove);
   d = melt(d, lips, 0.4 + 0.4 * smooth_step(-7.6, -8.4, p.y()));
@@ -124,7 +125,7 @@ Vector3d skin_normal(const Vector3d& point) {
 Vector3d onto_skin(const Vector3d& origin, const Vector3d& guide) {
   const Vector3d direction = (guide - origin).normalized();
   const auto at = [&](double t) { return skin_distance(origin + t * direction); };
-  // Walk from the guide to the nearest change of sign …
+  // Step from the guide to the nearest change of sign.
   double t0 = (guide - origin).norm(), d0 = at(t0);
   double t1 = t0, d1 = d0;
   for (int i = 0; i < 80 && (d1 > 0) == (d0 > 0); ++i) {
@@ -133,7 +134,7 @@ Vector3d onto_skin(const Vector3d& origin, const Vector3d& guide) {
     t1 -= std::copysign(std::clamp(0.8 * std::abs(d1), 0.02, 0.5), d1);
     d1 = at(t1);
   }
-  // … and close in on it (Illinois' false position).
+  // Refine the root with the Illinois variant of the false position method.
   for (int i = 0; i < 60 && std::abs(t1 - t0) > 1e-11 && d1 != 0; ++i) {
     const double t = t1 - d1 * (t1 - t0) / (d1 - d0);
     const double d = at(t);

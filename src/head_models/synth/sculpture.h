@@ -5,12 +5,12 @@
 
 namespace crowdface::synth {
 
-/// Roughly the distance in centimetres from a point to the average head's skin, negative inside:
-/// rounded bodies (skull, jaw, cheekbones, nose, lids, lips, neck) melted into one another.
-/// Openings and ears are not part of it. Left and right are alike.
+/// Returns the approximate signed distance in cm from a point to the skin of the average head,
+/// negative inside: a smooth union of round bodies (skull, jaw, cheekbones, nose, lids, lips,
+/// neck). Openings and ears are not included. The head is symmetric.
 double skin_distance(const Eigen::Vector3d& point);
 
-/// By how much a distance rises over two steps along each axis: along its gradient.
+/// Returns the central differences of a distance function, 2 · step · gradient.
 template <class Distance>
 Eigen::Vector3d rise(const Distance& distance, const Eigen::Vector3d& point, double step) {
   Eigen::Vector3d rise;
@@ -21,13 +21,15 @@ Eigen::Vector3d rise(const Distance& distance, const Eigen::Vector3d& point, dou
   return rise;
 }
 
-/// Unit normal of the skin at a point on or near it.
+/// Returns the unit normal of the skin at a point on or near the skin.
 Eigen::Vector3d skin_normal(const Eigen::Vector3d& point);
 
-/// Where the line from `origin` through `guide` meets the skin, at the crossing nearest to `guide`.
+/// Intersects the line from `origin` through `guide` with the skin. Returns the intersection
+/// nearest to `guide`.
 Eigen::Vector3d onto_skin(const Eigen::Vector3d& origin, const Eigen::Vector3d& guide);
 
-/// The ball behind the lids: larger than an eye, as only its front shows.
+/// Centre of the eyeball at x > 0, cm. The eyeball is larger than a real eye, because only its
+/// front is visible.
 inline Eigen::Vector3d eye_centre() {
   return {3.12, 0, 6.75};
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Fine enough that a triangle's straight edges do not show in a texture.
+/// Number of vertices of the layout, fine enough that edges are not visible in a texture.
 constexpr Index kVertices = 60'000;
 
 SkinPlace place_at(const Address& address) {
@@ -47,7 +47,8 @@ SkinPlace mix_places(const std::array<const SkinPlace*, 3>& corners,
   return place;
 }
 
-/// Fills the texels whose centres lie in a triangle of the texture, which is given in texels.
+/// Rasterises a triangle of the texture: fills the texels whose centres lie inside.
+/// \param at  corners in texels.
 void draw(const std::array<Vector2d, 3>& at, const std::array<const SkinPlace*, 3>& corners,
           int size, std::vector<SkinPlace>& texels) {
   const auto cross = [](const Vector2d& a, const Vector2d& b) {
@@ -70,7 +71,7 @@ void draw(const std::array<Vector2d, 3>& at, const std::array<const SkinPlace*, 
   }
 }
 
-/// Lets covered texels grow into their neighbours until all are taken.
+/// Fills uncovered texels from their neighbours by a breadth-first search from the covered texels.
 void spread(int size, std::vector<SkinPlace>& texels) {
   std::vector<std::size_t> reached;
   std::vector<bool> taken(texels.size());
@@ -124,7 +125,7 @@ std::vector<SkinPlace> skin_atlas(int size) {
       return &places[topology.corner_vertices[corner]];
     };
     const auto corners = static_cast<std::uint32_t>(topology.face(f).size());
-    // Teeth have no picture, and eyeballs' backs run across their fronts.
+    // Skip teeth, which have no texture, and the backs of eyeballs, which would overlap the fronts.
     bool shown = true;
     for (std::uint32_t c = 0; c < corners; ++c) shown = shown && place(first + c)->covered;
     if (!shown) continue;

@@ -15,9 +15,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFinest = 0.02;  // centimetres: all folds and lines
+constexpr double kFinest = 0.02;  // edge length in cm that includes all folds and lines
 
-/// 1 in the middle of an ellipse seen from the front, 0 from its edge on. On both sides of the face.
+/// Returns 1 at the centre of an ellipse in the front view, falling to 0 at its edge. The ellipse
+/// is mirrored at x = 0.
 double patch(const Vector3d& p, const Vector2d& centre, const Vector2d& radii) {
   const Vector2d from = (Vector2d(std::abs(p.x()), p.y()) - centre).cwiseQuotient(radii);
   const double q = 1 - from.squaredNorm();
@@ -32,7 +33,8 @@ void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
   colour += amount * (with - colour);
 }
 
-/// How far below the line between the lips a mouth reaches at |x|, and how far above.
+// The outline of the lips at |x|, cm: y of the line between the lips, and the heights of the upper
+// and the lower lip from this line.
 constexpr double kMouthHalf = 2.45;
 double lip_line(double x) {
   const double q = std::min(1.0, x * x / (kMouthHalf * kMouthHalf));
@@ -47,7 +49,7 @@ double lower_lip(double x) {
   return 0.98 * (1 - t * t * (0.35 + 0.65 * t));
 }
 
-/// 1 on the lips, 0 off them, soft by a millimetre.
+/// Returns 1 on the lips, 0 outside, with a transition of about 1.6 mm.
 double on_lips(const Vector3d& p) {
   const double x = std::abs(p.x());
   if (p.z() < 6 || x > kMouthHalf) return 0;
@@ -78,7 +80,7 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
   const double mottle = mottle_.at(p);
   const double uneven = 0.022 * mottle + 0.016 * blotch_.at(p) + 0.022 * pores_.at(p);
   colour *= 1 + uneven;
-  // Blood shows where skin is thin and well supplied.
+  // Redness where the skin is thin and well supplied with blood.
   const double ears = smooth_step(6.6, 7.6, std::abs(p.x())) * smooth_step(-5, -3, p.y()) *
                       smooth_step(4, 3, p.y()) * smooth_step(2.5, 1.5, p.z());
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
@@ -86,7 +88,7 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
   const double blood = std::min(1.0, look_.ruddy + 0.2 * look_.made_up);
   tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
-  // Lines and hollows keep their colour from the sun and hold shade.
+  // Darken lines and hollows, which are less tanned and shaded.
   const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
   tint(colour, {0.88, 0.81, 0.79}, hollow);
   return colour;
@@ -114,7 +116,7 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
   tint(lips, {0.95, 0.76, 0.77}, 1 - pale);
   tint(lips, {0.93, 0.62, 0.68}, look_.made_up);
   tint(lips, ScreenColour::Constant(0.86), look_.tone);
-  // Upper lips lie in their own shade.
+  // The upper lip is darker, because it faces down.
   if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
   cover(colour, lips, amount);
 }
@@ -127,7 +129,7 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
   tint(colour, {0.76, 0.68, 0.70}, 0.7 * look_.made_up * lids);
   if (place.eye <= 0) return;
-  // Lashes stand so close that from afar they are a line; the lid's inner edge is moist.
+  // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
   const double lashes =
       smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
@@ -144,7 +146,7 @@ void SkinPaint::paint_openings(const SkinPlace& place, ScreenColour& colour) con
 
 double SkinPaint::brow_cover(const Vector& p) const {
   if (p.z() < 3) return 0;
-  // An arch over each eye, thickest towards the nose.
+  // An arch above each eye, thickest towards the nose.
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
   if (t < -0.1 || t > 1.1) return 0;
   const double arch = 1.75 + 1.05 * t * (1 - t) * 2.2 * (0.7 + 0.6 * t) +
@@ -154,7 +156,7 @@ double SkinPaint::brow_cover(const Vector& p) const {
   const double ends = smooth_step(-0.08, 0.14, t) * smooth_step(1.06, 0.72, t);
   const double body = smooth_step(1.25, 0.45, off) * ends;
   if (body <= 0) return 0;
-  // Hairs lean outward: the noise is drawn out along them.
+  // Hairs point outward: noise stretched along their direction.
   const double along = x - 0.9 * (p.y() - arch), across = (p.y() - arch) + 0.55 * x;
   const double strands = hairs_.at({0.22 * along, across, 7 * (p.x() > 0 ? 1.0 : -1.0)});
   return look_.brows * body * smooth_step(-0.75, 0.45, strands + 0.9 * (body - 0.5));
@@ -162,7 +164,7 @@ double SkinPaint::brow_cover(const Vector& p) const {
 
 double SkinPaint::beard_cover(const Vector& p, double strand) const {
   const double x = std::abs(p.x());
-  // Down from the sideburn, along the cheek, to the corner of the moustache.
+  // Upper edge of the beard: height y over |x|, from the moustache along the cheek to the sideburn.
   static const std::array<Vector2d, 5> edge = {
       {{0, -5.0}, {1.6, -5.15}, {3.1, -6.6}, {5.2, -5.0}, {6.6, -1.2}}};
   const double over = p.y() - between_knots(edge, x);
@@ -171,12 +173,12 @@ double SkinPaint::beard_cover(const Vector& p, double strand) const {
   const double below = smooth_step(0.6, -1.1, over + wander + 0.3 * strand);
   const double neck = smooth_step(-14.2, -12.2, p.y() + wander);
   const double back = smooth_step(-0.5, 0.8, p.z());
-  // Bare patches under the lower lip and beside the chin's tuft.
+  // Bare patches below the lower lip, on both sides of the chin.
   const double bare = 0.5 * patch(p, {1.3, -8.4}, {0.9, 0.55});
   return below * neck * back * (1 - on_lips(p)) * (1 - bare);
 }
 
-/// How much of a beard somebody wears here: 0 … 1.
+/// Returns the length of the beard at a point, in the units of Complexion::beard.
 double SkinPaint::beard_length(const Vector& p) const {
   const double x = std::abs(p.x());
   const double lip =
@@ -189,19 +191,20 @@ double SkinPaint::beard_length(const Vector& p) const {
 
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   if (look_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
-  // Short hair: light and dark, drawn out downwards.
+  // Short hair: noise stretched along y.
   const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
   const double beard = beard_cover(p, strand);
   if (beard <= 0) return;
   const double length = beard_length(p);
-  // Hair in the skin lends it a cool shade before it shows.
+  // Hair roots below the surface give the skin a cool shade.
   tint(colour, {0.82, 0.80, 0.80}, 0.8 * beard * std::min(1.0, 1.4 * length));
   const double grown = smooth_step(0.3, 1.0, length);
   const double dense = grown * (0.75 + 0.10 * tufts_.at(p) + 0.30 * strand);
   cover(colour, look_.brow_hair * (1 + 0.25 * strand), beard * std::clamp(dense, 0.0, 0.95));
 }
 
-/// White with a little blood towards the corners, an iris of spokes with a dark rim, a pupil.
+/// Colour of an eyeball: white with redness towards the corners, an iris of radial fibres with a
+/// dark rim, a pupil. \param ball  point on the unit sphere, pupil at +z.
 ScreenColour SkinPaint::eyeball(const Vector& ball) const {
   const double flat = std::sqrt(ball.x() * ball.x() + ball.y() * ball.y());
   ScreenColour colour(0.83, 0.815, 0.79);
@@ -213,7 +216,7 @@ ScreenColour SkinPaint::eyeball(const Vector& ball) const {
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
   ScreenColour iris =
       look_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
-  // Lighter around the pupil, and where the light that enters opposite leaves it.
+  // Lighter around the pupil, and in the lower half, which light from above reaches.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
   iris *= 1 - 0.62 * smooth_step(0.34, kIris, flat);
   cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));

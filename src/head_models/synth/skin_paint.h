@@ -9,15 +9,15 @@
 
 namespace crowdface::synth {
 
-/// Colours the skin of one person.
+/// Computes the skin colour and roughness of one person.
 class SkinPaint {
  public:
-  /// \param scalp_hair  how much of the hair's colour the scalp has where it grows: 1 all, as where it is all the hair
-  ///                    that there is.
+  /// \param scalp_hair  opacity of hair painted on the scalp, 0 … 1; 1 if there is no other hair.
   SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair);
 
+  /// Returns the colour at a place, sRGB.
   ScreenColour at(const SkinPlace& place) const;
-  /// 0 … 1.
+  /// Returns the roughness at a place, 0 … 1.
   double roughness_at(const SkinPlace& place) const;
 
  private:

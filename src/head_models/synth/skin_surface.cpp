@@ -17,13 +17,15 @@ bool is_skin(const SkinPlace& place) {
   return place.covered && place.ball <= 0.5;
 }
 
-/// How steeply heights rise from one texel to another, or 0 where no skin joins them.
+/// Computes slopes of a height field on the texture; 0 between texels that are not connected by
+/// skin.
 class Slopes {
  public:
   Slopes(const std::vector<SkinPlace>& atlas, const std::vector<double>& heights, double texel)
       : atlas_(atlas), heights_(heights), farthest_(4 * texel) {}
 
-  /// From `a` over `middle` to `b`; at a border of the surface one of its halves.
+  /// Returns the slope from `a` over `middle` to `b`. At a border of the skin, a one-sided
+  /// difference.
   double across(std::size_t a, std::size_t middle, std::size_t b) const {
     const std::size_t from = joined(a, middle) ? a : middle;
     const std::size_t to = joined(middle, b) ? b : middle;
@@ -95,7 +97,7 @@ double skin_roughness(const SkinPlace& place, double on_lips, double hair, doubl
   double roughness = 0.52 + 0.04 * std::clamp(aged, 0.0, 1.0);
   roughness -= front * (0.12 * nose + 0.08 * forehead);
   roughness += on_lips * (0.34 - roughness);
-  roughness += smooth_step(1.05, 1.15, place.eye) * (0.15 - roughness);  // the lid's moist edge
+  roughness += smooth_step(1.05, 1.15, place.eye) * (0.15 - roughness);  // moist inner edge of lids
   return roughness + hair * (0.8 - roughness);
 }
 

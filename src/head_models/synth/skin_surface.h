@@ -9,17 +9,22 @@
 
 namespace crowdface::synth {
 
-/// The usual distance between the places of neighbouring texels, cm.
+/// Returns the median distance on the skin between horizontally neighbouring texels, cm.
 double texel_cm(int size, const std::vector<SkinPlace>& atlas);
 
-/// Tangent-space normals of relief that a mesh is too coarse for, as 8-bit RGB. Red leans to the right of the
-/// picture, green to its top. Eyeballs are smooth.
-/// \param atlas  size · size. \param fine, coarse  the relief of the head, and what its mesh carries of it.
+/// Returns a tangent-space normal map of the relief that is too fine for the mesh, as 8-bit RGB.
+/// Red points to the right of the texture, green to its top. Eyeballs are smooth.
+/// \param atlas   size × size places.
+/// \param fine    the complete relief of the head.
+/// \param coarse  the part of the relief that the mesh represents.
 std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,
                                        const Relief& fine, const Relief& coarse);
 
-/// How rough one person's skin is at a place, 0 … 1: lips, nose and forehead gleam, eyes most.
-/// \param aged  as Person::aged has it.
+/// Returns the roughness of the skin at a place, 0 … 1: low on lips, nose and forehead, lowest on
+/// eyes.
+/// \param on_lips  1 on the lips, 0 elsewhere.
+/// \param hair     fraction of the skin that hair covers, 0 … 1.
+/// \param aged     Person::aged().
 double skin_roughness(const SkinPlace& place, double on_lips, double hair, double aged);
 
 }  // namespace crowdface::synth

@@ -14,41 +14,44 @@ namespace crowdface {
 
 /// Synthetic human heads in one quad-only topology: skull, brows, lids, nose, lips, ears, jaw and
 /// neck, of both sexes and several ages. The skin is one component with six open boundaries (pupils
-/// or the lids' linings, mouth, nostrils, neck). The layout is hand-made here, no scan is part of it.
+/// or insides of the lids, mouth, nostrils, neck). The shape is modelled by hand in code, without
+/// scan data.
 class SyntheticHeads {
  public:
   enum class Parts {
-    kSkin,          ///< eyes are cut into the skin, as sculptors do
-    kEyesAndTeeth,  ///< two eyeballs and two rows of teeth are components of their own
+    kSkin,          ///< the skin includes the fronts of the eyes, as in sculpture
+    kEyesAndTeeth,  ///< two eyeballs and two rows of teeth are separate components
   };
   enum class Scalp {
-    kBare,    ///< skin alone
-    kHaired,  ///< hair as a layer on it, in the style that fits the painted one (SyntheticSkins)
-    kShorn,   ///< no more of it than lies under hair in cards (synth/hair_cards.h)
+    kBare,    ///< no hair
+    kHaired,  ///< a hair layer on the scalp, in the style that SyntheticSkins paints
+    kShorn,   ///< a hair layer of at most 2 mm, for use below hair cards (synth/hair_cards.h)
   };
-  /// \param vertices  wanted number, 5,000 … 1,200,000; nearest the layout can give, within 10 %.
+  /// \param vertices  desired number, 5,000 … 1,200,000. The result differs by at most 10 %.
   /// \throws BrokenPrecondition outside that range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin, Scalp scalp = Scalp::kBare);
 
-  /// A component's name and the first of its faces, ascending.
+  /// Name of a component and its first face.
   struct Piece {
     std::string name;
     Index first_face = 0;
   };
+  /// Returns the components by ascending first face.
   std::vector<Piece> pieces() const;
 
-  /// The same for every seed. Each corner has a texture coordinate.
+  /// Returns the topology, the same for every seed. Each corner has a texture coordinate.
   const Topology& topology() const { return topology_; }
-  /// #T by 2 in [0, 1]², one tile without overlaps, cut open down the back of the head.
+  /// Returns the texture coordinates: #T by 2 in [0, 1]², one tile without overlaps, with a seam
+  /// down the back of the head.
   const TextureCoordinates& uvs() const { return uvs_; }
 
-  /// Head number `index` of a seed: #V by 3 in centimetres, +Y up, looking along +Z, the origin
-  /// between the eyes' height and the ears. The same surface at every resolution, the same bits on
-  /// every machine.
+  /// Returns the vertices of head number `index` of a seed: #V by 3, cm. +Y is up, the head faces
+  /// +Z, the origin is inside the head at the height of the eyes. The same surface at every
+  /// resolution, the same bits on every machine.
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
-  /// The usual length of an edge, centimetres: finer relief the mesh does not have.
+  /// Returns the typical edge length in cm. The mesh contains no finer relief.
   double edge_cm() const { return edge_cm_; }
-  /// The average head, bare and smooth, on which hair in cards sits.
+  /// Returns the average head without hair and relief: #V by 3, cm. Hair cards are made for it.
   Positions average() const;
 
  private:
@@ -60,9 +63,9 @@ class SyntheticHeads {
   std::optional<synth::LooseParts> loose_;
 };
 
-/// A region mask that fits the heads' texture coordinates at every resolution: `size` × `size` × 3
-/// bytes, row by row, first row at v = 1; channels top (brows and above), middle (eyes and nose),
-/// bottom (mouth and below), which add up to 255 and run softly into one another.
+/// Returns a region mask for the texture coordinates of the heads at every resolution: `size` ×
+/// `size` × 3 bytes, row by row, first row at v = 1. The channels are top (brows and above), middle
+/// (eyes and nose), bottom (mouth and below). They sum to 255 and have smooth transitions.
 /// \throws BrokenPrecondition if size < 1.
 std::vector<std::uint8_t> synthetic_region_mask(int size);
 

@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// Under hair in cards only its roots are in the skin. More of them would be seen on the bald crowns of faces
-/// that are mixed from haired heads.
+/// Opacity of painted hair below hair cards: only roots. More would be visible on bald crowns of
+/// faces that are blended from heads with hair.
 constexpr double kRoots = 0.3;
 
 }  // namespace
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
                                                   double edge_cm) const {
   const synth::Identity identity(seed, index);
-  // A texture holds waves of two texels, a mesh those of four edges and more.
+  // A texture represents wavelengths from two texels, a mesh from four edges.
   const double finest = texel_cm_ / 2;
   return synth::skin_normals(size_, atlas_, synth::Relief(identity, finest),
                              synth::Relief(identity, std::max(finest, edge_cm)));

@@ -9,21 +9,25 @@
 
 namespace crowdface {
 
-/// Textures of synthetic heads' skin, painted from who each of them is. Colours: tone, redness, brows, lips,
-/// stubble, cropped hair, lines and spots of age. Normals: pores and lines that the mesh is too coarse for.
+/// Skin textures of synthetic heads. The albedo shows skin tone, redness, brows, lips, beard, scalp
+/// hair, lines and age spots. The normal map contains pores and lines that are too fine for the
+/// mesh.
 class SyntheticSkins {
  public:
-  /// \param size  side of the pictures in texels, 64 … 8,192. \throws BrokenPrecondition
-  /// \param scalp  that of the heads
+  /// \param size   width and height of the textures in texels, 64 … 8,192.
+  /// \param scalp  the scalp of the heads.
+  /// \throws BrokenPrecondition if size is out of range.
   explicit SyntheticSkins(int size, SyntheticHeads::Scalp scalp = SyntheticHeads::Scalp::kHaired);
 
   int size() const { return size_; }
-  /// The colours (sRGB) of head `index` of a seed, for the texture coordinates of SyntheticHeads: size ×
-  /// size × 3 bytes, row by row, first row at v = 1. The same bytes on every machine.
+  /// Returns the albedo (sRGB) of head `index` of a seed, for the texture coordinates of
+  /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The same bytes on every
+  /// machine.
   std::vector<std::uint8_t> albedo(std::uint64_t seed, std::uint64_t index) const;
-  /// Tangent-space normals of the relief that meshes of SyntheticHeads with such edges do not have, likewise.
+  /// Returns the tangent-space normal map in the layout of albedo().
+  /// \param edge_cm  SyntheticHeads::edge_cm(); the map contains only finer relief.
   std::vector<std::uint8_t> normals(std::uint64_t seed, std::uint64_t index, double edge_cm) const;
-  /// Roughness, size × size bytes.
+  /// Returns the roughness: size × size bytes, first row at v = 1.
   std::vector<std::uint8_t> roughness(std::uint64_t seed, std::uint64_t index) const;
 
  private:

@@ -7,8 +7,8 @@
 namespace crowdface::synth {
 namespace {
 
-// Widths and heights of the lattice's intervals in the texture, about as in centimetres on the
-// head, the face a little larger than life.
+// Widths and heights of the lattice intervals in the texture, about their size in cm on the head;
+// the face is slightly enlarged.
 constexpr std::array<double, kColumns - 1> kWidths = {0.5, 1.3, 1.9, 2.2, 1.9, 2.4, 3.6,
                                                       2.4, 1.9, 1.9, 1.9, 1.3, 0.8};
 constexpr std::array<double, kRows - 1> kHeights = {3.6, 3.0, 4.4, 2.0, 1.8, 1.2,
@@ -25,7 +25,7 @@ double piecewise(double unit, double (*knot)(int), const double* sizes, int inte
   return sum;
 }
 
-/// Distance from the midline in texture centimetres, signed.
+/// Returns the signed distance from the midline, in the unit of kWidths.
 double across(double unit) {
   const double x = piecewise(std::abs(unit), column_unit, kWidths.data(), kColumns - 1);
   return unit < 0 ? -x : x;
@@ -41,12 +41,12 @@ Eigen::RowVector2d scaled(double x, double y) {
           kMargin + (1 - 2 * kMargin) * (height - y) / (height + kCapHeight)};
 }
 
-/// Half-axes of the opening's edge and of the hole, as parts of the window's.
+/// Half-axes of the edge of an opening and of its hole, relative to the window.
 struct Opening {
   Eigen::Vector2d edge, hole;
 };
 Opening opening_of(Sheet sheet) {
-  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};  // room for the eyeball's picture
+  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};  // space for the eyeball's texture
   if (sheet == Sheet::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
   if (sheet == Sheet::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
   return {{0.4, 0.4}, {0.4, 0.4}};
@@ -64,7 +64,7 @@ Eigen::Vector2d in_window(const Address& address) {
   return edge + (round.cwiseProduct(opening.hole) - edge) * (address.b - 1);
 }
 
-/// A place in a window's square, −1 … 1 each way.
+/// Maps a point q in the square [−1, 1]² of a window to texture coordinates.
 Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
   const Window& w = window_of(sheet);
   const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));

@@ -7,19 +7,21 @@
 
 namespace crowdface::synth {
 
-/// Where a place on the skin lies in the texture tile [0, 1]², without overlaps. The strip is cut
-/// open down the back of the head, the cap hangs on to the forehead.
+/// Returns the texture coordinates of an address in the tile [0, 1]². The map has no overlaps; its
+/// seam is at the back of the head, and the cap is attached to the forehead.
 Eigen::RowVector2d unwrap(const Address& address);
 
-/// A place in the hole that an opening leaves in the texture: −1 … 1 each way, within the circle.
+/// Returns texture coordinates in the hole that an opening leaves in the texture.
+/// \param place  point in the unit disc, which maps to the hole.
 Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place);
 
-/// v of the strip `unit` row units below the cap; v falls from forehead to neck.
+/// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
 double strip_v(double unit);
 
-/// The place a ring address starts from, in the square [−1, 1]² of its window: x outward, y up.
+/// Returns the point of ring coordinate a on the outline of a window's square [−1, 1]²: x outward,
+/// y up.
 Eigen::Vector2d on_square(double around);
-/// In that direction on the unit circle.
+/// Returns the point of the unit circle in the same direction.
 inline Eigen::Vector2d on_circle(double around) {
   const Eigen::Vector2d start = on_square(around);
   return start / start.norm();
