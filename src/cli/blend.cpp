@@ -16,7 +16,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// The line of a plan that "FILE#ID" names.
+/// Reads the line of a plan that the reference "FILE#ID" names.
 PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
   const std::size_t hash = reference.rfind('#');
   if (hash == reference.npos || hash == 0 || hash + 1 == reference.size()) {
@@ -33,7 +33,8 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
                             nearest ? concat("; did you mean ", *nearest, "?") : ""));
 }
 
-/// \throws InvalidInput if a line that was written by hand asks for more than is fitted.
+/// \throws InvalidInput if the recipe needs more iterations than the fitted levels contain, which
+/// is possible in a plan that was edited by hand.
 void check_levels(const Recipe& recipe, const Job& job, const std::string& reference) {
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     if (recipe.regions[k].iterations <= job.inputs.max_level) continue;
@@ -83,7 +84,7 @@ void blend(const BlendOptions& options) {
   if (job.config.smoothing.levels != Levels::kExact)
     check_levels(line.face.recipe, job, options.recipe);
   Prepared prepared;
-  if (job.config.smoothing.levels == Levels::kExact) {  // one face needs no prepared heads
+  if (job.config.smoothing.levels == Levels::kExact) {  // the filter smooths the heads directly
     prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
   } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.config.cache_path());

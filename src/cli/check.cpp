@@ -20,7 +20,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// Tells what `generate` would say of the output folder.
+/// Logs a warning if `generate` would refuse the output folder.
 void look_at_output(const Job& job) {
   try {
     check_output(job, Replace::kRefuse);
@@ -56,7 +56,8 @@ void describe(const Job& job) {
       job.config.output.directory.string(), "\n"));
 }
 
-/// The regions' colours, #R by 3: as they were painted where they are the channels of one picture.
+/// Returns a colour for each region, #R by 3: red, green and blue for the channels of one
+/// image, else colours of a palette.
 VertexColours painted_colours(const Config::Regions& regions, Index count) {
   const bool channels = regions.mask.size() == 1 && count > 1;
   VertexColours colours(count, 3);
@@ -72,7 +73,7 @@ VertexColours painted_colours(const Config::Regions& regions, Index count) {
   return colours;
 }
 
-/// One picture a region, its mask on the mean head.
+/// Writes one image per region, which shows the region's mask on the mean head.
 void write_masks(const Job& job, const std::filesystem::path& directory) {
   const Positions mean = mean_head(job.inputs.faces);
   Config::ContactSheet sheet;

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-// CLI11 is included by command_line.cpp and main.cpp only: each file that includes it compiles all of it.
+// Only command_line.cpp and main.cpp include CLI11, because this header-only library is slow to
+// compile.
 namespace CLI {
 class App;
 class Option;
@@ -14,7 +15,7 @@ class Option;
 
 namespace crowdface::cli {
 
-/// An option, an argument or a flag of a command, so that more can be asked of it.
+/// Sets further properties of an option, argument or flag that was added to a command.
 class AddedOption {
  public:
   explicit AddedOption(CLI::Option& option) : option_(&option) {}
@@ -33,22 +34,22 @@ CLI::App& add_subcommand(CLI::App& program, const char* name, const char* descri
 AddedOption add_flag(CLI::App& command, const std::string& name, bool& value,
                      const std::string& help);
 
-/// An option with a value, "-o,--output", or an argument, "config". A default that stands in `value`
-/// is shown. \param type  "DIR", what help calls the value.
+/// Adds an option with a value, "-o,--output", or an argument, "config". The help shows the initial
+/// content of `value` as the default. \param type  name of the value in the help, such as "DIR".
 AddedOption add_option(CLI::App& command, const std::string& name, std::string& value,
                        const std::string& type, const std::string& help);
 
-/// An option whose value is handed to `take`, where it was given.
+/// Adds an option; if the user gives the option, `take` receives its value.
 AddedOption add_option(CLI::App& command, const std::string& name,
                        const std::function<void(const std::string&)>& take, const std::string& type,
                        const std::string& help);
 
-/// An option whose value is kept only if it was given.
+/// Adds an option; if the user does not give the option, `value` stays empty.
 AddedOption add_optional(CLI::App& command, const std::string& name,
                          std::optional<std::string>& value, const std::string& type,
                          const std::string& help);
 
-/// An option that may be repeated; its values come one after the other.
+/// Adds an option that may be repeated; `values` receives all values in order.
 AddedOption add_repeated(CLI::App& command, const std::string& name,
                          std::vector<std::string>& values, const std::string& type,
                          const std::string& help);

@@ -7,10 +7,10 @@
 
 namespace crowdface::cli {
 
-/// Runs a command after the command line was read.
+/// Executes a command, after the command line has been parsed.
 using Run = std::function<void()>;
 
-/// Each adds its subcommand to the program and returns what it does.
+/// Each function adds its subcommand to the program and returns the function that executes it.
 Run add_generate(CLI::App& program);
 Run add_prepare(CLI::App& program);
 Run add_plan(CLI::App& program);

@@ -22,7 +22,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// Lines of a log begin with the date, 2026-11-22T: whatever does not is no log.
+/// Returns whether a file is empty or starts with a date such as 2026-11-22T, as log files do.
 bool begins_like_a_log(const std::string& path) {
   constexpr std::string_view kForm = "dddd-dd-ddT";
   std::ifstream stream(path);

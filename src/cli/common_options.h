@@ -15,8 +15,8 @@
 
 namespace crowdface::cli {
 
-/// `--threads`, `--quiet`, `--verbose`, `--log-file`: every command has them. Numbers are taken as
-/// text, because CLI11 lets them wrap and saturate.
+/// The options that every command has: `--threads`, `--quiet`, `--verbose`, `--log-file`,
+/// `--limit`. Numbers are parsed from text, because CLI11 accepts numbers that overflow.
 struct CommonOptions {
   std::string threads;
   bool quiet = false;
@@ -25,32 +25,32 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
-  /// `--limit` as it was given, for runs that this one starts.
+  /// Returns the arguments `--limit` of this run, to pass on to processes that it starts.
   std::vector<std::string> limit_arguments() const;
-  /// Applies them. \return keeps the thread limit for as long as it lives.
+  /// Applies the options. \return holds the thread limit during its lifetime.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
 };
 
-/// `--cache`, the folder of prepared heads.
+/// The option `--cache`, the folder of prepared heads.
 struct CacheOption {
   std::string cache;
 
   void add_to(CLI::App& command);
-  /// That folder, or the usual one.
+  /// Returns that folder, or the default one.
   std::filesystem::path cache_path() const;
 };
 
-/// The config file and what the command line changes in it.
+/// The config file and the options that override its values.
 struct ConfigOptions : CacheOption {
   std::string config;
   ConfigOverrides overrides;
 
   void add_to(CLI::App& command);
-  /// `--review`, of commands that cast.
+  /// Adds `--review`, for commands that plan a crowd.
   void add_review_to(CLI::App& command);
 };
 
-/// `--force` and `--dry-run`, of commands that fill a crowd's folder.
+/// `--force`, `--dry-run`, `--memory`: options of commands that write into a crowd's folder.
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
@@ -59,33 +59,35 @@ struct WriteOptions {
   bool planned = false;
 
   void add_to(CLI::App& command);
-  /// `--shard` and `--planned`, of commands that build faces.
+  /// Adds `--shard` and `--planned`, for commands that build faces.
   void add_shard_to(CLI::App& command);
   GenerateOptions with_cache(const std::filesystem::path& cache) const;
 };
 
-/// The `I/N` of `--shard`; the whole if `text` is empty. \throws UsageError.
+/// Parses the value `I/N` of `--shard`; an empty text is the whole job. \throws UsageError.
 Shard shard_from(const std::string& text);
 
-/// A size with its unit, "4 GiB", of an option; 0 if `text` is empty. \throws UsageError.
+/// Parses a size with its unit, "4 GiB"; returns 0 if `text` is empty.
+/// \param option  for messages. \throws UsageError.
 std::uint64_t bytes_from(std::string_view option, const std::string& text);
 
-/// What a command is asked for, on standard output: made printable, as logs are.
+/// Writes the result of a command to standard output, with control characters escaped as in logs.
 void print(std::string_view text);
 
 enum class Browser { kOpen, kNone };
 
-/// Prints the address of a page that is served now, and opens the browser where there is a screen to show it
-/// on; whether that worked the user sees.
+/// Prints the address of a page that is being served. Also opens it in the browser if there is a
+/// display and `browser` is kOpen; failures to start the browser are ignored.
 void show_page(const std::string& address, Browser browser);
 
-/// A whole number between the two, or \throws UsageError naming the option.
+/// Parses a whole number in [least, most]. \param option  for messages. \throws UsageError.
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
                            std::uint64_t most);
 
 /// Adds a command.
-/// \tparam Options  CommonOptions, which every command has, and its own.
-/// \param declare   adds its own options, which are read into these Options.
+/// \tparam Options  options of the command; derived from CommonOptions.
+/// \param declare   adds the command's own options to the parser, which fills `Options`.
+/// \param work      executes the command.
 template <class Options>
 Run add_command(CLI::App& program, const char* name, const char* description,
                 void (*declare)(CLI::App&, Options&), void (*work)(const Options&)) {

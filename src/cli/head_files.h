@@ -12,11 +12,12 @@
 
 namespace crowdface::cli {
 
-inline constexpr std::uint64_t kMostMade = 1000;                         ///< heads of a command
-inline constexpr int kMaskSize = 1024;                                   ///< pixels of a side
-inline constexpr std::uint64_t kLeastTexture = 64, kMostTexture = 8192;  ///< the same
+inline constexpr std::uint64_t kMostMade = 1000;  ///< largest number of heads per command
+inline constexpr int kMaskSize = 1024;            ///< width and height of masks in pixels
+inline constexpr std::uint64_t kLeastTexture = 64,
+                               kMostTexture = 8192;  ///< width and height of textures in pixels
 
-/// A file of a folder of heads; the command line alone determines what it holds.
+/// A file in a folder of heads. Its content depends only on the command line.
 struct HeadFile {
   std::filesystem::path path;
   std::function<EncodedFile()> make;
@@ -24,31 +25,31 @@ struct HeadFile {
 
 HeadFile text_file(const std::filesystem::path& path, std::string text);
 
-/// Writes those that are not there yet, one after the other, with their folders. Those that are there
-/// are compared first, so that a command goes on where it was interrupted, and what somebody has
-/// changed is not lost.
-/// \param what     "synthetic heads", for the progress.
-/// \param replace  whether to write them all, whatever is there.
-/// \throws UsageError, before anything is written, naming every file that holds something else;
-/// CannotCreate if one of them is no regular file; IoError.
+/// Writes the missing files and their folders. First compares the existing files with their
+/// intended content. An interrupted command can thus continue, and edited files are not lost.
+/// \param what     for progress messages, such as "synthetic heads".
+/// \param replace  whether to overwrite all files without comparing.
+/// \throws UsageError, before writing, with the name of every file that has other content;
+/// CannotCreate if an existing path is not a regular file; IoError.
 void write_head_files(const std::string& what, const std::vector<HeadFile>& files, bool replace);
 
-/// What is known of a head that was made, for the config's `faces.tags`.
+/// The tags of a generated head, for the config's `faces.tags`.
 struct TaggedHead {
   std::string name;
   bool male = false;
   double years = 0;
-  std::string more = {};  ///< a further tag, or none
+  std::string more = {};  ///< further tags, separated by ", "; may be empty
 };
 
-/// "young" below 35 years, "old" from 55 on, "adult" between.
+/// Returns "young" below 35 years, "adult" below 55 years, else "old".
 std::string_view age_class(double years);
 
-/// The section `faces` with nothing but the heads' tags, [female, old], and the years as comments.
-/// \param about  a line on what heads they are, without "# ".
+/// Returns YAML with the section `faces`, which contains only tags ([female, old]); ages are
+/// comments.
+/// \param about  first line of the comment at the top, without "# ", a description of the heads.
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view about);
 
-/// "synth_01": at least two digits.
+/// Returns a name with at least two digits: "synth_01".
 std::string head_name(std::string_view kind, std::uint64_t index);
 
 }  // namespace crowdface::cli

@@ -37,9 +37,9 @@ struct Wanted {
   std::uint64_t count, seed;
 };
 
-/// Adds the files of all heads, and of their tags if the model knows them.
-/// \param encode  a head with these positions.
-/// \param further_tag  of the head of this number, or an empty text.
+/// Adds the files of all heads, and a file of their tags if the model defines sex and age.
+/// \param encode       encodes a head with the given positions and name.
+/// \param further_tag  returns an additional tag for a head's number, or an empty text.
 void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wanted,
                const std::function<EncodedFile(const Positions&, const std::string& name)>& encode,
                const std::function<std::string(std::uint64_t)>& further_tag,
@@ -60,8 +60,8 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
   files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, about)));
 }
 
-/// Made before anything is written: a model without eyes or teeth has none.
-/// \param first  as paint_masks takes them.
+/// Paints the region masks. The caller does so before writing files, because a model without eyes
+/// or teeth has no masks. \param first  see paint_masks.
 template <class Model>
 PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {
@@ -85,7 +85,7 @@ void add_masks(const PaintedMasks& masks, const std::string& kind, const Wanted&
   }
 }
 
-/// Where faces share a place of the texture, its skin counts.
+/// Marks the vertices of the skin, #V. Skin takes priority where faces overlap in the texture.
 std::vector<bool> skin_of(const MakeHumanHeads& model) {
   const Topology& topology = model.neutral().topology;
   std::vector<bool> skin(static_cast<std::size_t>(topology.vertex_count), false);

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the image tells three regions apart.
+/// Returns whether an image is a mask of three regions.
 bool has_three_bands(const fs::path& image) {
   try {
     return mask_channels(read_image(image)).size() == 3;
@@ -36,7 +36,8 @@ bool has_three_bands(const fs::path& image) {
   }
 }
 
-/// The mask of three bands that `synth` and `import` put beside heads; empty if there is none.
+/// Returns the name of the three-region mask that `synth` or `import` wrote to the folder of the
+/// heads; empty if there is none.
 std::string mask_beside(const fs::path& heads) {
   for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
     if (is_file(heads / name) && has_three_bands(heads / name)) return name;
@@ -46,7 +47,7 @@ std::string mask_beside(const fs::path& heads) {
   return !files.empty() && has_three_bands(files.front()) ? tiles : "";
 }
 
-/// What tags.yaml beside the heads says of them, as `synth --tags` and `import` write it.
+/// Reads the heads' tags from tags.yaml in their folder, which `synth --tags` and `import` write.
 std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
     const fs::path& heads, const std::vector<std::string>& names) {
   if (!is_file(heads / "tags.yaml")) return {};
@@ -82,24 +83,24 @@ void declare_init(CLI::App& command, InitOptions& options) {
   add_flag(command, "--force", options.force, "Replace an existing file");
 }
 
-/// With three digits or so.
+/// Formats a number with four decimals below 1, else with two.
 std::string format_number_of(double value) {
   return format_fixed(value, value < 1 ? 4 : 2);
 }
 
 constexpr std::size_t kHeadsLookedAt = 8;
 
-/// What the heads' shape tells: where they look, and regions.
+/// Information derived from the heads' shape.
 struct Seen {
-  Positions first;  ///< of the first head
-  std::optional<Bearing> bearing;
+  Positions first;                 ///< vertices of the first head
+  std::optional<Bearing> bearing;  ///< up and front axes
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
-  double face = 0;  ///< from the eyes to the mouth, in units; 0: not found
+  double face = 0;  ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 
-/// Looks at some heads of the folder. What stands against regions is told, and no error: a config that
-/// names none is a beginning too.
+/// Analyses a sample of the heads. If no regions can be proposed, logs a warning and does not fail,
+/// because a config without regions is valid.
 Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   Config::Faces faces;
   for (std::size_t i = 0; i < std::min(files.size(), kHeadsLookedAt); ++i) {
@@ -130,11 +131,12 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   return seen;
 }
 
-/// The unit with a name in which the face, or else the head, has a human size; or the length that gives it one.
+/// Guesses the mesh unit: the named unit in which the face, or without a face the head, has human
+/// size; else the length that gives the face human size.
 void guess_units(const Seen& seen, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kLeastFaceMm = 35, kMostFaceMm = 120;
-  constexpr double kMostTimes = 3;  // of a head's height
+  constexpr double kMostTimes = 3;  // largest plausible ratio to kTypicalHeightMm
   facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
   const std::string height =
       concat("the first head is ", format_number_of(facts.head_height), " units tall");
@@ -152,8 +154,9 @@ void guess_units(const Seen& seen, StarterFacts& facts) {
   }
 }
 
-/// The section that lies beside heads which came with hair and the like, as the config in a folder has
-/// it; empty: there is none. \throws InvalidInput if it is not as docs/config.md says.
+/// Returns the section `attachments` from the folder of the heads, with paths relative to
+/// `config_folder`; empty if there is none.
+/// \throws InvalidInput if the section is not valid, see docs/config.md.
 std::string attachments_beside(const fs::path& heads, const fs::path& config_folder,
                                const StarterFacts& facts) {
   const fs::path file = heads / "attachments/attachments.yaml";

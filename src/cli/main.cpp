@@ -48,7 +48,8 @@ constexpr const char* kLack =
     "the system gives no more of what the run needs (threads, memory, open files); fewer threads "
     "(--threads) need less: ";
 
-/// TBB tells of a thread that cannot be started by the system's words alone.
+/// Returns whether an exception reports a lack of system resources. TBB reports that it cannot
+/// start a thread only by the system's message text.
 bool is_lack_of_resources(const std::exception& error) {
   const std::string_view what = error.what();
   for (const std::errc lack : {std::errc::resource_unavailable_try_again,
@@ -60,7 +61,8 @@ bool is_lack_of_resources(const std::exception& error) {
 
 constexpr const char* kOutOfMemory = "out of memory; fewer threads (--threads) need less";
 
-/// Says what went wrong. A library that got no memory may have told of it as of a broken file.
+/// Logs an error and returns the exit code. Also logs that memory ran out, because a library may
+/// report failed allocations as a broken file.
 int fail(ExitCode code, std::string_view message) {
   log_error(message);
   if (!memory_ran_out()) return static_cast<int>(code);
@@ -68,7 +70,7 @@ int fail(ExitCode code, std::string_view message) {
   return static_cast<int>(ExitCode::kIoError);
 }
 
-/// The one place where errors become messages and exit codes.
+/// Runs a command. Only this function translates exceptions to messages and exit codes.
 int run(const Run& command) {
   try {
     command();
@@ -94,7 +96,8 @@ int run(const Run& command) {
   }
 }
 
-/// Where memory runs out within a destructor or a thread of a library, nothing can be caught.
+/// The terminate handler: reports exceptions that cannot be caught, such as running out of memory
+/// in a destructor or in a thread of a library.
 [[noreturn]] void end_at_once() {
   std::string_view text =
       "error: out of memory where nothing can be undone; run the same command again, with fewer "
@@ -111,7 +114,7 @@ int run(const Run& command) {
   ::_exit(static_cast<int>(code));
 }
 
-/// CLI11 says of a command it does not know only that one is required.
+/// Throws a helpful error for an unknown command; CLI11 only reports that a command is required.
 void refuse_unknown_command(const CLI::App& program, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
@@ -123,8 +126,8 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
                                   : concat("; expected one of ", join(names))));
 }
 
-/// No option and no argument means anything if it is empty, as `--shard "$PART"` is when nobody has set
-/// PART. (CLI11 takes it.) Nor with a line's end, by which a file's name could pass for a message.
+/// Refuses values that CLI11 accepts: empty ones, such as `--shard "$PART"` if PART is not set, and
+/// ones with line breaks, because a file name could then imitate a message.
 void refuse_senseless_values(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
@@ -141,11 +144,13 @@ void refuse_senseless_values(const CLI::App& program) {
   }
 }
 
-/// A file opened while one of them is closed would get its number, and then what is said to a user.
+/// Opens /dev/null for each closed standard stream. Otherwise the next opened file would get the
+/// stream's number and receive messages.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1) continue;
-    // The lowest free number is this one. Writing to standard output stays an error.
+    // open() returns the lowest free number, which is `stream`. Writing to standard output still
+    // fails, because the file is opened for reading only.
     if (::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR) < 0) return;
   }
 }
@@ -153,10 +158,12 @@ void open_standard_streams() {
 int run_program(int argc, char** argv) {
   std::set_terminate(end_at_once);
   open_standard_streams();
-  // A file beyond the limit and a closed pipe are failed writes, with a message.
+  // Ignore these signals: exceeding the file size limit and writing to a closed pipe then are write
+  // errors with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  // What the image library brings may be OpenBLAS, which raises SIGINT where it gets no threads. Nothing uses any.
+  // The image library may load OpenBLAS, which raises SIGINT if it cannot start threads. Nothing
+  // needs these threads.
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
   watch_for_lack_of_memory();
   watch_mapped_files();
@@ -181,7 +188,7 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version are no errors; everything else is wrong usage.
+    // CLI11 also throws for --help and --version, which are not errors.
     std::ostringstream out, problem;
     const bool failed = program.exit(error, out, problem) != 0;
     std::cout << out.str();

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pixels in memory: sRGB and alpha, 8 bits each.
+/// An image in memory: sRGB and alpha, 8 bits each.
 struct Picture {
   int width = 0, height = 0;
   bool has_alpha = false;
@@ -58,8 +58,8 @@ std::uint8_t srgb8_of_light(double light) {
   return srgb8_of_densities()[density_of_light(static_cast<float>(light))];
 }
 
-/// Blocks of texels become one, in linear light, the colours of what is to be seen counting by how much
-/// there is of it.
+/// Downsamples an image to at most `most_texels` in width and height by averaging square blocks, in
+/// linear light and weighted by alpha.
 Picture shrunk(Picture picture, int most_texels) {
   const int block = (std::max(picture.width, picture.height) + most_texels - 1) / most_texels;
   if (block <= 1) return picture;
@@ -95,8 +95,8 @@ Picture shrunk(Picture picture, int most_texels) {
   return small;
 }
 
-/// Keeps what is lighter and darker in hair, and gives it the lightness of grey or brown hair on the
-/// whole.
+/// Recolours hair to grey or brown: keeps the relative brightness of the texels, with less
+/// contrast.
 void dye(Picture& picture, const std::string& colour) {
   constexpr std::array<double, 3> kGrey = {0.28, 0.275, 0.27};  // linear light
   constexpr std::array<double, 3> kBrown = {0.1, 0.058, 0.036};
@@ -140,8 +140,8 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int most_texel
   return {path, [from, most_texels] { return encoded(shrunk(read_picture(from), most_texels)); }};
 }
 
-/// Skins mixed as pigments are: in optical density.
-/// \param tone  by which densities are multiplied.
+/// Blends skin textures in optical density, as pigments mix.
+/// \param tone  factor of the densities.
 Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
   std::vector<Picture> pictures;
   for (const SkinShare& share : shares) {

@@ -15,19 +15,21 @@
 
 namespace crowdface::cli {
 
-/// What `import makehuman --dress` writes beside the heads. Pictures are made when they are written.
+/// The files that `import makehuman --dress` writes in addition to the heads. Textures are computed
+/// only when they are written.
 class MakeHumanDress {
  public:
-  /// Makes the model's heads wear eyes, lashes, teeth and tongue.
-  /// \param most_texels  longer pictures are made smaller.
+  /// Adds eyes, lashes, teeth and tongue to the model's heads.
+  /// \param model        must outlive this object.
+  /// \param most_texels  maximum width and height; larger textures are downsampled.
   MakeHumanDress(const std::filesystem::path& package, MakeHumanHeads& model, int most_texels);
 
-  /// A person's material file `NAME.mtl`, skin `NAME_skin.png`, and eyes.
+  /// Adds a person's material file `NAME.mtl`, skin texture `NAME_skin.png`, and eye texture.
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
                   std::uint64_t index, std::vector<HeadFile>& files);
-  /// What all heads share: pictures of lashes, teeth and tongue; hair, brows and beards in
-  /// `attachments`, as far as a person added before may wear them, with the section that names them for a
-  /// config; `licences.txt`.
+  /// Adds the files that all heads share: textures of lashes, teeth and tongue; a folder
+  /// `attachments` with the hair, brows and beards that previously added persons may wear, and with
+  /// the config section that lists these; `licences.txt`.
   /// \param base  the average head, in the heads' topology.
   void add_common(const std::filesystem::path& folder, HeadFile base, std::vector<HeadFile>& files);
 
@@ -39,8 +41,8 @@ class MakeHumanDress {
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;
   int most_texels_;
-  std::set<std::set<std::string>> tags_;               ///< of people
-  std::map<std::string, std::filesystem::path> eyes_;  ///< pictures in use, by colour
+  std::set<std::set<std::string>> tags_;               ///< sets of tags of the added persons
+  std::map<std::string, std::filesystem::path> eyes_;  ///< eye textures in use, by colour
 };
 
 }  // namespace crowdface::cli

@@ -28,7 +28,7 @@ struct MaskOptions : CommonOptions {
   bool force = false;
 };
 
-/// Which heads, and which way a config says that they look.
+/// The heads, and their up and front axes if a config defines these.
 struct WantedMask {
   Config::Faces faces;
   std::optional<Bearing> bearing;
@@ -47,7 +47,8 @@ WantedMask heads_of_folder(const fs::path& folder) {
   return wanted;
 }
 
-/// Of a config no more need be right than its heads: the mask that it names may not be there yet.
+/// Reads the heads from a config. Other problems of the config are ignored, because its mask may
+/// not exist yet.
 WantedMask heads_of_config(const fs::path& file) {
   Problems problems;
   const ConfigReading reading = read_config_parts(file, {}, problems);

@@ -11,7 +11,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// The file to write, which need not be there yet.
+/// Returns the file of `--landmarks`, to which the page saves; the file need not exist.
 std::filesystem::path landmarks_file(const WrapOptions& options) {
   if (options.landmarks.empty()) {
     throw UsageError("--pick: expected --landmarks FILE.yaml, where they are saved");
@@ -24,7 +24,8 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
   return file;
 }
 
-/// One scan with the file of --landmarks, or those of a folder, each with the file of its name beside it.
+/// Returns the scans and their landmark files: one scan with the file of --landmarks, or with
+/// --batch all scans of a folder, each with a YAML file of the same name in that folder.
 std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
   if (options.batch.empty()) return {{options.scan, landmarks_file(options)}};
   std::vector<PickScans::Entry> entries;
@@ -41,7 +42,7 @@ void pick(const WrapOptions& options) {
   constexpr std::uint64_t kLargestPort = 65535;
   const auto port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   WrapOptions without_landmarks = options;
-  without_landmarks.landmarks.clear();  // read with the scan
+  without_landmarks.landmarks.clear();  // PickScans reads them with the scan
   const std::vector<PickScans::Entry> entries = entries_of(options);
   const WrapInputs inputs = read_wrap_inputs(without_landmarks);
   PickScans scans(entries, [&](const PickScans::Entry& entry) {

@@ -5,7 +5,8 @@
 
 namespace crowdface::cli {
 
-/// `wrap --pick`: serves the page on which landmarks of template and scan are picked. \throws Error
+/// Executes `wrap --pick`: serves the page on which the user picks landmarks of template and scan.
+/// \throws Error
 void pick(const WrapOptions& options);
 
 }  // namespace crowdface::cli

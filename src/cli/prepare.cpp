@@ -16,7 +16,7 @@ namespace crowdface::cli {
 
 namespace {
 
-/// What the fitted levels were measured to miss, head by head.
+/// Logs the measured error of the fitted levels for each head.
 void tell_errors(const Job& job, const Prepared& prepared) {
   const double mm = mm_per(job.config.faces.units);
   for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
@@ -27,7 +27,8 @@ void tell_errors(const Job& job, const Prepared& prepared) {
   }
 }
 
-/// Other commands go on without a cache; this one is for nothing else.
+/// Throws if a prepared head is not in the cache. Other commands can continue without a cache, but
+/// filling the cache is the purpose of this command.
 void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::string>& names,
                            const std::filesystem::path& cache) {
   for (std::size_t h = 0; h < names.size(); ++h) {

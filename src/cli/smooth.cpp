@@ -27,7 +27,7 @@ struct SmoothOptions : CommonOptions {
   bool plain = false;
 };
 
-/// "500,2500" as levels, each once.
+/// Parses levels such as "500,2500"; refuses duplicates.
 std::vector<std::uint64_t> levels_of(const std::string& text) {
   std::vector<std::uint64_t> levels;
   for (const std::string_view level : split(text, ',')) {
@@ -39,7 +39,7 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
   return levels;
 }
 
-/// Where a level goes: OUT.obj itself, or OUT_500.obj beside its like if there are several.
+/// Returns the output file of a level: OUT.obj if there is only one level, else OUT_500.obj.
 std::filesystem::path output_of(const SmoothOptions& options, std::uint64_t level, bool alone) {
   if (alone) return options.out;
   const std::filesystem::path path = options.out;
@@ -74,7 +74,7 @@ void smooth_file(const SmoothOptions& options) {
   }
 }
 
-/// An option that takes one of the words of its type.
+/// Adds an option whose value is one of the words of its type, see words_of.
 template <class Value>
 void add_word_option(CLI::App& command, const char* name, Value& value, const char* help) {
   std::vector<std::string> words;

@@ -62,7 +62,7 @@ fs::path full_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal();
 }
 
-/// The arguments that mean this config on any machine, from any working directory.
+/// Returns arguments that select this config independently of machine and working directory.
 std::vector<std::string> config_arguments(const ConfigOptions& options, const fs::path& out) {
   std::vector<std::string> arguments = {full_path(options.config).string(), "--out", out.string()};
   const auto add = [&](const char* name, const std::string& value) {
@@ -83,7 +83,7 @@ Engine engine_from(const std::string& name) {
   throw UsageError(concat("--engine: expected slurm or parallel, found ", quoted(name)));
 }
 
-/// \throws UsageError if the engine has no use for an option that was given.
+/// \throws UsageError if a given option does not apply to the engine.
 void refuse_strange_options(const SubmitOptions& options, Engine engine) {
   const EngineOptions& of_engine = options.of_engine;
   const auto only_for = [&](const char* name, bool given, Engine wanted) {
@@ -128,7 +128,7 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   return tasks;
 }
 
-/// Runs a script of ours to its end; its exit code becomes ours.
+/// Runs a generated script and waits for it; passes its exit code on.
 void run_script(const fs::path& script) {
   std::string program = "bash", argument = script.string();
   std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};

@@ -30,15 +30,15 @@ struct SynthOptions : CommonOptions {
   bool hair = false, tags = false, skin_only = false, force = false;
 };
 
-/// Whether both name one folder, which need not be there yet.
+/// Returns whether two paths name the same folder, which need not exist.
 bool same_folder(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::weakly_canonical(fs::absolute(a / "", error), error) ==
          fs::weakly_canonical(fs::absolute(b / "", error), error);
 }
 
-/// Skin and eyes in a picture's colours, teeth in their own.
-/// \param head  whose pictures are HEAD_albedo.png and so on
+/// Returns a material file: skin and eyes with textures, teeth with a plain colour.
+/// \param head  name of the head, whose textures are HEAD_albedo.png and so on.
 std::string material_file(const std::vector<MaterialRange>& materials, const std::string& head) {
   std::string text;
   for (const MaterialRange& material : materials) {
@@ -111,7 +111,7 @@ void synth(const SynthOptions& options) {
     add_picture("roughness", 1, [&skins, seed, i] { return skins->roughness(seed, i); });
   }
   if (options.hair) hair.add_files(directory, heads, materials, files);
-  if (options.tags || options.hair) {  // who wears which hair goes by the heads' tags
+  if (options.tags || options.hair) {  // hair attachments refer to the heads' tags
     files.push_back(text_file(directory / "tags.yaml",
                               format_tags(tagged, concat("Synthetic heads of seed ", seed))));
   }

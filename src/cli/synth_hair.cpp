@@ -20,14 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPictureSize = 512;
-constexpr double kBald = 0.55;  // of a hairline's way back
+constexpr double kBald = 0.55;  // Complexion::receding above which the crown is bald
 
 const char* form_tag(bool curly, bool bald) {
   if (bald) return "bald";
   return curly ? "curly_hair" : "straight_hair";
 }
 
-/// \param tone  see synth::Complexion
+/// \param tone  synth::Complexion::tone.
 const char* skin_tag(double tone) {
   if (tone < 1 / 3.0) return "light_skin";
   return tone < 2 / 3.0 ? "medium_skin" : "dark_skin";
@@ -67,9 +67,9 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
       "attachments:\n  fitted_to: attachments/base.obj\n  items:";
   if (wishes_.empty()) section += " []";
   section += '\n';
-  // A cut is the same mesh in each colour.
+  // All colours of a cut share one mesh.
   const std::span<const synth::HairCut> cuts = synth::hair_cuts();
-  std::vector<std::shared_ptr<const Mesh>> meshes(cuts.size());  // null: nobody wears it
+  std::vector<std::shared_ptr<const Mesh>> meshes(cuts.size());  // null: no head may wear the cut
   parallel_for_each(cuts.size(), [&](std::size_t c) {
     const bool wished = std::ranges::any_of(wishes_, [&](const Wish& wish) {
       return is_for(cuts[c], wish.female, wish.curly, wish.bald);

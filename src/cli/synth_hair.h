@@ -15,14 +15,16 @@
 
 namespace crowdface::cli {
 
-/// Hair in cards for synthetic heads, as attachments: in each cut that somebody may wear, in the colour that they have.
+/// Hair-card attachments for synthetic heads: every haircut that a head may wear, in the hair
+/// colours of these heads.
 class SynthHair {
  public:
-  /// Notes what a head may wear. \return its tags: "light_skin, brown_hair, straight_hair"; "bald" in place of the last where the crown is.
+  /// Registers a head. \return its tags: skin, hair colour, and hair form, such as "light_skin,
+  /// brown_hair, straight_hair"; the form is "bald" if the crown is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
-  /// The folder `attachments` beside the heads: meshes, materials, textures, the average head on which they sit,
-  /// and attachments.yaml with the config's section.
+  /// Adds the folder `attachments` in the folder of the heads: meshes, materials, textures, the
+  /// average head that the meshes are fitted to, and attachments.yaml with the config's section.
   void add_files(const std::filesystem::path& directory, const SyntheticHeads& heads,
                  const std::vector<MaterialRange>& materials, std::vector<HeadFile>& files) const;
 

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scan and where what comes of it goes.
+/// A scan and its output files.
 struct Task {
   fs::path scan, own_landmarks, head, report, picture;
 };
@@ -80,7 +80,7 @@ Digest inputs_of(const WrapInputs& shared, const Task& task) {
   return hasher.digest();
 }
 
-/// Whether a report proves that just this head was made from just these inputs.
+/// Returns whether the task's report contains the digests of these inputs and of the existing head.
 bool is_done(const Task& task, const Digest& inputs) {
   if (!is_there(task.report) || !is_there(task.head)) return false;
   const std::string report = read_file(task.report);
@@ -98,8 +98,10 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
   return file;
 }
 
-/// Those of the files, or where they are too few, and it is known how the scan stands, those that shapes tell as well.
-/// \param hint  how the scan stands. If it is empty and the scan's relief shows a face, it is set to the axes of that face.
+/// Returns the landmarks from the files. If these are too few and the pose of the scan is known,
+/// adds landmarks that are detected on the shape.
+/// \param hint  pose of the scan. If empty, and a face is found in the scan's relief, receives the
+///              axes of that face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -134,7 +136,8 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   return landmarks;
 }
 
-/// The factor that gives the head the scan's size; without the scan's unit heads have the template's.
+/// Returns the factor that scales the head to the size of the scan; 1, the size of the template, if
+/// the unit of the scan is not given. \throws UsageError if the factor is implausible.
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
   const double scale = pose.scale * mm_per(unit_of("--scan-units", options.scan_units));
@@ -147,7 +150,8 @@ double output_scale(const WrapOptions& options, const Similarity& pose) {
   return scale;
 }
 
-/// What each landmark's distance is from where the others put it; nothing of fewer than five.
+/// Leave-one-out check: returns each landmark's distance from the position that the others predict;
+/// empty for fewer than five landmarks.
 std::map<std::string, double> left_out(const WrapInputs& shared,
                                        const std::vector<WrapLandmark>& landmarks) {
   constexpr std::size_t kFewest = 5;
@@ -163,8 +167,8 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
   return result;
 }
 
-/// The end of a refusal if the scan's relief shows a face that looks along other axes than --scan-up and --scan-front say;
-/// empty if not.
+/// Returns a hint for an error message if a face is found in the scan's relief with other axes than
+/// --scan-up and --scan-front; else empty.
 std::string other_bearing(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
@@ -253,7 +257,7 @@ void wrap_all(const WrapOptions& options) {
         wrap_one(options, shared, task, inputs);
       }
     } catch (const RecoverableError& error) {
-      // A scan that is no good keeps none of the others from being wrapped.
+      // Collect the problem and continue with the other scans.
       if (error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kIoError) throw;
       problems.add(error);
     }
@@ -263,7 +267,7 @@ void wrap_all(const WrapOptions& options) {
   problems.throw_if_any();
 }
 
-/// With the template where --batch has it, too.
+/// Checks the combination of options and stores the template in `shape`, with and without --batch.
 WrapOptions sorted(WrapOptions options) {
   if (options.pick && !options.out.empty()) {
     throw UsageError("--pick wraps nothing: expected no -o, --output");

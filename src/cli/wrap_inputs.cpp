@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Raised whenever a change of the code gives other heads: finished ones are then made anew.
+/// Part of the digest of the inputs. A change of the code that changes the heads increases this
+/// number, so that finished heads are wrapped again.
 constexpr int kWrapVersion = 6;
 
 Axis axis_of(const std::string& option, const std::string& text) {
@@ -34,14 +35,14 @@ Axis axis_of(const std::string& option, const std::string& text) {
   return *axis;
 }
 
-/// The unit in which the mesh is as large as a head with its neck.
+/// Guesses the unit in which the mesh has the size of a head with neck.
 LengthUnit guess_unit(const Positions& positions) {
   constexpr double kTypicalDiagonalMm = 430;
   return nearest_unit((positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm(),
                       kTypicalDiagonalMm);
 }
 
-/// The heads of the model, and with them where the template's vertices are on average.
+/// Reads the heads of `--model`, computes the shape model, and sets `positions` to its mean, in mm.
 void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& positions,
                 Hasher& digest) {
   const std::vector<fs::path> files = list_heads(options.model);
@@ -69,7 +70,7 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
   positions = inputs.model->mean;
 }
 
-/// What is white in the mask is left alone.
+/// Excludes the white areas of a mask from the fit: reduces the skin's openness there.
 void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, Hasher& digest) {
   const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
   for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {
