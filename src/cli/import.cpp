@@ -120,6 +120,7 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
     mesh.positions = positions;
     std::vector<MaterialRange> materials = model.materials();
     for (int round = 0; round < rounds; ++round) {
+      // Subdivision makes one quad per corner: the first face of a range becomes its first corner.
       for (MaterialRange& range : materials) {
         range.first_face = mesh.topology.face_offsets[static_cast<std::size_t>(range.first_face)];
       }

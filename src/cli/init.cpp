@@ -199,6 +199,7 @@ void init(const InitOptions& options) {
   if (const std::string left_out = left_out_of_heads(heads); !left_out.empty()) {
     log_warning(left_out);
   }
+  // Refuse to overwrite inputs or an existing config.
   const fs::path file = output_file(out);
   refuse_to_write_over(files, {file});
   std::string mask = mask_beside(heads);
@@ -207,6 +208,7 @@ void init(const InitOptions& options) {
   beside.push_back(heads / "tags.yaml");
   refuse_to_write_over(beside, {file});
   refuse_existing(file, options.force);
+  // Collect what the config states about the heads.
   StarterFacts facts;
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
@@ -229,6 +231,7 @@ void init(const InitOptions& options) {
   facts.crowd_name = "crowd";
   facts.tags = tags_beside(heads, facts.names);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();
+  // Propose a mask if the heads have none.
   MaskFiles proposed;
   if (seen.masks) {
     proposed = encode_masks(*seen.masks, here / concat(file.stem().string(), "_bands.png"));
@@ -237,6 +240,7 @@ void init(const InitOptions& options) {
     facts.regions = {"brow", "nose", "mouth"};
   }
   facts.attachments = attachments_beside(heads, here, facts);
+  // Write the files and report the guesses for the user to check.
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",

@@ -83,6 +83,7 @@ void synth(const SynthOptions& options) {
         painted);
     if (materials.empty()) materials.push_back({"skin", 0});
   }
+  // List the files of each head: mesh, material file, textures.
   std::vector<HeadFile> files;
   std::vector<TaggedHead> tagged;
   SynthHair hair;
@@ -110,6 +111,7 @@ void synth(const SynthOptions& options) {
                 [&skins, &heads, seed, i] { return skins->normals(seed, i, heads.edge_cm()); });
     add_picture("roughness", 1, [&skins, seed, i] { return skins->roughness(seed, i); });
   }
+  // List the files that all heads share: attachments, tags, region mask.
   if (options.hair) hair.add_files(directory, heads, materials, files);
   if (options.tags || options.hair) {  // hair attachments refer to the heads' tags
     files.push_back(text_file(directory / "tags.yaml",

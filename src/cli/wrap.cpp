@@ -187,6 +187,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
               const Digest& inputs) {
   const Scan scan = read_scan(task.scan);
   for (const std::string& note : scan.notes) log_warning(concat(task.scan.string(), ": ", note));
+  // Fit the template to the scan, and refuse a bad fit.
   std::optional<PoseHint> hint = shared.hint;
   const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan, hint);
   const WrapResult result = [&] {
@@ -200,6 +201,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
           concat(task.scan.string(), ": ", error.what(), other_bearing(shared, scan, landmarks)));
     }
   }();
+  // Write head, picture and report.
   const double scale = output_scale(options, result.pose);
   const std::vector<std::string> warnings =
       wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);

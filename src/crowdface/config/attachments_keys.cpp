@@ -168,6 +168,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
+    // Check: no entry in `none` for the same kind; either one quota of the kind or quotas of its
+    // items and colours; a sum of at most 1.
     const bool is_first = !totals.contains(item->kind);
     if (attachments.none.contains(item->kind) && entry.key == item->kind) {
       draft.complaints.about(

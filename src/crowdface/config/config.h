@@ -234,7 +234,8 @@ struct Config {
     std::vector<MeshFormat> meshes = {MeshFormat::kObj};  ///< no duplicates; may be empty
     std::vector<double> lods;  ///< levels of detail: percent of the triangles, descending
     Subdivision subdivision = Subdivision::kNone;  ///< subdivision scheme that USD files declare
-    std::optional<ContactSheet> contact_sheet = ContactSheet{};  ///< none: `contact_sheet: none`
+    std::optional<ContactSheet> contact_sheet =
+        ContactSheet{};  ///< empty for `contact_sheet: none`
     Gallery gallery = Gallery::kAuto;
     /// Number of faces in each numbered subfolder of meshes, renders, …; none or 0: no subfolders.
     std::optional<std::uint64_t> faces_per_folder;

@@ -7,8 +7,8 @@
 namespace crowdface {
 namespace {
 
-/// Returns the first node of `b` that differs from `a` or is missing in `a`; else the first node of
-/// `a` that is missing in `b`; else null.
+/// Returns the first node of `b` that is missing in `a` or has another value there. If there is
+/// none, returns the first node of `a` that is missing in `b`, or null.
 /// \param defaults  values for keys that `a` lacks because an older version wrote `a`; may be null.
 const YamlNode* first_difference(const YamlNode& a, const YamlNode& b, const YamlNode* defaults) {
   if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return &b;

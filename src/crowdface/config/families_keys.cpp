@@ -49,7 +49,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto name = read_name(node, draft.complaints);
   if (!name) return std::nullopt;
   if (*name == "drawn") {
-    // The targets of mothers are the heads with the tag `female`, those of fathers `male`, if any.
+    // Build mothers on heads with the tag `female`, fathers on heads with `male`, if there are any.
     drawn.targets = heads_with({role == word_of(0) ? "female" : "male"}, draft.config.faces);
     return drawn;
   }

@@ -108,6 +108,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   if (faces == nullptr) return review;
   if (!draft.complaints.expect_map(*faces, "a mapping from faces to marks, {market_0007: reject}"))
     return review;
+  // A mark must name a face of this crowd. Parents of children and hand-written recipes cannot be
+  // rejected.
   const std::vector<std::string> ids = named_ids(draft.config);
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;

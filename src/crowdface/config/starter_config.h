@@ -18,7 +18,7 @@ namespace crowdface {
 struct StarterFacts {
   std::filesystem::path heads;     ///< folder of the heads, relative to the folder of the config
   std::vector<std::string> names;  ///< #heads
-  LengthUnit units = LengthUnit::kCentimetre;  ///< guessed from head_height
+  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess
   std::string units_reason;                    ///< "the first mesh is 27.3 units high"
   double head_height = 0;                      ///< height of the first head, in its own units
   Eigen::Index vertices = 0;                   ///< number of vertices of each head

@@ -70,6 +70,7 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
   if (is_utf16(text_)) {
     return Problem{place_of(0), "expected UTF-8 text, found UTF-16; save the file as UTF-8"};
   }
+  // Decode the text, one character at a time.
   for (std::size_t at = 0; at < text_.size();) {
     const std::string_view rest = text_.substr(at);
     const std::size_t length = utf8_length(rest);
@@ -84,6 +85,7 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
     }
     at += length;
   }
+  // Search each line's indentation for tabs.
   for (std::size_t row = 0; row < line_starts_.size(); ++row) {
     const std::size_t end = row + 1 < line_starts_.size() ? line_starts_[row + 1] : text_.size();
     const std::size_t tab =

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostModes = 1000;
-constexpr double kLimit = 2;  // standard deviations
+constexpr double kLimit = 2;  // largest weight of a mode, in standard deviations
 
 std::vector<fs::path> identity_files(const fs::path& folder) {
   std::vector<fs::path> files;

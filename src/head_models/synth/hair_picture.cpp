@@ -47,6 +47,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(4 * side * side);
   for (std::size_t y = 0; y < side; ++y) {
+    // Centre of each strand in this row.
     const double t = (static_cast<double>(y) + 0.5) / size;
     std::array<double, kHairStrips * kStrands> middles{};
     for (std::size_t s = 0; s < middles.size(); ++s)
@@ -61,6 +62,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
         light = 0.6 + 0.3 * clump;
         cover = smooth_step(0.95, 0.7, t + 0.12 * clump);
       } else {
+        // Composite the strands of this strip; each strand is darker at its edges.
         for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {
           const Strand& strand = strands[s];
           const double half = strand.half * (1 - 0.8 * smooth_step(0.5, 1, t / strand.end));

@@ -51,6 +51,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
     return cut_normal({seed, index, purpose});
   };
   const double aged = person_.aged();
+  // Draw the value of each measure around the person's average.
   for (const Measure& measure : measures()) {
     double value = measure.male * person_.male + measure.aged * aged +
                    measure.build * person_.build + measure.spread * normal(measure.name);
@@ -62,6 +63,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
     pulls_.push_back(pull);
     if (pull.centre.x() != 0) pulls_.push_back(mirrored(pull));
   }
+  // Draw overall size, proportions and asymmetry.
   const double size = 0.018 * person_.male + 0.02 * normal("size");
   scale_ =
       Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,

@@ -45,6 +45,7 @@ class Sewing {
     std::uint32_t vertex, uv;
   };
 
+  /// Appends the units of the mesh columns (or rows) in lattice interval k, without its end.
   template <class Quads>
   static void spread(const Quads& quads_of, int k, double (*unit)(int), std::vector<double>& out) {
     const int n = quads_of[static_cast<std::size_t>(k)];
@@ -70,6 +71,7 @@ class Sewing {
                               std::array{a.uv, b.uv, c.uv, d.uv});
   }
 
+  /// A window's range of columns i and rows j, in quads.
   struct Span {
     int i0, i1, j0, j1;
   };
@@ -91,6 +93,7 @@ class Sewing {
       if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
     }
     strip_.resize(strip_index(half_, rows_) + 1);
+    // Vertices strictly inside a window, and quads of a window, are left out.
     const auto inside = [&](int i, int j) {
       return std::ranges::any_of(
           holes, [&](const Span& s) { return i > s.i0 && i < s.i1 && j > s.j0 && j < s.j1; });
@@ -185,6 +188,7 @@ class Sewing {
     return out;
   }
 
+  /// Fills a window with concentric rings of quads; an ear also gets a core.
   void add_rings(const Window& window, int side) {
     const Span span = span_of(window, side);
     const std::vector<Stitch> first = outline(span, side);
@@ -204,6 +208,8 @@ class Sewing {
     if (window.sheet == Sheet::kEar) add_core(span, side, first, ring);
   }
 
+  /// Fills the innermost ring of an ear with a grid of quads.
+  /// \param first  outline of the window. \param ring  corners of the innermost ring.
   void add_core(const Span& s, int side, const std::vector<Stitch>& first,
                 const std::vector<Corner>& ring) {
     std::map<std::pair<int, int>, Corner> core;

@@ -146,6 +146,7 @@ void LooseParts::add_teeth(double up, int along, int around) {
     const double tooth = 7 * (t + 1) - std::floor(7 * (t + 1));
     const double proud = 0.035 * (4 * tooth * (1 - tooth) - 0.5);
     for (int k = 0; k < around; ++k) {
+      // q is the point of the band's cross-section, on the square [−1, 1]².
       const int side = k / quarter;
       const double s = 2.0 * (k % quarter) / quarter - 1;
       const Vector2d q = side == 0   ? Vector2d(1, s)

@@ -104,6 +104,7 @@ std::vector<SkinPlace> skin_atlas(int size) {
   std::vector<SkinPlace> places(layout.addresses.size());
   parallel_for_each(places.size(), 1024,
                     [&](std::size_t i) { places[i] = place_at(layout.addresses[i]); });
+  // Append the eyeballs; only their fronts are shown.
   loose.append_to(layout.topology, layout.uvs);
   for (Index v = 0; v < loose.vertex_count(); ++v) {
     SkinPlace place;
@@ -113,6 +114,7 @@ std::vector<SkinPlace> skin_atlas(int size) {
     if (place.covered) place.on_ball = loose.on_eyeball(v);
     places.push_back(place);
   }
+  // Rasterise all faces into the texture, then fill the texels outside the charts.
   std::vector<SkinPlace> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   const Topology& topology = layout.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
