@@ -84,7 +84,7 @@ void blend(const BlendOptions& options) {
   if (job.config.smoothing.levels != Levels::kExact)
     check_levels(line.face.recipe, job, options.recipe);
   Prepared prepared;
-  if (job.config.smoothing.levels == Levels::kExact) {  // the filter smooths the heads directly
+  if (job.config.smoothing.levels == Levels::kExact) {  // the exact filter needs no prepared heads
     prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
   } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.config.cache_path());

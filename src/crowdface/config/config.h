@@ -109,7 +109,7 @@ struct Config {
     Axis up = {1, 1};
     Axis front = {2, 1};
     Align align = Align::kCheck;
-    std::vector<std::vector<std::string>> tags;  ///< #heads
+    std::vector<std::vector<std::string>> tags;  ///< #heads, the tags of each head
   } faces;
 
   struct Regions {

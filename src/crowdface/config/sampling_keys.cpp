@@ -32,7 +32,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
     split.whole = node;
     return split;
   }
-  // Sort the entries: values of regions, the default, and keys of a value for all regions.
+  // Assign each entry: value of a region, default value, or key of a value for all regions.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();

@@ -88,7 +88,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
     }
     for (const auto& [name, file] : found[h]) add_name(name, shapes);
   }
-  // All names are known now: sort the files of each head by name.
+  // All names are known now: assign each head's files to the names.
   for (const auto& files : found) {
     std::vector<fs::path>& of_head = shapes.of_head.emplace_back(shapes.names.size());
     for (const auto& [name, file] : files) {
