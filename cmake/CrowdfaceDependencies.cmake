@@ -28,12 +28,6 @@ find_package(draco REQUIRED)
 find_package(assimp REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
-find_package(httplib QUIET)  # Fedora's package is for CMake, Debian's for pkg-config
-if(NOT TARGET httplib::httplib)
-  # From cpp-httplib 0.15 on, Debian's header calls OpenSSL's libcrypto by itself.
-  pkg_check_modules(httplib REQUIRED IMPORTED_TARGET GLOBAL cpp-httplib libcrypto)
-  add_library(httplib::httplib ALIAS PkgConfig::httplib)
-endif()
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 # On ARM kernels are compiled for NEON alone; the others that Highway knows differ in AES and bfloat16, or have vectors of no
 # fixed size (SVE). On x86 they are compiled for the baseline, AVX2 and AVX-512; the rest would only lengthen the build.

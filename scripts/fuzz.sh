@@ -5,13 +5,13 @@
 # build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
 #   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of obj mask yaml
-#                                           review plan cache ledger scan landmarks rig. 0 s: coverage of what is there
+#                                           review plan cache ledger scan landmarks rig http. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
 shift || true
 parsers=("$@")
-[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask yaml review plan cache ledger scan landmarks rig)
+[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask yaml review plan cache ledger scan landmarks rig http)
 
 # The files that make a parser, in src/crowdface: what they share is counted with each.
 declare -A sources=(
@@ -24,6 +24,7 @@ declare -A sources=(
   [ledger]='crowd/ledger.cpp'
   [scan]='wrap/scan_*.cpp'
   [landmarks]='pick/landmark_file.cpp config/yaml.cpp'
+  [http]='page/http_head.cpp'
   [rig]='io/gltf_rig.cpp io/glb_container.cpp'
 )
 

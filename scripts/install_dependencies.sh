@@ -21,13 +21,13 @@ packages=(
   # libraries, see cmake/CrowdfaceDependencies.cmake
   libeigen3-dev libtbb-dev libtinyobjloader-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libspdlog-dev libxxhash-dev librandom123-dev libembree-dev libhwy-dev
-  libmeshoptimizer-dev libdraco-dev libassimp-dev libcpp-httplib-dev libpng-dev
+  libmeshoptimizer-dev libdraco-dev libassimp-dev libpng-dev
   # OpenImageIO's CMake package insists on its command-line tools
   libopenimageio-dev openimageio-tools
   # the labels of contact sheets
   libfreetype-dev fonts-dejavu-core
   # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev libcpp-httplib-dev
 )
 # The gallery's page; node may have come from elsewhere, with npm in it.
 command -v npm >/dev/null || packages+=(nodejs npm)

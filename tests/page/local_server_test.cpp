@@ -2,9 +2,13 @@
 #include "crowdface/page/local_server.h"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <list>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <httplib.h>
@@ -18,6 +22,39 @@
 
 namespace crowdface {
 namespace {
+
+/// A client that says what it is told, byte by byte if need be.
+class RawClient {
+ public:
+  explicit RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in there{};
+    there.sin_family = AF_INET;
+    there.sin_port = htons(static_cast<std::uint16_t>(port));
+    there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there), 0);
+    const timeval patience = {20, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  }
+  ~RawClient() { ::close(socket_); }
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+
+  bool say(std::string_view text) const {
+    return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(text.size());
+  }
+  /// All that comes until the server closes.
+  std::string hear() const {
+    std::string heard, piece(1 << 16, '\0');
+    for (ssize_t got = 0; (got = ::recv(socket_, piece.data(), piece.size(), 0)) > 0;) {
+      heard.append(piece, 0, static_cast<std::size_t>(got));
+    }
+    return heard;
+  }
+
+ private:
+  int socket_;
+};
 
 /// A server that tells what it was asked for.
 class LocalServerTest : public ::testing::Test {
@@ -144,6 +181,127 @@ TEST_F(LocalServerTest, LeavesSigpipeToTheHostAndOutlivesReadersWhoLeave) {
     ::close(socket);
   }
   EXPECT_TRUE(client().Get(path_ + "api/job"));
+}
+
+// Seventeen such clients kept everybody else waiting.
+TEST_F(LocalServerTest, SlowClientsHoldNobodyUp) {
+  std::list<RawClient> slow;
+  for (int i = 0; i < 200; ++i) {
+    slow.emplace_back(port()).say("GET / HTTP/1.1\r\nHost: ");
+    if (i % 50 == 17) {
+      for (RawClient& client : slow) client.say("x");
+      const auto start = std::chrono::steady_clock::now();
+      const auto got = client().Get(path_ + "api/state");
+      ASSERT_TRUE(got) << i;
+      EXPECT_EQ(got->status, 200);
+      EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+    }
+  }
+}
+
+// Header lines without an end took 1.2 GB.
+TEST_F(LocalServerTest, BoundsTheHeadOfARequestAndItsTime) {
+  const RawClient endless(port());
+  const std::string line = "X-Some: " + std::string(1000, 'a') + "\r\n";
+  endless.say("GET / HTTP/1.1\r\n");
+  auto start = std::chrono::steady_clock::now();
+  const auto is_soon = [&] {
+    return std::chrono::steady_clock::now() - start < std::chrono::seconds(20);
+  };
+  while (endless.say(line) && is_soon()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(is_soon()) << "nobody closed the connection";
+  const RawClient late(port());
+  start = std::chrono::steady_clock::now();
+  bool is_open = true;
+  for (const char c : "GET / HTTP/1.1\r\nHost: nobody") {
+    is_open = is_open && late.say({&c, 1});
+    if (is_open) std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  }
+  EXPECT_FALSE(is_open);
+  EXPECT_TRUE(is_soon());
+}
+
+TEST_F(LocalServerTest, RefusesWhatIsNoRequest) {
+  const std::string host = "Host: " + host_ + "\r\n", get = "GET " + path_ + "a HTTP/1.1\r\n";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"\r\n\r\n", "400"},
+      {"GET\r\n\r\n", "400"},
+      {"GET " + path_ + " HTTP/3\r\n" + host + "\r\n", "400"},
+      {"GET " + path_ + "%zz HTTP/1.1\r\n" + host + "\r\n", "400"},
+      {"GET " + path_ + "%00 HTTP/1.1\r\n" + host + "\r\n", "400"},
+      {"GET " + path_ + "a b HTTP/1.1\r\n" + host + "\r\n", "400"},
+      {get + host + "no colon\r\n\r\n", "400"},
+      {get + host + " folded: x\r\n\r\n", "400"},
+      {get + host + "A: x\x01\r\n\r\n", "400"},
+      {get + "\r\n", "403"},
+      {get + host + host + "\r\n", "403"},
+      {get + host + "Origin: http://" + host_ + "\r\nOrigin: http://evil.example\r\n\r\n", "403"},
+      {get + host + "Origin: http://" + host_ + "\r\nOrigin: http://" + host_ + "\r\n\r\n", "403"},
+      {get + host + "Content-Length: 1\r\nContent-Length: 2\r\n\r\n", "411"},
+      {get + host + "Content-Length: -1\r\n\r\n", "411"},
+      {get + host + "Content-Length: 99999999999999999999\r\n\r\n", "411"},
+      {get + host + "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n", "411"},
+      {get + host + "A: " + std::string(20000, 'a') + "\r\n\r\n", "431"}};
+  for (const auto& [text, status] : cases) {
+    const RawClient client(port());
+    client.say(text);
+    EXPECT_EQ(client.hear().substr(0, 12), "HTTP/1.1 " + status) << text.substr(0, 200);
+  }
+  EXPECT_EQ(answered_, 0);
+}
+
+// A request of 4 kB for many ranges gave 56 MB.
+TEST_F(LocalServerTest, GivesNoRanges) {
+  std::string ranges = "bytes=0-";
+  for (int i = 0; i < 500; ++i) ranges += ",0-";
+  const auto got = client().Get(path_ + "api/job", {{"Range", ranges}});
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->status, 200);
+  EXPECT_EQ(got->body, "GET api/job ");
+}
+
+TEST_F(LocalServerTest, AnswersSeveralRequestsOfAConnectionInTheirOrder) {
+  const RawClient client(port());
+  std::string requests;
+  for (int i = 0; i < 50; ++i) {
+    requests += "POST " + path_ + std::to_string(i) + " HTTP/1.1\r\nHost: " + host_ +
+                "\r\nOrigin: http://" + host_ + "\r\nContent-Length: 3\r\n" +
+                (i == 49 ? "Connection: close\r\n" : "") + "\r\na\r\n";
+  }
+  client.say(requests);
+  const std::string heard = client.hear();
+  std::size_t at = 0;
+  for (int i = 0; i < 50; ++i) {
+    at = heard.find("POST " + std::to_string(i) + " a\r\n", at);
+    ASSERT_NE(at, std::string::npos) << i;
+  }
+  EXPECT_EQ(answered_, 50);
+}
+
+// Three clients that sent a byte now and then kept the program from ending for half a minute.
+TEST(LocalServer, EndsWithinASecondWhateverIsConnected) {
+  std::atomic<bool> stop = false;
+  LocalServer server(
+      [](const HttpRequest&) {
+        return HttpAnswer{200, "text/plain", std::string(16 << 20, 'x')};
+      },
+      0);
+  std::thread thread([&] { server.run([&] { return stop.load(); }); });
+  const std::string address = server.address();
+  const std::size_t slash = address.find('/', 7);
+  const std::string host = address.substr(7, slash - 7);
+  const int port = std::stoi(host.substr(host.find(':') + 1));
+  std::list<RawClient> clients;
+  for (int i = 0; i < 20; ++i) clients.emplace_back(port).say("GET /");
+  for (int i = 0; i < 3; ++i) {  // that read nothing
+    clients.emplace_back(port).say("GET " + address.substr(slash) + " HTTP/1.1\r\nHost: " + host +
+                                   "\r\n\r\n");
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const auto start = std::chrono::steady_clock::now();
+  stop = true;
+  thread.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
 }
 
 TEST_F(LocalServerTest, SharesItsPortWithNobody) {

@@ -39,6 +39,5 @@ door 'draco/' 'crowdface/io/gltf_compression\.cpp'
 door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
 door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/(face_json|ledger)|run/(casting_report|planned|report))\.h' \
   '(crowdface/(io|wrap|crowd|pictures|run)|head_models/morph)/[a-z_]*\.cpp' 'crowdface/(editor|page|pick)/[a-z_]*\.(cpp|h)'
-door 'httplib' 'crowdface/page/local_server\.cpp'
 door 'CLI/' 'cli/(command_line|main)\.cpp'
 exit $status

@@ -1,25 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
+// One thread reads all requests and writes all answers, and waits for no client; others answer whole requests. So a
+// client that is slow, or that does not know the token, holds nothing but its own connection.
 #include "crowdface/page/local_server.h"
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
-#include <future>
-#include <memory>
-#include <system_error>
+#include <condition_variable>
+#include <deque>
+#include <list>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <thread>
 
-#include <httplib.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/page/http_head.h"
 
 namespace crowdface {
 namespace {
 
-/// 128 random bits from the operating system, as 32 hexadecimal digits.
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostHeadBytes = std::size_t{16} << 10U, kMostConnections = 64, kThreads = 16;
+constexpr auto kMoment = std::chrono::milliseconds(100);
+/// For a request's head from its first byte, for its body, and for a client to take the next piece of its answer.
+constexpr auto kPatience = std::chrono::seconds(5), kPatienceWithBody = std::chrono::seconds(60);
+
+/// 128 bits of the system's as 32 hexadecimal digits.
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
@@ -30,7 +47,7 @@ std::string random_token() {
   return token;
 }
 
-/// Compares in constant time, so that the response time does not reveal a partly correct token.
+/// The same, in a time that does not tell how much of it is right.
 bool is_same(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned differences = 0;
@@ -40,153 +57,293 @@ bool is_same(std::string_view a, std::string_view b) {
   return differences == 0;
 }
 
-/// Replaces the library's default, SO_REUSEPORT, which would let another program share the port.
-void set_socket_options(socket_t socket) {
-  const int yes = 1;
-  ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+HttpAnswer refuse(int status, std::string_view sentence) {
+  return {status, "application/json", concat("{\"error\": \"", sentence, "\"}")};
 }
 
-httplib::Headers safe_headers() {
-  return {{"Content-Security-Policy",
-           "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
-           "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-          {"X-Content-Type-Options", "nosniff"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Cross-Origin-Resource-Policy", "same-origin"},
-          {"Cross-Origin-Opener-Policy", "same-origin"},
-          {"Cache-Control", "no-store"}};
+std::string format_answer(const HttpAnswer& answer, bool with_body, bool closes) {
+  static const std::map<int, std::string_view> kReasons = {
+      {200, "OK"},
+      {202, "Accepted"},
+      {400, "Bad Request"},
+      {403, "Forbidden"},
+      {404, "Not Found"},
+      {405, "Method Not Allowed"},
+      {409, "Conflict"},
+      {411, "Length Required"},
+      {413, "Content Too Large"},
+      {415, "Unsupported Media Type"},
+      {431, "Request Header Fields Too Large"}};
+  const auto reason = kReasons.find(answer.status);
+  return concat(
+      "HTTP/1.1 ", answer.status, ' ', reason == kReasons.end() ? "Error" : reason->second,
+      "\r\nContent-Type: ", answer.type, "\r\nContent-Length: ", answer.bytes.size(),
+      "\r\nConnection: ", closes ? "close" : "keep-alive",
+      "\r\nContent-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; "
+      "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+      "frame-ancestors 'none'\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer"
+      "\r\nCross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin"
+      "\r\nCache-Control: no-store\r\n\r\n",
+      with_body ? answer.bytes : "");
 }
 
-void refuse(int status, const std::string& sentence, httplib::Response& response) {
-  response.status = status;
-  response.set_content(concat("{\"error\": \"", sentence, "\"}"), "application/json");
-}
+struct Connection {
+  enum class State {
+    kReading,    ///< a request, or waiting for one
+    kAnswering,  ///< a thread is at it
+    kWriting,    ///< the answer
+    kLeaving     ///< told that no more will be read, so that the client can read the answer
+  };
+  explicit Connection(Descriptor accepted) : socket(std::move(accepted)) {}
 
-struct sigaction action_of_sigpipe() {
-  struct sigaction action {};
-  ::sigaction(SIGPIPE, nullptr, &action);
-  return action;
-}
-
-/// Creates a thread pool that blocks SIGPIPE: writing to a closed connection fails instead of
-/// raising the signal.
-httplib::TaskQueue* make_threads() {
-  constexpr int kThreads = 16;
-  sigset_t pipe, before;
-  ::sigemptyset(&pipe);
-  ::sigaddset(&pipe, SIGPIPE);
-  ::pthread_sigmask(SIG_BLOCK, &pipe, &before);  // the pool's threads inherit the mask
-  auto pool = std::make_unique<httplib::ThreadPool>(kThreads);
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return pool.release();
-}
+  Descriptor socket;
+  State state = State::kReading;
+  std::string in, out;
+  std::size_t sent = 0;
+  std::optional<HttpHead> head;  ///< of the request that is read
+  std::size_t head_bytes = 0, body_bytes = 0;
+  bool closes = false;  ///< after the answer
+  /// When a head or a body began, or when the last piece of an answer was taken.
+  Clock::time_point since = Clock::now();
+  std::optional<HttpAnswer> answer;  ///< by a thread, under the server's mutex
+};
 
 }  // namespace
 
 struct LocalServer::State {
-  /// The constructor of httplib::Server sets SIGPIPE to ignored for the whole process. Restores the
-  /// host program's action.
-  State() { ::sigaction(SIGPIPE, &of_host, nullptr); }
-
-  const struct sigaction of_host = action_of_sigpipe();
-  httplib::Server server;
+  Descriptor listening{-1}, woken{-1};
   std::function<HttpAnswer(const HttpRequest&)> answer;
   std::string token = random_token();
   std::string prefix = "/" + token + "/";
   std::string address;
-  /// Accepted values of the Host header.
-  std::array<std::string, 2> hosts;
+  std::array<std::string, 2> hosts;  ///< that are ours
 
-  void configure();
-  bool passes(const httplib::Request& request, httplib::Response& response) const;
-  bool comes_from_us(const httplib::Request& request) const;
+  std::list<Connection> connections;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<std::pair<Connection*, HttpRequest>> asked;  ///< under the mutex
+  bool stopping = false;                                  ///< likewise
+
+  std::optional<HttpAnswer> refusal(const HttpHead& head) const;
+  bool comes_from_us(const HttpHead& head) const;
+  void accept_clients();
+  void read_from(Connection& client);
+  void take_request(Connection& client);
+  void give(const HttpAnswer& given, Connection& client);
+  void write_to(Connection& client);
+  bool is_over(const Connection& client) const;
+  void serve_once();
+  void work();
 };
 
-bool LocalServer::State::comes_from_us(const httplib::Request& request) const {
-  if (request.has_header("Origin")) {
-    const std::string origin = request.get_header_value("Origin");
+bool LocalServer::State::comes_from_us(const HttpHead& head) const {
+  if (head.count("origin") > 1) return false;
+  if (head.count("origin") == 1) {
+    const std::string_view origin = head.value("origin");
     return origin == "http://" + hosts[0] || origin == "http://" + hosts[1];
   }
-  const bool reads = request.method == "GET" || request.method == "HEAD";
-  return reads || request.get_header_value("Sec-Fetch-Site") == "same-origin";
+  const bool reads = head.method == "GET" || head.method == "HEAD";
+  return reads || head.value("sec-fetch-site") == "same-origin";
 }
 
-/// Checks the headers of a request before its body is read.
-bool LocalServer::State::passes(const httplib::Request& request,
-                                httplib::Response& response) const {
+/// What is looked at before anything of a request is read but its head.
+std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) const {
   constexpr std::size_t kLongestPath = 512;
-  const auto no = [&](int status, const char* sentence) {
-    refuse(status, sentence, response);
-    return false;
-  };
-  const std::string host = request.get_header_value("Host");
-  if (request.get_header_value_count("Host") != 1 || (host != hosts[0] && host != hosts[1])) {
-    return no(403, "the request is for another host");
+  const std::string_view host = head.value("host");
+  if (head.count("host") != 1 || (host != hosts[0] && host != hosts[1])) {
+    return refuse(403, "the request is for another host");
   }
-  if (!comes_from_us(request)) return no(403, "the request comes from another page");
-  const bool writes = request.method == "POST" || request.method == "PUT";
-  if (!writes && request.method != "GET" && request.method != "HEAD") {
-    return no(405, "expected GET, POST or PUT");
+  if (!comes_from_us(head)) return refuse(403, "the request comes from another page");
+  const bool writes = head.method == "POST" || head.method == "PUT";
+  if (!writes && head.method != "GET" && head.method != "HEAD") {
+    return refuse(405, "expected GET, POST or PUT");
   }
-  if (request.path.size() > kLongestPath || !request.path.starts_with('/') ||
-      !is_same(std::string_view(request.path).substr(0, prefix.size()), prefix)) {
-    return no(404, "there is nothing at this address");
+  if (head.path.size() > kLongestPath ||
+      !is_same(std::string_view(head.path).substr(0, prefix.size()), prefix)) {
+    return refuse(404, "there is nothing at this address");
   }
-  // The library limits the size of a body only if Content-Length is given.
-  if (request.has_header("Transfer-Encoding") ||
-      (writes && request.get_header_value_count("Content-Length") != 1)) {
-    return no(411, "expected a body of a known length");
+  const std::size_t lengths = head.count("content-length");
+  const auto length = parse_unsigned(head.value("content-length"));
+  if (head.count("transfer-encoding") > 0 || lengths > 1 || (writes && lengths == 0) ||
+      (lengths == 1 && !length)) {
+    return refuse(411, "expected a body of a known length");
   }
-  if (request.has_header("Content-Encoding")) return no(415, "expected a body that is not packed");
-  return true;
+  if (head.count("content-encoding") > 0) return refuse(415, "expected a body that is not packed");
+  if (length.value_or(0) > kMostBytes) return refuse(413, "the body is larger than 4 MiB");
+  return std::nullopt;
 }
 
-void LocalServer::State::configure() {
-  constexpr int kPatienceSeconds = 5;
-  server.new_task_queue = make_threads;
-  server.set_socket_options(set_socket_options);
-  server.set_tcp_nodelay(true);
-  server.set_default_headers(safe_headers());
-  server.set_payload_max_length(kMostBytes);
-  server.set_read_timeout(kPatienceSeconds);
-  server.set_write_timeout(kPatienceSeconds);
-  server.set_keep_alive_timeout(1);
-  server.set_keep_alive_max_count(1000);
-  server.set_pre_routing_handler(
-      [this](const httplib::Request& request, httplib::Response& response) {
-        return passes(request, response) ? httplib::Server::HandlerResponse::Unhandled
-                                         : httplib::Server::HandlerResponse::Handled;
-      });
-  const auto handle = [this](const httplib::Request& request, httplib::Response& response) {
-    const std::string method = request.method == "HEAD" ? "GET" : request.method;
-    const HttpAnswer given = answer({method, request.path.substr(prefix.size()), request.body});
-    response.status = given.status;
-    response.set_content(given.bytes, given.type);
-  };
-  server.Get("/.*", handle);
-  server.Post("/.*", handle);
-  server.Put("/.*", handle);
-  server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
-    if (!response.body.empty()) return;
-    const std::string sentence =
-        response.status == 413 ? "the body is larger than 4 MiB" : "the request cannot be read";
-    refuse(response.status, sentence, response);
-  });
+/// Where too many clients are connected, the one goes that has made its request wait longest.
+void LocalServer::State::accept_clients() {
+  for (;;) {
+    Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    const bool is_short = !accepted.valid() && is_machines_fault(errno);
+    if (!accepted.valid() && !is_short) return;
+    if (is_short || connections.size() >= kMostConnections) {
+      auto oldest = connections.end();
+      for (auto client = connections.begin(); client != connections.end(); ++client) {
+        const bool may_go = client->state == Connection::State::kReading;
+        if (may_go && (oldest == connections.end() || client->since < oldest->since)) {
+          oldest = client;
+        }
+      }
+      if (oldest == connections.end()) return;
+      connections.erase(oldest);
+    }
+    if (is_short) return;
+    const int yes = 1;
+    ::setsockopt(accepted.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    connections.emplace_back(std::move(accepted));
+  }
+}
+
+void LocalServer::State::read_from(Connection& client) {
+  std::array<char, std::size_t{64} << 10U> bytes;
+  const ssize_t got = ::recv(client.socket.get(), bytes.data(), bytes.size(), 0);
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (got <= 0) {
+    client.socket = Descriptor(-1);
+    return;
+  }
+  if (client.state == Connection::State::kLeaving) return;
+  if (client.in.empty()) client.since = Clock::now();
+  client.in.append(bytes.data(), static_cast<std::size_t>(got));
+  take_request(client);
+}
+
+/// Goes on with what of a request is there.
+void LocalServer::State::take_request(Connection& client) {
+  if (!client.head) {
+    constexpr std::string_view kEnd = "\r\n\r\n";
+    const std::size_t end = client.in.find(kEnd);
+    client.closes = true;
+    if (std::min(end, client.in.size()) > kMostHeadBytes) {
+      return give(refuse(431, "the head of the request is larger than 16 KiB"), client);
+    }
+    if (end == std::string::npos) return;
+    client.head_bytes = end + kEnd.size();
+    client.head = parse_http_head(std::string_view(client.in).substr(0, client.head_bytes));
+    if (!client.head) return give(refuse(400, "the request cannot be read"), client);
+    if (const auto refused = refusal(*client.head)) return give(*refused, client);
+    client.body_bytes = parse_unsigned(client.head->value("content-length")).value_or(0);
+    client.closes = client.head->is_last;
+    client.since = Clock::now();
+  }
+  if (client.in.size() < client.head_bytes + client.body_bytes) return;
+  HttpRequest request{client.head->method == "HEAD" ? "GET" : client.head->method,
+                      client.head->path.substr(prefix.size()),
+                      client.in.substr(client.head_bytes, client.body_bytes)};
+  client.in.erase(0, client.head_bytes + client.body_bytes);
+  client.state = Connection::State::kAnswering;
+  const std::lock_guard lock(mutex);
+  asked.emplace_back(&client, std::move(request));
+  changed.notify_one();
+}
+
+void LocalServer::State::give(const HttpAnswer& given, Connection& client) {
+  const bool with_body = !client.head || client.head->method != "HEAD";
+  client.out = format_answer(given, with_body, client.closes);
+  client.sent = 0;
+  client.head.reset();
+  client.state = Connection::State::kWriting;
+  client.since = Clock::now();
+}
+
+void LocalServer::State::write_to(Connection& client) {
+  const ssize_t written = ::send(client.socket.get(), client.out.data() + client.sent,
+                                 client.out.size() - client.sent, MSG_NOSIGNAL);
+  if (written < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (written < 0) {
+    client.socket = Descriptor(-1);
+    return;
+  }
+  client.sent += static_cast<std::size_t>(written);
+  client.since = Clock::now();
+  if (client.sent < client.out.size()) return;
+  client.out.clear();
+  client.state = Connection::State::kReading;
+  if (client.closes) {
+    ::shutdown(client.socket.get(), SHUT_WR);
+    client.state = Connection::State::kLeaving;
+    client.in.clear();
+  } else if (!client.in.empty()) {
+    take_request(client);
+  }
+}
+
+bool LocalServer::State::is_over(const Connection& client) const {
+  if (client.state == Connection::State::kAnswering) return false;
+  const auto patience = client.head ? kPatienceWithBody : kPatience;
+  return !client.socket.valid() || Clock::now() - client.since > patience;
+}
+
+/// Does what can be done without waiting, or waits for a moment.
+void LocalServer::State::serve_once() {
+  std::vector<pollfd> waiting = {{listening.get(), POLLIN, 0}, {woken.get(), POLLIN, 0}};
+  std::vector<Connection*> clients;
+  for (Connection& client : connections) {
+    if (client.state == Connection::State::kAnswering) continue;
+    const bool writes = client.state == Connection::State::kWriting;
+    waiting.push_back({client.socket.get(), static_cast<short>(writes ? POLLOUT : POLLIN), 0});
+    clients.push_back(&client);
+  }
+  if (::poll(waiting.data(), waiting.size(), static_cast<int>(kMoment.count())) < 0) return;
+  for (std::size_t c = 0; c < clients.size(); ++c) {
+    if (waiting[c + 2].revents == 0) continue;
+    clients[c]->state == Connection::State::kWriting ? write_to(*clients[c])
+                                                     : read_from(*clients[c]);
+  }
+  if (waiting[1].revents != 0) {
+    std::uint64_t count = 0;
+    [[maybe_unused]] const ssize_t got = ::read(woken.get(), &count, sizeof count);
+    const std::lock_guard lock(mutex);
+    for (Connection& client : connections) {
+      if (client.answer) give(*std::exchange(client.answer, std::nullopt), client);
+    }
+  }
+  std::erase_if(connections, [&](const Connection& client) { return is_over(client); });
+  if (waiting[0].revents != 0) accept_clients();
+}
+
+/// One of several threads.
+void LocalServer::State::work() {
+  for (;;) {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return stopping || !asked.empty(); });
+    if (stopping) return;
+    auto [client, request] = std::move(asked.front());
+    asked.pop_front();
+    lock.unlock();
+    HttpAnswer given = answer(request);
+    lock.lock();
+    client->answer = std::move(given);
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = ::write(woken.get(), &one, sizeof one);
+  }
 }
 
 LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, int port)
     : state_(std::make_unique<State>()) {
   state_->answer = std::move(answer);
-  state_->configure();
-  constexpr const char* kHost = "127.0.0.1";
-  const int bound = port == 0 ? state_->server.bind_to_any_port(kHost)
-                              : (state_->server.bind_to_port(kHost, port) ? port : -1);
-  if (bound <= 0) {
-    throw CannotCreate(concat("port ", port, " of this machine cannot be listened to: ",
-                              std::generic_category().message(errno),
+  state_->woken = Descriptor(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  state_->listening = Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int socket = state_->listening.get(), yes = 1;
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  here.sin_port = htons(static_cast<std::uint16_t>(port));
+  here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof here;
+  auto* address = reinterpret_cast<sockaddr*>(&here);
+  // A port that another program listens to is not shared.
+  if (!state_->woken.valid() || socket < 0 ||
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
+      ::bind(socket, address, size) != 0 || ::listen(socket, SOMAXCONN) != 0 ||
+      ::getsockname(socket, address, &size) != 0) {
+    throw CannotCreate(concat("port ", port, " of this machine cannot be listened to: ", reason(),
                               "; choose another with --port"));
   }
-  state_->hosts = {concat(kHost, ':', bound), concat("localhost:", bound)};
+  const int bound = ntohs(here.sin_port);
+  state_->hosts = {concat("127.0.0.1:", bound), concat("localhost:", bound)};
   state_->address = concat("http://", state_->hosts[0], state_->prefix);
 }
 
@@ -197,13 +354,20 @@ const std::string& LocalServer::address() const {
 }
 
 void LocalServer::run(const std::function<bool()>& stop) {
-  constexpr auto kMoment = std::chrono::milliseconds(100);
-  auto serving = std::async(std::launch::async, [this] { state_->server.listen_after_bind(); });
-  while (!stop()) std::this_thread::sleep_for(kMoment);
-  // The library ignores stop() until the server has started to listen.
-  do {
-    state_->server.stop();
-  } while (serving.wait_for(kMoment) != std::future_status::ready);
+  std::list<std::jthread> threads;
+  const auto end = [&] {
+    const std::lock_guard lock(state_->mutex);
+    state_->stopping = true;
+    state_->changed.notify_all();
+  };
+  try {
+    while (threads.size() < kThreads) threads.emplace_back([this] { state_->work(); });
+    while (!stop()) state_->serve_once();
+  } catch (...) {
+    end();
+    throw;
+  }
+  end();
 }
 
 }  // namespace crowdface
