@@ -138,6 +138,74 @@ TEST_F(EditCommandTest, KilledAtAnyMomentItHasTheLastState) {
   });
 }
 
+// What was saved went through a link that had taken the folder's place.
+TEST_F(EditCommandTest, WritesNothingIntoAFolderThatTookTheOthersPlace) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder_ / "elsewhere");
+  edit([&] {
+    fs::rename(edited(""), folder_ / "moved");
+    fs::create_directory_symlink(folder_ / "elsewhere", folder_.out() / "edited");
+    EXPECT_NE(put("api/state", "1"), 200);
+    EXPECT_NE(post("api/save", {{"recipe", start()}, {"format", "obj"}})->status, 200);
+    EXPECT_NE(post("api/masks/save", Json::object())->status, 200);
+    EXPECT_NE(post("api/generate", Json::object())->status, 202);
+    EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
+    EXPECT_FALSE(fs::exists(folder_ / "moved/eva.obj"));
+    fs::remove(folder_.out() / "edited");
+    fs::rename(folder_ / "moved", edited("").parent_path());
+    EXPECT_EQ(put("api/state", "1"), 200);
+  });
+}
+
+// Only the marks of the last editor were kept.
+TEST_F(EditCommandTest, KeepsTheMarksOfEditorsBeforeIt) {
+  ASSERT_EQ(run_program(CROWDFACE_PROGRAM,
+                        {"generate", folder_.config(), "--cache", folder_.cache(), "--quiet"})
+                .code,
+            0);
+  const auto mark = [&](const std::string& id, const std::string& note) {
+    return post("api/review",
+                {{"id", id}, {"verdict", "reject"}, {"lock", {"region_1"}}, {"note", note}});
+  };
+  edit([&] {
+    EXPECT_EQ(mark("mob_0001", "first: \"a\"\nb")->status, 200);
+    EXPECT_EQ(mark("mob_0002", "second")->status, 200);
+  });
+  const std::string before = read_text(edited("review.yaml"));
+  edit([&] {
+    EXPECT_EQ(mark("mob_0002", "second, again")->status, 200);
+    EXPECT_EQ(mark("mob_0003", "third")->status, 200);
+    EXPECT_EQ(mark("mob_0003", "third, again")->status, 200);
+  });
+  const std::string after = read_text(edited("review.yaml"));
+  EXPECT_THAT(after, ::testing::StartsWith(before.substr(0, before.find("  mob_0002"))));
+  EXPECT_THAT(after, ::testing::HasSubstr("second, again"));
+  EXPECT_THAT(after, ::testing::HasSubstr("third, again"));
+  const std::string by_hand = "schema: 1\nfaces: {nobody: keep, mob_0001: keep}\n";
+  std::ofstream(edited("review.yaml")) << by_hand;
+  edit([&] {
+    const auto refused = mark("mob_0003", "");
+    EXPECT_EQ(refused->status, 400);
+    EXPECT_THAT(refused->body, ::testing::HasSubstr("review.yaml:2"));
+  });
+  EXPECT_EQ(read_text(edited("review.yaml")), by_hand);
+}
+
+// The mesh in a format that was saved before kept the older recipe.
+TEST_F(EditCommandTest, AllFormatsOfAFaceFollowItsRecipe) {
+  edit([&] {
+    Json recipe = start();
+    ASSERT_EQ(post("api/save", {{"recipe", recipe}, {"format", "obj"}})->status, 200);
+    const std::string before = read_text(edited("eva.obj"));
+    recipe["target"] = folder_.names()[2];
+    ASSERT_EQ(post("api/save", {{"recipe", recipe}, {"format", "ply"}})->status, 200);
+    const std::string after = read_text(edited("eva.obj"));
+    EXPECT_NE(after, before);
+    ASSERT_EQ(post("api/save", {{"recipe", recipe}, {"format", "obj"}})->status, 200);
+    EXPECT_EQ(read_text(edited("eva.obj")), after);
+  });
+}
+
 TEST_F(EditCommandTest, ASecondEditorIsToldOfTheFirst) {
   edit([&] {
     struct stat status {};

@@ -23,10 +23,10 @@ std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::st
 /// Writes a recipe as YAML: one item of the list `recipes`, without its leading dash.
 std::string format_hand_recipe(const HandRecipe& recipe, const Config& config);
 
-/// Checks the text of a review file as if the crowd's config named that file.
+/// Reads the text of a review file as if the crowd's config named that file.
 /// \param source    name of the text in messages.
 /// \param problems  receives every problem.
-void check_review(std::string_view text, const std::string& source, const Config& config,
-                  Problems& problems);
+Review parse_review(std::string_view text, const std::string& source, const Config& config,
+                    Problems& problems);
 
 }  // namespace crowdface

@@ -165,14 +165,15 @@ std::string write_review(const Config& config, const ConfigWriting& writing) {
   return list(path(""), "").write(config.review.files, writing);
 }
 
-void check_review(std::string_view text, const std::string& source, const Config& config,
-                  Problems& problems) {
+Review parse_review(std::string_view text, const std::string& source, const Config& config,
+                    Problems& problems) {
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.config = config;
   draft.heads_known = true;
-  read_marks(parse_yaml(text, source, complaints), draft);
+  Review review = read_marks(parse_yaml(text, source, complaints), draft);
   complaints.tell(problems);
+  return review;
 }
 
 }  // namespace crowdface

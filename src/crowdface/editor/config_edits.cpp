@@ -55,7 +55,8 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   const fs::path file = config.parent_path() / name;
 
   YamlNode edits;
-  if (named != nullptr) edits = parsed(read_file(file), file.string());
+  // A file that the config does not name yet may hold what an editor saved that was killed.
+  if (named != nullptr || is_there(file)) edits = parsed(read_file(file), file.string());
   merge_edits(parsed(sections, "edits"), edits);
   const std::string text = text_of(edits);
 

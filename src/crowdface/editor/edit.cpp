@@ -73,13 +73,11 @@ std::vector<std::string> generate_arguments(const Config& config, const ConfigOv
 
 /// A job as it stood when it was opened, and what answers for it.
 struct OpenedJob {
-  OpenedJob(Job job, const EditOptions& options, const std::filesystem::path& path, MarkLines marks,
-            GenerateRun& run, bool may_edit_config, std::function<void()> open_again)
+  OpenedJob(Job job, const EditOptions& options, EditedFolder& folder, GenerateRun& run,
+            bool may_edit_config, std::function<void()> open_again)
       : session(std::move(job), options.cache, options.preview_vertices),
-        folder(session.job(), path, std::move(marks)),
         api(session, folder, run, may_edit_config, std::move(open_again)) {}
   EditSession session;
-  EditedFolder folder;
   EditApi api;
 };
 
@@ -90,22 +88,17 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
   Job job = load_edited_job(given, overrides, options.cache);
   const std::filesystem::path path = make_edited_folder(job.config);
   EditorLock lock(path);
+  EditedFolder folder(path);
   const bool is_crowd = is_folder(given);
   GenerateRun run(generate_arguments(job.config, overrides, options), path / "generate.log");
 
   std::mutex opening, answering;
   std::shared_ptr<OpenedJob>
       opened;  // under `answering`; requests to an older one are answered to the end
-  const auto now_opened = [&] {
-    const std::lock_guard its(answering);
-    return opened;
-  };
   std::function<void()> open_again;
   const auto open = [&](Job next) {
-    const auto before = now_opened();
-    auto made = std::make_shared<OpenedJob>(std::move(next), options, path,
-                                            before ? before->folder.marks() : MarkLines(), run,
-                                            !is_crowd, open_again);
+    auto made =
+        std::make_shared<OpenedJob>(std::move(next), options, folder, run, !is_crowd, open_again);
     const std::lock_guard its(answering);
     opened = std::move(made);
   };
@@ -114,6 +107,10 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
     open(load_edited_job(given, overrides, options.cache));
   };
   open(std::move(job));
+  const auto now_opened = [&] {
+    const std::lock_guard its(answering);
+    return opened;
+  };
   LocalServer server([&](const HttpRequest& request) { return now_opened()->api.answer(request); },
                      options.port);
   lock.tell(server.address());

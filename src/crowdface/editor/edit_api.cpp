@@ -25,7 +25,9 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
       worn_(session.job(), session.crowd()),
-      painting_(session, folder.path() / "strokes.jsonl") {}
+      painting_(session, folder.path() / "strokes.jsonl") {
+  folder_.finish_saves(session_.job(), mesh_writer());
+}
 
 HttpAnswer EditApi::answer(const HttpRequest& request) {
   struct Route {

@@ -49,6 +49,7 @@ class EditApi {
   // What is painted.
   Handler paint_masks, undo_masks, save_masks, use_regions;
   HttpAnswer painted_masks() const;
+  EditedFolder::WriteMesh mesh_writer();
   /// Where masks can be written beside those that the config names.
   std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;

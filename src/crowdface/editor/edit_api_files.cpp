@@ -12,6 +12,7 @@
 #include "crowdface/io/shallow_json.h"
 #include "crowdface/page/answer_request.h"
 #include "crowdface/page/binary_answer.h"
+#include "crowdface/run/write_face.h"
 
 namespace crowdface {
 namespace {
@@ -58,6 +59,13 @@ HttpAnswer EditApi::keep_state(const HttpRequest& request, const std::string&) {
   return json_answer(Json::object());
 }
 
+EditedFolder::WriteMesh EditApi::mesh_writer() {
+  return [this](const CastFace& face, MeshFormat format, const std::filesystem::path& file) {
+    write_face(session_.job(), pictures_.textures(), face, format, session_.build(face.recipe),
+               file);
+  };
+}
+
 HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   const Json body = body_of(request);
   const CastFace face = face_of(body);
@@ -70,8 +78,7 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   const std::lock_guard lock(building_);
   require_masks_of_config();
   painting_.apply();
-  return json_answer(
-      file_json(folder_.save(face, *format, session_.build(face.recipe), pictures_.textures())));
+  return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));
 }
 
 HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
@@ -107,6 +114,7 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
 }
 
 HttpAnswer EditApi::generate(const HttpRequest&, const std::string&) {
+  folder_.require_same();
   run_.start();
   return json_answer(Json::object(), 202);
 }
@@ -156,7 +164,7 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
       throw UsageError(concat("note: expected at most ", kLongestNote, " bytes"));
     }
   }
-  return json_answer(file_json(folder_.save_mark(mark)));
+  return json_answer(file_json(folder_.save_mark(session_.job().config, mark)));
 }
 
 HttpAnswer EditApi::painted_masks() const {
@@ -177,18 +185,21 @@ void EditApi::require_masks_of_config() const {
 HttpAnswer EditApi::paint_masks(const HttpRequest& request, const std::string&) {
   const Json body = body_of(request);
   const std::lock_guard lock(building_);
+  folder_.require_same();
   painting_.stroke(body);
   return painted_masks();
 }
 
 HttpAnswer EditApi::undo_masks(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(building_);
+  folder_.require_same();
   painting_.undo();
   return painted_masks();
 }
 
 HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(building_);
+  folder_.require_same();
   Json files = Json::array();
   for (const auto& file : painting_.save(painting_.regions({}), unused_masks())) {
     files.push_back(file.string());
@@ -210,6 +221,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
   const Json body = body_of(request);
   {
     const std::lock_guard lock(building_);
+    folder_.require_same();
     const PaintedRegions regions = painting_.regions(body);
     put_regions(session_.job().config.file, regions.names, painting_.save(regions, unused_masks()));
     painting_.forget();

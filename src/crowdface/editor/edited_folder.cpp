@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edited_folder.h"
 
+#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/edited_entries.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/run/write_face.h"
 
 namespace crowdface {
 namespace {
@@ -23,6 +25,10 @@ std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& 
   return concat("  ", entry(write_scalar(mark.id), flow_map(entries)), '\n');
 }
 
+/// The name of a file that is there while a face is being saved; it holds the ending of the mesh's file.
+constexpr std::string_view kSaving = ".saving-";
+constexpr const char* kPlan = "edited.jsonl";
+
 /// The lines of a plan but for the one with that id.
 std::string other_lines(const fs::path& plan, const std::string& id, const PlanNames& names) {
   if (!is_there(plan)) return {};
@@ -35,6 +41,15 @@ std::string other_lines(const fs::path& plan, const std::string& id, const PlanN
   return lines;
 }
 
+/// Gives a plan its former lines again, if the disk lets it.
+void take_back(const fs::path& plan, const std::string& lines) {
+  try {
+    write_file(plan, lines);
+  } catch (const RecoverableError& error) {
+    log_warning(error.what());
+  }
+}
+
 }  // namespace
 
 fs::path make_edited_folder(const Config& config) {
@@ -44,8 +59,7 @@ fs::path make_edited_folder(const Config& config) {
   return path;
 }
 
-EditedFolder::EditedFolder(const Job& job, fs::path path, MarkLines marks)
-    : job_(job), path_(std::move(path)), marks_(std::move(marks)) {
+EditedFolder::EditedFolder(fs::path path) : path_(std::move(path)), held_(path_) {
   remove_leftovers(path_);
 }
 
@@ -64,43 +78,85 @@ std::string EditedFolder::state() const {
 
 void EditedFolder::keep_state(std::string_view text) {
   const std::lock_guard lock(mutex_);
+  require_same();
   write_file(path_ / "state.json", text);
 }
 
-fs::path EditedFolder::save(const CastFace& face, MeshFormat format, const Positions& positions,
-                            const FaceTextures& textures) {
+void EditedFolder::write_meshes(const CastFace& face, const std::string& ending,
+                                const WriteMesh& write) const {
+  for (const MeshFormat format : all_mesh_formats()) {
+    const fs::path mesh = path_ / concat(face.id, extension_of(format));
+    if (extension_of(format) == ending || is_there(mesh)) write(face, format, mesh);
+  }
+}
+
+fs::path EditedFolder::save(const Job& job, const CastFace& face, MeshFormat format,
+                            const WriteMesh& write) {
   const std::lock_guard lock(mutex_);
-  const fs::path plan = path_ / "edited.jsonl";
-  const std::string others = other_lines(plan, face.id, job_.names);
-  fs::path mesh = path_ / concat(face.id, extension_of(format));
-  write_face(job_, textures, face, format, positions, mesh);
-  write_file(plan, others + format_recipe(face, job_.names, job_.settings) + '\n');
-  return mesh;
+  require_same();
+  const fs::path plan = path_ / kPlan, saving = path_ / concat(kSaving, face.id);
+  const std::string ending(extension_of(format));
+  const std::string before = other_lines(plan, "", job.names);
+  const std::string others = other_lines(plan, face.id, job.names);
+  write_file(saving, ending);
+  write_file(plan, others + format_recipe(face, job.names, job.settings) + '\n');
+  try {
+    write_meshes(face, ending, write);
+  } catch (...) {
+    take_back(plan, before);
+    throw;
+  }
+  remove_if_there(saving);
+  return path_ / concat(face.id, ending);
+}
+
+void EditedFolder::finish_saves(const Job& job, const WriteMesh& write) {
+  const std::lock_guard lock(mutex_);
+  for (const fs::path& saving : list_folder(path_)) {
+    const std::string name = saving.filename().string();
+    if (!name.starts_with(kSaving)) continue;
+    try {
+      const fs::path plan = path_ / kPlan;
+      const std::vector<PlanLine> lines =
+          is_there(plan) ? read_plan(plan, job.names) : std::vector<PlanLine>();
+      for (const PlanLine& line : lines) {
+        if (line.face.id != name.substr(kSaving.size())) continue;
+        write_meshes(line.face, read_file(saving), write);
+      }
+      remove_if_there(saving);
+    } catch (const RecoverableError& error) {
+      log_warning(concat(saving.string(), ": a face was not saved to the end: ", error.what()));
+    }
+  }
 }
 
 void EditedFolder::save_picture(const std::string& name, std::string_view png) {
   const std::lock_guard lock(mutex_);
+  require_same();
   write_file(path_ / (name + ".png"), png);
 }
 
-fs::path EditedFolder::save_mark(const ReviewMark& mark) {
+fs::path EditedFolder::save_mark(const Config& config, const ReviewMark& mark) {
   const std::lock_guard lock(mutex_);
-  MarkLines marks = marks_;
-  marks[mark.id] = format_mark(mark, job_.config.part_names());
-  std::string text = "schema: 1\nfaces:\n";
-  for (const auto& [id, line] : marks) text += line;
+  require_same();
   fs::path file = path_ / "review.yaml";
   Problems problems;
-  check_review(text, file.string(), job_.config, problems);
+  Review review;
+  if (is_there(file)) review = parse_review(read_file(file), file.string(), config, problems);
+  problems.throw_if_any();
+  const auto known = std::ranges::find(review, mark.id, &ReviewMark::id);
+  if (known == review.end()) {
+    review.push_back(mark);
+  } else {
+    *known = mark;
+  }
+  const std::vector<std::string> parts = config.part_names();
+  std::string text = "schema: 1\nfaces:\n";
+  for (const ReviewMark& one : review) text += format_mark(one, parts);
+  parse_review(text, file.string(), config, problems);
   problems.throw_if_any();
   write_file(file, text);
-  marks_ = std::move(marks);
   return file;
-}
-
-MarkLines EditedFolder::marks() {
-  const std::lock_guard lock(mutex_);
-  return marks_;
 }
 
 }  // namespace crowdface

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "crowdface/cast/review.h"
-#include "crowdface/heads/face_textures.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/run/pipeline.h"
 
 namespace crowdface {
@@ -18,43 +18,45 @@ namespace crowdface {
 /// \throws CannotCreate, also if it is a link that leads out of the output folder.
 std::filesystem::path make_edited_folder(const Config& config);
 
-/// Lines of a review, by the face's id.
-using MarkLines = std::map<std::string, std::string>;
-
-/// What an editor leaves behind. Every file is whole or not there, whenever the editor is killed. Any thread may ask.
+/// What an editor leaves behind, for as long as it runs. Every file is whole or not there, whenever the editor is killed.
+/// Any thread may ask. Everything that writes throws IoError if another folder has taken this one's place.
 class EditedFolder {
  public:
   /// The formats in which it saves meshes, by their files' endings: "obj".
   static std::vector<std::string> formats();
 
-  /// \param job    must outlive this object
-  /// \param path   see make_edited_folder
-  /// \param marks  what this editor has said about faces before it opened the job again
-  EditedFolder(const Job& job, std::filesystem::path path, MarkLines marks);
+  /// \param path  see make_edited_folder
+  explicit EditedFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
+  /// To be called before something else is written there.
+  void require_same() const { held_.require_same(); }
 
   /// What the page last kept, as it gave it; empty: nothing yet.
   std::string state() const;
   void keep_state(std::string_view text);
 
-  /// Writes the mesh, then its recipe among those of edited.jsonl, in place of one with the same id:
-  /// `crowdface blend` makes the same file from that line.
-  /// \param textures   blends those of the face's own, or null
+  /// Writes the mesh of a face in one format.
+  using WriteMesh =
+      std::function<void(const CastFace&, MeshFormat, const std::filesystem::path& file)>;
+  /// Writes the recipe among those of edited.jsonl, in place of one with the same id, then the mesh that
+  /// `crowdface blend` makes of it, also in the other formats in which the face lies there.
   /// \return the file
-  std::filesystem::path save(const CastFace& face, MeshFormat format, const Positions& positions,
-                             const FaceTextures& textures);
+  std::filesystem::path save(const Job& job, const CastFace& face, MeshFormat format,
+                             const WriteMesh& write);
+  /// Writes the meshes that a save left older than their recipe, because the editor was killed or the disk failed.
+  void finish_saves(const Job& job, const WriteMesh& write);
   void save_picture(const std::string& name, std::string_view png);
-  /// Writes the mark among those of review.yaml that this editor made, in place of one about the same
-  /// face. \throws Error if a config would refuse it.
-  std::filesystem::path save_mark(const ReviewMark& mark);
-  MarkLines marks();
+  /// Writes the mark among those of review.yaml, in place of one about the same face.
+  /// \throws Error if a config would refuse the marks that are there, or this one.
+  std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
 
  private:
-  const Job& job_;
+  void write_meshes(const CastFace& face, const std::string& ending, const WriteMesh& write) const;
+
   std::filesystem::path path_;
+  HeldFolder held_;
   std::mutex mutex_;
-  MarkLines marks_;
 };
 
 }  // namespace crowdface

@@ -57,6 +57,11 @@ RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path
     : session_(session),
       mean_(shape_of_mean(session.job().inputs.faces)),
       strokes_(strokes, ground_of(session)) {
+  replay();
+}
+
+void RegionPainting::replay() {
+  painter_.reset();
   try {
     for (const Json& stroke : strokes_.strokes()) {
       if (!stroke.contains(kUndo)) {
@@ -66,7 +71,17 @@ RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path
       }
     }
   } catch (const UsageError& error) {  // somebody edited the file
-    log_warning(concat(strokes.string(), ": ", error.what(), "; what follows is left out"));
+    log_warning(concat(strokes_.file().string(), ": ", error.what(), "; what follows is left out"));
+  }
+}
+
+void RegionPainting::keep(const Json& step) {
+  try {
+    strokes_.add(step);
+  } catch (...) {  // the masks are again what the file says
+    replay();
+    painted_ = true;
+    throw;
   }
 }
 
@@ -126,14 +141,14 @@ void RegionPainting::paint(const Json& body) {
 
 void RegionPainting::stroke(const Json& body) {
   paint(body);
-  strokes_.add(body);
+  keep(body);
 }
 
 void RegionPainting::undo() {
   if (!painted()) throw UsageError("nothing is painted that could be taken back");
   painter().undo();
   painted_ = true;
-  strokes_.add({{kUndo, true}});
+  keep({{kUndo, true}});
 }
 
 std::vector<float> RegionPainting::masks() const {

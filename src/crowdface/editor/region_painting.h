@@ -63,6 +63,10 @@ class RegionPainting {
   SurfacePoint place_of(const nlohmann::ordered_json& point);
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
+  /// Paints all strokes of the file.
+  void replay();
+  /// Adds what was just painted to the file; if that fails it is not painted either.
+  void keep(const nlohmann::ordered_json& step);
 
   EditSession& session_;
   HeadShape mean_;

@@ -51,7 +51,12 @@ void StrokeLog::add(const Json& stroke) {
     write_file(file_, lines);
     open_ = std::make_unique<AppendFile>(file_);
   }
-  open_->append(stroke.dump() + '\n');
+  try {
+    open_->append(stroke.dump() + '\n');
+  } catch (...) {  // a part of the line may be there: the next stroke writes the file anew
+    open_.reset();
+    throw;
+  }
   strokes_.push_back(stroke);
 }
 

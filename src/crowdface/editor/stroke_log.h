@@ -21,7 +21,8 @@ class StrokeLog {
 
   /// In their order, as `add` was given them.
   const std::vector<nlohmann::ordered_json>& strokes() const { return strokes_; }
-  /// \throws CannotCreate, IoError.
+  const std::filesystem::path& file() const { return file_; }
+  /// \throws CannotCreate, IoError: then the file does not hold it.
   void add(const nlohmann::ordered_json& stroke);
   /// The masks hold them.
   void clear();
