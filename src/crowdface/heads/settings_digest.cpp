@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/settings_digest.h"
 
+#include <filesystem>
+#include <set>
 #include <span>
 
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/units.h"
 
@@ -45,6 +49,21 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
     hasher.add(kMirrorVersion).add(config.faces.up.index).add(config.faces.front.index);
   }
   return hasher.digest();
+}
+
+Digest materials_digest(const Inputs& inputs) {
+  const bool has_colours = inputs.textures.digest != Digest();
+  std::set<std::filesystem::path> known;  // heads mostly share theirs
+  Hasher hasher;
+  for (const ObjFile& head : inputs.files) {
+    for (const MaterialFile& file : find_material_files(head.path, head.material_libraries).files) {
+      const bool is_hashed = file.kind && (*file.kind != TextureKind::kColour || has_colours);
+      if (is_hashed || !known.insert(file.from).second) continue;
+      throw_if_interrupted();
+      hasher.add(file.relative.generic_string()).add(hash_file(file.from).digest);
+    }
+  }
+  return known.empty() ? Digest() : hasher.digest();
 }
 
 }  // namespace crowdface

@@ -20,6 +20,7 @@
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/output_check.h"
 #include "crowdface/run/planned.h"
+#include "crowdface/run/report.h"
 #include "crowdface/run/resume.h"
 
 namespace crowdface {
@@ -56,9 +57,10 @@ void add_text(const TextPieces& text, Hasher& hasher) {
 Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
-  hasher.add(kSheetVersion).add(job.settings).add(job.inputs.textures.digest);
-  if (!job.inputs.colours.empty()) hasher.add(job.inputs.colours_digest);
-  for (const HeadTextures& maps : job.inputs.maps) hasher.add(maps.digest);
+  hasher.add(kSheetVersion).add(job.settings);
+  for (const auto& [name, digest] : digests_beside_heads(job.inputs)) {
+    hasher.add(name).add(digest);
+  }
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
   try {

@@ -8,6 +8,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
+#include "crowdface/heads/settings_digest.h"
 #include "crowdface/pictures/gallery_page.h"
 #include "crowdface/run/mesh_judge.h"
 
@@ -33,7 +34,7 @@ Digest digest_of_common(const Job& job) {
   if (!inputs.attachments.empty()) hasher.add(kAttachmentsVersion).add(inputs.attachments.digest);
   if (!inputs.levels.empty()) hasher.add(kLevelsVersion);
   if (has_own_textures(inputs)) hasher.add(kTextureVersion);
-  hasher.add(inputs.textures.digest);
+  hasher.add(inputs.textures.digest).add(materials_digest(inputs));
   if (!inputs.colours.empty()) hasher.add(inputs.colours_digest);
   for (const HeadTextures& maps : inputs.maps) {
     hasher.add(static_cast<int>(maps.names.front().kind)).add(maps.digest);

@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
+#include "crowdface/heads/settings_digest.h"
 #include "crowdface/io/shallow_json.h"
 #include "crowdface/smooth/level_size.h"
 
@@ -232,9 +233,13 @@ Json read_report_summary(const std::filesystem::path& file) {
 
 std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
   std::vector<std::pair<std::string, Digest>> digests = {
-      {"textures", inputs.textures.digest}, {"colours at vertices", inputs.colours_digest},
-      {"shapes", inputs.shapes_digest},     {"points", inputs.points_digest},
-      {"rig", inputs.rig.digest},           {"attachments", inputs.attachments.digest}};
+      {"materials", materials_digest(inputs)},
+      {"textures", inputs.textures.digest},
+      {"colours at vertices", inputs.colours_digest},
+      {"shapes", inputs.shapes_digest},
+      {"points", inputs.points_digest},
+      {"rig", inputs.rig.digest},
+      {"attachments", inputs.attachments.digest}};
   for (const HeadTextures& maps : inputs.maps) {
     const TextureKind kind = maps.names.front().kind;
     digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);
