@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A template's rig on the faces of a crowd.
 #include <cmath>
+#include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,6 +98,32 @@ class RigOfACrowd : public ::testing::Test {
 
   SmallCrowdFolder folder_;
 };
+
+// A rig whose matrices are zero, or make the mesh tiny and far away, was found out by the faces made with it.
+TEST_F(RigOfACrowd, ThatDoesNotStandWhereHeadsDoIsRefused) {
+  const std::string bytes = testing::read_text(rig());
+  const auto scene = testing::read_glb(rig()).scene;
+  const auto& accessor =
+      scene.at("accessors")
+          .at(scene.at("skins").at(0).at("inverseBindMatrices").get<std::size_t>());
+  const auto& view = scene.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+  std::uint32_t json = 0;
+  std::memcpy(&json, bytes.data() + 12, sizeof json);
+  const std::size_t at = 28 + json + view.value("byteOffset", std::size_t{0}) +
+                         accessor.value("byteOffset", std::size_t{0});
+  for (const auto& [scale, shift] : {std::pair{0.0F, 0.0F}, {1e-5F, 1e5F}, {1.0F, 1e5F}}) {
+    std::string other = bytes;
+    for (std::size_t i = 0; i < 32; ++i) {
+      float value = 0;
+      std::memcpy(&value, &other[at + 4 * i], sizeof value);
+      value = i % 16 == 12 ? scale * value + shift : i % 16 == 15 ? value : scale * value;
+      std::memcpy(&other[at + 4 * i], &value, sizeof value);
+    }
+    write_file(rig(), other);
+    testing::expect_error(ExitCode::kBadData, {"rig.glb", "mm"},
+                          [&] { load_job(folder_.config(), {}, folder_.cache()); });
+  }
+}
 
 TEST_F(RigOfACrowd, StandsOnTheTemplateAsItWas) {
   run();

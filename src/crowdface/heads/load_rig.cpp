@@ -134,6 +134,25 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
                      "the rig of one of them, at rest"));
 }
 
+/// \throws InvalidInput unless the rig's mesh is about as large as the heads and stands near them.
+void require_near_heads(const Fit& fit, const Config& config, const Inputs& inputs) {
+  constexpr double kLargest = 2, kFarthest = 10;
+  const auto size_of = [](const Positions& mesh) {
+    return (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).norm();
+  };
+  const Positions& head = inputs.faces.heads.front().positions;
+  const double heads = size_of(head), size = size_of(fit.mesh);
+  const double off = (fit.mesh.colwise().mean() - head.colwise().mean()).norm();
+  if (size <= kLargest * heads && heads <= kLargest * size && off <= kFarthest * heads) return;
+  const double mm = mm_per(config.faces.units);
+  refuse_file(config.rig,
+              concat("as its joints hold it, its mesh is ", format_fixed(size * mm, 1),
+                     " mm across and ", format_fixed(off * mm, 1), " mm off the heads, which are ",
+                     format_fixed(heads * mm, 1),
+                     " mm across; expected the rig of a head at rest (its inverse bind matrices "
+                     "and joints say where the mesh stands)"));
+}
+
 /// A joint's axes in the heads'. \throws InvalidInput if their lengths differ.
 Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
   constexpr double kAlike = 1e-3;
@@ -198,10 +217,10 @@ void load_rig(const Config& config, Inputs& inputs, Problems& problems) {
       refuse_file(config.rig,
                   concat("expected at most ", kMostJoints, " joints, found ", file.joints.size()));
     }
-    inputs.rig = bind(file,
-                      file.vertex_ids.empty() ? fit_by_place(file, config, inputs)
-                                              : fit_by_id(file, config, inputs),
-                      config);
+    Fit fit = file.vertex_ids.empty() ? fit_by_place(file, config, inputs)
+                                      : fit_by_id(file, config, inputs);
+    require_near_heads(fit, config, inputs);
+    inputs.rig = bind(file, std::move(fit), config);
     inputs.rig.digest = digest_of_rig(inputs.rig);
   } catch (const RecoverableError& error) {
     problems.add(error);
