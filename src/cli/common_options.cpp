@@ -18,6 +18,7 @@
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/io/mesh_format.h"
 
 namespace crowdface::cli {
 namespace {
@@ -141,6 +142,11 @@ std::uint64_t bytes_from(std::string_view option, const std::string& text) {
         concat(option, ": expected a size with its unit, such as \"4 GiB\", found ", quoted(text)));
   }
   return *given;
+}
+
+void require_obj_output(const std::string& out) {
+  if (mesh_format_of(out) == MeshFormat::kObj) return;
+  throw UsageError(concat("--output: expected a file name that ends in .obj, found ", quoted(out)));
 }
 
 void print(std::string_view text) {

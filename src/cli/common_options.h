@@ -71,6 +71,9 @@ Shard shard_from(const std::string& text);
 /// \param option  for messages. \throws UsageError.
 std::uint64_t bytes_from(std::string_view option, const std::string& text);
 
+/// \throws UsageError unless the name of `--output` ends in .obj.
+void require_obj_output(const std::string& out);
+
 /// Writes the result of a command to standard output, with control characters escaped as in logs.
 void print(std::string_view text);
 

@@ -9,7 +9,6 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/mesh_format.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/iterate.h"
@@ -48,10 +47,7 @@ std::filesystem::path output_of(const SmoothOptions& options, std::uint64_t leve
 
 void smooth_file(const SmoothOptions& options) {
   const std::vector<std::uint64_t> levels = levels_of(options.iterations);
-  if (mesh_format_of(options.out) != MeshFormat::kObj) {
-    throw UsageError(
-        concat("--output: expected a file name that ends in .obj, found ", quoted(options.out)));
-  }
+  require_obj_output(options.out);
   std::vector<std::filesystem::path> outputs;
   for (const std::uint64_t level : levels) {
     outputs.push_back(output_file(output_of(options, level, levels.size() == 1)));

@@ -49,6 +49,7 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
 
 std::vector<Task> tasks_of(const WrapOptions& options) {
   if (options.batch.empty()) {
+    require_obj_output(options.out);
     const fs::path head = output_file(options.out);
     return {make_task(options.scan, head, head.parent_path())};
   }

@@ -57,6 +57,15 @@ TEST_F(Outputs, InputsAreNotWrittenOver) {
   EXPECT_EQ(read_text(folder_ / ("masks/" + region + ".png")), read_text(folder_ / "mask_0.png"));
 }
 
+// A mesh was written over a mask.
+TEST_F(Outputs, AMeshIsNotWrittenUnderAPicturesName) {
+  crowdface(
+      64,
+      {"wrap", folder_.head("ann").string(), folder_.head("bob").string(), "-o", at("mask_0.png")},
+      {".obj"});
+  expect_nothing_changed();
+}
+
 // A head became a config, a scan its own smoothing.
 TEST_F(Outputs, NorAreThoseOfInitAndSmooth) {
   const std::string head = folder_.head("ann").string();

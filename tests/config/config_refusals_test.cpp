@@ -54,6 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
     Colours, WrongConfig,
     testing::Values(
         Wrong{"textures: {colours: apart}", "5:21", "recipe or drawn"},
+        Wrong{"points: rig.yaml/", "5:9", "does not end in '/'"},
         Wrong{"textures: {blend: target, colours: drawn}", "5:36", "blend must be auto"},
         Wrong{"textures: {alike: []}", "5:19", "goes with colours: drawn"},
         Wrong{"textures: {colours: drawn, alike: [amn]}", "5:35", "no head has the tag \"amn\""},

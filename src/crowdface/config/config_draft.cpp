@@ -16,6 +16,10 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what) {
+  if (node.text.ends_with('/')) {
+    draft.complaints.expected(node, "the name of a file, which does not end in '/'");
+    return false;
+  }
   if (is_there(file)) return true;
   draft.complaints.about(node, concat(what, quoted(file.string()), " is missing"),
                          ExitCode::kMissingInput);
