@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into the program: one call of one kind fails, whoever makes it, our code, the C++ library or any
 // other. FAULT_CALL names the kind, FAULT_AT its number, counted from the program's first call of signal(),
-// with which main begins; FAULT_COUNT a file for how many there were.
+// with which main begins; FAULT_COUNT a file for how many there were. With FAULT_FOREVER all calls from that number on
+// fail. FAULT_VANISHES names a file that is removed after each look at it.
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -30,10 +31,14 @@ namespace {
 std::atomic<bool> begun = false;
 std::atomic<unsigned long> seen = 0;
 const char* kind = nullptr;
+const char* vanishing = nullptr;
 unsigned long fail_at = 0;
+bool forever = false;
 
 bool fails(const char* call, int error) {
-  if (!begun || std::strcmp(call, kind) != 0 || seen++ != fail_at) return false;
+  if (!begun || std::strcmp(call, kind) != 0) return false;
+  const unsigned long number = seen++;
+  if (number < fail_at || (number > fail_at && !forever)) return false;
   errno = error;
   return true;
 }
@@ -69,6 +74,8 @@ sighandler_t signal(int number, sighandler_t handler) {
     kind = variable("FAULT_CALL");
     const char* at = variable("FAULT_AT");
     fail_at = at != nullptr ? std::strtoul(at, nullptr, 10) : ~0UL;
+    forever = variable("FAULT_FOREVER") != nullptr;
+    vanishing = variable("FAULT_VANISHES");
     if (kind != nullptr) {
       std::atexit(tell_count);
       begun = true;
@@ -123,6 +130,19 @@ std::size_t fread(void* to, std::size_t size, std::size_t count, FILE* file) {
 int fstat(int fd, struct stat* status) noexcept {
   static auto* const real = next(&fstat, "fstat");
   return fails("fstat", EIO) ? -1 : real(fd, status);
+}
+
+int stat(const char* path, struct stat* status) noexcept {
+  static auto* const real = next(&stat, "stat");
+  if (fails("stat", EIO)) return -1;
+  const int result = real(path, status);
+  if (result == 0 && vanishing != nullptr && std::strcmp(path, vanishing) == 0) ::unlink(path);
+  return result;
+}
+
+int lstat(const char* path, struct stat* status) noexcept {
+  static auto* const real = next(&lstat, "lstat");
+  return fails("lstat", EIO) ? -1 : real(path, status);
 }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*body)(void*),

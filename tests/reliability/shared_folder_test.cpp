@@ -10,6 +10,7 @@
 #include "crowdface/crowd/crowd_directory.h"
 
 #include "reliability/crowd_under_test.h"
+#include "support/program.h"
 
 namespace crowdface::testing {
 namespace {
@@ -93,6 +94,19 @@ TEST_F(SharedFolder, WaitingEndsAtASignal) {
   });
   EXPECT_EQ(outcome.code, 75) << outcome.message;
   EXPECT_FALSE(fs::exists(folder_.out() / "plan.jsonl"));
+}
+
+// The lock's file was looked at twice; where the run before removed it between the two, this one ended with 73.
+TEST_F(SharedFolder, ALockThatVanishesIsNoObstacle) {
+  fs::create_directories(folder_.out());
+  const fs::path lock = CrowdDirectory{folder_.out()}.lock();
+  folder_.folder().write("out/.crowdface.lock", "");
+  const Outcome outcome = run_program(
+      "/usr/bin/env", {concat("LD_PRELOAD=", CROWDFACE_LIBRARY_FAULTS), "FAULT_CALL=none",
+                       "FAULT_VANISHES=" + lock.string(), CROWDFACE_PROGRAM, "generate", "-q",
+                       folder_.config().string(), "--cache", folder_.cache().string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(differences(), ::testing::IsEmpty());
 }
 
 }  // namespace

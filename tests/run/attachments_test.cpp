@@ -81,6 +81,19 @@ class AttachmentsOfACrowd : public ::testing::Test {
   SmallCrowdFolder folder_;
 };
 
+// Their files stayed when another format held them.
+TEST_F(AttachmentsOfACrowd, LeaveNothingWhenTheFormatIsReplaced) {
+  run({"output.meshes=[obj]"});
+  ASSERT_TRUE(fs::exists(mesh("attachments/cap/cap.mtl")));
+  folder_.folder().write("out/meshes/attachments/cap/maps/hair.png", "altered since");
+  run({"output.meshes=[points]"}, Replace::kForce);
+  std::vector<std::string> left;
+  for (const auto& [name, bytes] : testing::crowd_files(folder_.out() / "meshes")) {
+    if (!name.ends_with(".npy")) left.push_back(name);
+  }
+  EXPECT_THAT(left, ::testing::ElementsAre("attachments/cap/maps/hair.png"));
+}
+
 TEST_F(AttachmentsOfACrowd, LieBesideTheMeshesOfThoseWhoWearThem) {
   run();
   std::size_t with = 0, without = 0;

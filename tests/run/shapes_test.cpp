@@ -68,6 +68,20 @@ std::vector<Record> read_records(const fs::path& path) {
   return records;
 }
 
+// The files of a shape stayed when it was gone.
+TEST_F(ShapesOfACrowd, ThatAreGoneLeaveNoFile) {
+  run("[obj]");
+  const std::string id = testing::plan_lines(folder_.out()).front().at("id");
+  ASSERT_TRUE(fs::exists(mesh(id + "+other.obj")));
+  folder_.folder().write("out/meshes/mine.obj", "somebody's own");
+  fs::remove(folder_ / "shapes/other.obj");
+  run("[obj]");
+  EXPECT_FALSE(fs::exists(mesh(id + "+other.obj")));
+  EXPECT_TRUE(fs::exists(mesh(id + "+still.obj")));
+  EXPECT_TRUE(fs::exists(mesh("mine.obj")));
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+}
+
 TEST_F(ShapesOfACrowd, AreTheSameInEveryFormat) {
   run("[obj, points, glb]");
   const std::string id = testing::plan_lines(folder_.out()).front().at("id");

@@ -7,6 +7,7 @@
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/contains.h"
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
@@ -25,8 +26,10 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
                        ConfigDraft& draft) {
   ShapeFiles shapes;
   for (const fs::path& file : list_heads(folder)) {
-    std::error_code ignored;
-    if (fs::equivalent(file, neutral, ignored)) continue;
+    std::error_code error;
+    const bool is_neutral = fs::equivalent(file, neutral, error);
+    require_look(file, error);
+    if (is_neutral) continue;
     const std::string name = file.stem().string();
     if (!is_name(name)) {
       draft.complaints.about(

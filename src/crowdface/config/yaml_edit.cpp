@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/contains.h"
+#include "crowdface/core/descriptor.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
@@ -89,13 +90,15 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
   if (is_folder(file)) {
     return refuse("expected a config file, found a folder");
   }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return refuse("the config cannot be opened");
   // Read at most a few bytes beyond the limit: YamlText::find_problem then refuses longer files.
   std::string text(input_limits().yaml_bytes + 4, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) return refuse("the config cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  try {
+    const OpenedFile opened = open_for_reading(file);
+    text.resize(read_up_to(opened.descriptor, text.data(), text.size(), file));
+  } catch (const MissingInput&) {
+    return refuse(is_there(file) ? "expected a regular file that can be read"
+                                 : "the config cannot be opened");
+  }
   return parse_yaml(text, file, out);
 }
 

@@ -2,6 +2,7 @@
 #include "crowdface/core/append_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 
 #include "crowdface/core/error.h"
 
@@ -9,8 +10,14 @@ namespace crowdface {
 
 AppendFile::AppendFile(const std::filesystem::path& path)
     : path_(path),
-      file_(::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+      file_(::open(path.c_str(),
+                   O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666)) {
   if (!file_.valid()) throw_with_reason<CannotCreate>(path, "cannot be opened to append");
+  struct stat status {};
+  if (::fstat(file_.get(), &status) != 0) throw_with_reason<IoError>(path, "cannot be looked at");
+  if (!S_ISREG(status.st_mode)) {
+    throw CannotCreate(concat(path.string(), ": expected a regular file, or none yet"));
+  }
 }
 
 void AppendFile::append(std::string_view bytes) {

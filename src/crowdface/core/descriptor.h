@@ -51,14 +51,14 @@ class Descriptor {
   int fd_;
 };
 
+/// Whether a call failed because of the machine (disk, memory, too many open files), not because of the file.
+bool is_machines_fault(int error);
+/// \throws IoError if a look at `path` failed because of the machine.
+void require_look(const std::filesystem::path& path, const std::error_code& error);
+
 /// Whether `path`, with links followed, leads to the open file `file`. False after the file was
-/// removed, renamed or replaced.
-inline bool still_names(const std::filesystem::path& path, const Descriptor& file) {
-  struct stat by_name {
-  }, by_descriptor{};
-  return ::stat(path.c_str(), &by_name) == 0 && ::fstat(file.get(), &by_descriptor) == 0 &&
-         by_name.st_ino == by_descriptor.st_ino && by_name.st_dev == by_descriptor.st_dev;
-}
+/// removed, renamed or replaced. \throws IoError if the machine fails.
+bool still_names(const std::filesystem::path& path, const Descriptor& file);
 
 /// A file opened for reading, with its size in bytes.
 struct OpenedFile {

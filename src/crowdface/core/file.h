@@ -13,7 +13,9 @@
 
 namespace crowdface {
 
-/// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false on error.
+/// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false for a path
+/// that cannot be followed: a folder without search permission, a circle of links, a name that is too long.
+/// \throws IoError if the machine fails, which says nothing about the file.
 bool is_there(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);

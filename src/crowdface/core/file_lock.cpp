@@ -28,6 +28,7 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
   const int operation = (kind == LockKind::kExclusive ? LOCK_EX : LOCK_SH) | LOCK_NB;
   bool told = false;
   for (;;) {
+    throw_if_interrupted();
     if (::flock(file_.get(), operation) == 0) {
       // False if the previous holder has removed this file: then open a new one.
       if (still_names(path, file_)) return;
@@ -39,7 +40,6 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
     }
     if (!told && waiting) waiting();
     told = true;
-    throw_if_interrupted();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }

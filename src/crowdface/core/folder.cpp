@@ -60,8 +60,9 @@ std::vector<fs::path> folders_from(const fs::path& root) {
   std::vector<fs::path> folders = {root};
   for (std::size_t i = 0; i < folders.size(); ++i) {
     for (fs::path& entry : list_folder(folders[i])) {
-      std::error_code ignored;
-      const fs::file_status status = fs::symlink_status(entry, ignored);
+      std::error_code error;
+      const fs::file_status status = fs::symlink_status(entry, error);
+      require_look(entry, error);
       if (fs::is_directory(status)) folders.push_back(std::move(entry));
     }
   }
@@ -72,6 +73,8 @@ bool leads_below(const fs::path& path, const fs::path& folder) {
   std::error_code of_path, of_folder;
   const fs::path way = fs::weakly_canonical(path, of_path)
                            .lexically_relative(fs::weakly_canonical(folder, of_folder));
+  require_look(path, of_path);
+  require_look(folder, of_folder);
   return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
 }
 

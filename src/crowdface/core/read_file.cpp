@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // File tests and reading, declared in file.h, text_pieces.h and descriptor.h.
 #include <algorithm>
+#include <array>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -26,21 +27,46 @@ std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
   }
 }
 
+fs::file_status status_of(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  require_look(path, error);
+  return fs::status_known(status) ? status : fs::file_status(fs::file_type::not_found);
+}
+
 }  // namespace
 
+bool is_machines_fault(int error) {
+  constexpr std::array kFaults = {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, ESTALE, ETIMEDOUT};
+  return std::ranges::find(kFaults, error) != kFaults.end();
+}
+
+void require_look(const fs::path& path, const std::error_code& error) {
+  if (!is_machines_fault(error.value())) return;
+  throw IoError(concat(path.string(), ": cannot be looked at: ", error.message()));
+}
+
+bool still_names(const fs::path& path, const Descriptor& file) {
+  struct stat by_name {
+  }, by_descriptor{};
+  const auto look = [&](int failed) {
+    if (failed != 0) require_look(path, {errno, std::generic_category()});
+    return failed == 0;
+  };
+  return look(::stat(path.c_str(), &by_name)) && look(::fstat(file.get(), &by_descriptor)) &&
+         by_name.st_ino == by_descriptor.st_ino && by_name.st_dev == by_descriptor.st_dev;
+}
+
 bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
+  return fs::exists(status_of(path));
 }
 
 bool is_folder(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
+  return fs::is_directory(status_of(path));
 }
 
 bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
+  return fs::is_regular_file(status_of(path));
 }
 
 void remove_if_there(const fs::path& path) {
@@ -54,10 +80,7 @@ OpenedFile open_for_reading(const fs::path& path) {
     fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (fd < 0 && errno == EINTR);
   if (fd < 0) {
-    // These errors are caused by the machine (disk, memory, too many open files), not by the file.
-    for (const int failure : {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, ESTALE}) {
-      if (errno == failure) throw_with_reason<IoError>(path, "cannot be opened");
-    }
+    if (is_machines_fault(errno)) throw_with_reason<IoError>(path, "cannot be opened");
     throw_with_reason<MissingInput>(path, "cannot be opened");
   }
   struct stat status {};

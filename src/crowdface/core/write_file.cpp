@@ -87,13 +87,17 @@ class TemporaryFile {
     on_their_way_ = written_;
   }
 
-  /// Syncs the file and renames it to its target.
+  /// Syncs and closes the file.
   void finish() {
     if (!sync(file_.get())) fail("writing to disk");
     // Large new files should not displace other data from the page cache.
     if (written_ >= kAtATime) ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
-    const Descriptor lock(::dup(file_.get()));  // keeps the lock after the file is closed
+    lock_ = Descriptor(::dup(file_.get()));  // keeps the lock after the file is closed
     if (!file_.close()) fail("closing");
+  }
+
+  /// Renames the finished file to its target.
+  void take_name() {
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail("renaming into place");
     path_.clear();
   }
@@ -117,7 +121,7 @@ class TemporaryFile {
 
   const fs::path& target_;
   fs::path path_;
-  Descriptor file_{-1};
+  Descriptor file_{-1}, lock_{-1};
   std::size_t written_ = 0;
   std::size_t on_their_way_ = 0;  ///< bytes for which writing back to disk has started
 };
@@ -148,6 +152,7 @@ void write_files(std::span<const FileToWrite> files) {
     folders.insert(folder_of(file.path));
   }
   for (TemporaryFile& temporary : written) temporary.finish();
+  for (TemporaryFile& temporary : written) temporary.take_name();
   for (const fs::path& folder : folders) sync_directory(folder);
 }
 
@@ -171,6 +176,7 @@ FileDigest write_file(const fs::path& path, const TextPieces& text) {
   });
   file.write(pending);
   file.finish();
+  file.take_name();
   sync_directory(folder_of(path));
   return content;
 }

@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
@@ -105,8 +106,8 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   return files;
 }
 
-/// What a crowd's run wrote, by name: other files in the folder are none of ours. (Material files
-/// stay: they are the input's own, and written anew if they are needed.)
+/// What a crowd's run wrote, by name, and what its ledgers name and nobody has altered: other files in the folder are none
+/// of ours.
 void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
@@ -115,10 +116,16 @@ void remove_crowd(const CrowdDirectory& directory) {
         directory.kept_reviews()}) {
     files.insert(files.end(), more.begin(), more.end());
   }
+  for (const fs::path& path : files) remove_file(path);
+  for (const fs::path& ledger : directory.ledgers()) {
+    for (const LedgerEntry& entry : read_ledger(ledger).entries) {
+      for (const LedgerEntry::File& file : entry.files) remove_recorded(directory.root, file);
+    }
+  }
   std::vector<fs::path> folders = crowd_folders(directory);
   std::ranges::reverse(folders);
   for (const std::vector<fs::path>& some :
-       {files, folders, directory.shard_ledgers(), directory.shard_logs(), directory.all_progress(),
+       {folders, directory.shard_ledgers(), directory.shard_logs(), directory.all_progress(),
         record_files(directory)}) {
     for (const fs::path& path : some) remove_file(path);
   }
@@ -126,14 +133,22 @@ void remove_crowd(const CrowdDirectory& directory) {
   remove_file(directory.config());
 }
 
-/// \throws CannotCreate if something stands in the way of a folder or file of the crowd.
+/// \throws CannotCreate if something stands in the way of a folder or file of the crowd. It looks at each once: another
+/// run may remove its lock between two looks.
 void refuse_obstacles(const CrowdDirectory& directory) {
+  const auto stands_at = [](const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    require_look(path, error);
+    return status;
+  };
   for (const fs::path& folder : crowd_folders(directory)) {
-    if (!is_there(folder)) continue;
-    if (!is_folder(folder)) {
+    const fs::file_status found = stands_at(folder);
+    if (!fs::exists(found)) continue;
+    if (!fs::is_directory(found)) {
       throw CannotCreate(concat(folder.string(), ": expected a folder, or nothing"));
     }
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    if (::access(folder.c_str(), W_OK | X_OK) != 0 && errno != ENOENT) {
       throw CannotCreate(concat(folder.string(), ": may not be written to"));
     }
   }
@@ -142,7 +157,8 @@ void refuse_obstacles(const CrowdDirectory& directory) {
                {directory.config(), directory.log(), directory.lock(), directory.sheet(1),
                 directory.sheets() / "index.png", directory.gallery() / kGalleryPageFiles.front()});
   for (const fs::path& file : files) {
-    if (!is_there(file) || is_file(file)) continue;
+    const fs::file_status found = stands_at(file);
+    if (!fs::exists(found) || fs::is_regular_file(found)) continue;
     throw CannotCreate(concat(file.string(), ": expected a file, or nothing"));
   }
 }
@@ -173,8 +189,10 @@ void refuse_links(const CrowdDirectory& directory) {
   for (const fs::path& path : directory.shard_ledgers()) files.push_back(path);
   for (const fs::path& path : directory.shard_logs()) files.push_back(path);
   for (const fs::path& file : files) {
-    std::error_code ignored;
-    if (!fs::is_symlink(file, ignored)) continue;
+    std::error_code error;
+    const bool is_link = fs::is_symlink(fs::symlink_status(file, error));
+    require_look(file, error);
+    if (!is_link) continue;
     throw CannotCreate(concat(file.string(), ": is a link; expected a file of this crowd"));
   }
 }

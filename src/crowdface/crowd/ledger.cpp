@@ -2,12 +2,14 @@
 #include "crowdface/crowd/ledger.h"
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/folder.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/shallow_json.h"
@@ -150,6 +152,17 @@ LedgerLines read_ledger(const fs::path& path, std::string_view item) {
   return std::move(reader.lines);
 }
 
+void remove_recorded(const fs::path& root, const LedgerEntry::File& file) {
+  fs::path path = root / file.name;
+  if (!leads_below(path, root) || !holds(path, file.content)) return;
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
+  do {
+    path = path.parent_path();
+  } while (path != root && fs::remove(path, error));  // only empty folders go
+}
+
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
   return std::all_of(entry.files.begin(), entry.files.end(), [&](const LedgerEntry::File& file) {
     return holds(root / file.name, file.content);
@@ -202,6 +215,14 @@ std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest&
 
 void Ledger::settle_on(LedgerEntry entry) {
   Item& item = items_[entry.item];
+  for (const LedgerEntry& line : item.lines) {
+    for (const LedgerEntry::File& file : line.files) {
+      const auto& files = entry.files;
+      const bool stays =
+          std::ranges::find(files, file.name, &LedgerEntry::File::name) != files.end();
+      if (!stays) replaced_.push_back(file);
+    }
+  }
   item.lines.clear();
   item.lines.push_back(std::move(entry));
   item.done = true;
@@ -312,7 +333,27 @@ void Ledger::give_text(const TakePiece& take) const {
   take(line_with_end({kEndItem, before.digest(), {}, Json(counts).dump()}));
 }
 
+void Ledger::remove_outdated_files() const {
+  std::vector<LedgerEntry::File> outdated = replaced_;
+  for (const auto& [name, item] : items_) {
+    if (item.done) continue;
+    for (const LedgerEntry& line : item.lines) {
+      outdated.insert(outdated.end(), line.files.begin(), line.files.end());
+    }
+  }
+  if (outdated.empty()) return;
+  std::set<std::string_view> kept;
+  for (const auto& [name, item] : items_) {
+    if (!item.done) continue;
+    for (const LedgerEntry::File& file : item.lines.front().files) kept.insert(file.name);
+  }
+  for (const LedgerEntry::File& file : outdated) {
+    if (!kept.contains(file.name)) remove_recorded(root_, file);
+  }
+}
+
 void Ledger::settle() {
+  remove_outdated_files();
   const TextPieces text = [&](const TakePiece& take) { give_text(take); };
   if (grown_ || !holds(own_, digest_of(text))) write_file(own_, text);
   for (const fs::path& other : others_) {

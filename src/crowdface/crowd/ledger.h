@@ -58,6 +58,10 @@ LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item
 /// Whether all files of an entry stand in the folder as they were written.
 bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
 
+/// Removes a file of a crowd that still has the bytes that were recorded, and folders that are empty then. Others, and
+/// what lies outside the crowd's folder, stay. \throws IoError.
+void remove_recorded(const std::filesystem::path& root, const LedgerEntry::File& file);
+
 /// What is done in a crowd's folder, so that another run can go on. Lines are appended while the
 /// run lasts; in the end the ledger is put in order, and then the same crowd has the same ledger.
 /// Any thread may ask and record.
@@ -95,7 +99,7 @@ class Ledger {
              const std::vector<std::string>& folders);
 
   /// Puts the ledger in order: what this run found proven or recorded, sorted by item, and nothing
-  /// else; the others are removed.
+  /// else; the other ledgers are removed, and the files that only older lines name.
   void settle();
 
   /// To be asked before a run says that it is done. \throws IoError if a file that this run found
@@ -110,6 +114,7 @@ class Ledger {
   };
 
   void settle_on(LedgerEntry entry);
+  void remove_outdated_files() const;
   std::vector<LedgerEntry::File> files_now(const std::vector<std::string>& names) const;
   void adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
   void give_text(const TakePiece& take) const;
@@ -117,7 +122,8 @@ class Ledger {
   std::filesystem::path root_, own_;
   std::vector<std::filesystem::path> others_;
   std::map<std::string, Item> items_;
-  bool grown_ = false;  ///< whether lines were appended
+  std::vector<LedgerEntry::File> replaced_;  ///< of lines that others took the place of
+  bool grown_ = false;                       ///< whether lines were appended
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;
 };

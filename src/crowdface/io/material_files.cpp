@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/input_limits.h"
@@ -138,6 +139,7 @@ class Collector {
       return refuse("is missing; OBJ files name it all the same, pictures do without");
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
+      require_look(folder_ / relative, {errno, std::generic_category()});
       return refuse("cannot be read and is not copied");
     }
     if (!leads_below(folder_ / relative, folder_)) {
@@ -155,7 +157,9 @@ class Collector {
     files_.files.back().is_library = true;
     const fs::path file = folder_ / name;
     std::error_code error;
-    if (fs::file_size(file, error) > kLargestMaterialFile || error) return;
+    const bool is_too_large = fs::file_size(file, error) > kLargestMaterialFile;
+    require_look(file, error);
+    if (is_too_large || error) return;
     textures_of_.clear();
     std::string material;
     const std::string text = read_file(file);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/file.h"
 #include "crowdface/crowd/crowd_directory.h"
 
@@ -18,6 +19,7 @@ std::optional<fs::path> gallery_page_folder() {
   }
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  require_look("/proc/self/exe", error);
   if (error) return std::nullopt;
   return program.parent_path().parent_path() / "share/crowdface/gallery";
 }
@@ -25,9 +27,8 @@ std::optional<fs::path> gallery_page_folder() {
 std::optional<fs::path> find_gallery_page() {
   auto folder = gallery_page_folder();
   if (!folder) return std::nullopt;
-  std::error_code error;
   for (const std::string_view file : kGalleryPageFiles) {
-    if (!fs::exists(*folder / file, error)) return std::nullopt;
+    if (!is_there(*folder / file)) return std::nullopt;
   }
   return folder;
 }
@@ -39,9 +40,9 @@ bool has_gallery(const Config& config) {
 
 Digest gallery_page_digest(const Config& config) {
   Hasher hasher;
-  if (has_gallery(config)) {
-    const fs::path page = *find_gallery_page();
-    for (const std::string_view file : kGalleryPageFiles) hasher.add(hash_file(page / file).digest);
+  const auto page = has_gallery(config) ? find_gallery_page() : std::nullopt;
+  for (const std::string_view file : kGalleryPageFiles) {
+    if (page) hasher.add(hash_file(*page / file).digest);
   }
   return hasher.digest();
 }

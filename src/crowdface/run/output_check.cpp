@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "crowdface/config/input_files.h"
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
@@ -33,8 +34,10 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
 
 /// With `output.directory: .` beside a config.yaml of the user's, that would be replaced.
 void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
-  std::error_code ignored;
-  if (!fs::equivalent(config.file, directory.config(), ignored)) return;
+  std::error_code error;
+  const bool is_same = fs::equivalent(config.file, directory.config(), error);
+  require_look(directory.config(), error);
+  if (!is_same) return;
   if (is_there(directory.plan())) return;  // it is a crowd's own
   if (read_file(config.file) == config_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
