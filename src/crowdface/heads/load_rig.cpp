@@ -136,14 +136,14 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
 
 /// \throws InvalidInput unless the rig's mesh is about as large as the heads and stands near them.
 void require_near_heads(const Fit& fit, const Config& config, const Inputs& inputs) {
-  constexpr double kLargest = 2, kFarthest = 10;
+  constexpr double kMostTimes = 2, kMostOff = 10;
   const auto size_of = [](const Positions& mesh) {
     return (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).norm();
   };
   const Positions& head = inputs.faces.heads.front().positions;
   const double heads = size_of(head), size = size_of(fit.mesh);
   const double off = (fit.mesh.colwise().mean() - head.colwise().mean()).norm();
-  if (size <= kLargest * heads && heads <= kLargest * size && off <= kFarthest * heads) return;
+  if (size <= kMostTimes * heads && heads <= kMostTimes * size && off <= kMostOff * heads) return;
   const double mm = mm_per(config.faces.units);
   refuse_file(config.rig,
               concat("as its joints hold it, its mesh is ", format_fixed(size * mm, 1),
