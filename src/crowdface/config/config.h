@@ -20,6 +20,7 @@
 #include "crowdface/cast/sampling.h"
 #include "crowdface/core/units.h"
 #include "crowdface/io/mesh_format.h"
+#include "crowdface/io/usd_subdivision.h"
 #include "crowdface/parts/part_options.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/render/surface_kind.h"

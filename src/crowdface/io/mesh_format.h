@@ -53,9 +53,6 @@ struct MeshFormatTraits {
   Positions (*read)(const std::filesystem::path& file, Index vertices);
 };
 
-/// How a USD mesh is to be subdivided when it is shown.
-enum class Subdivision { kNone, kCatmullClark };
-
 const MeshFormatTraits& traits_of(MeshFormat format);
 /// Whether files name the textures of attachments, which then lie beside the meshes.
 inline bool names_attachment_textures(const MeshFormatTraits& format) {

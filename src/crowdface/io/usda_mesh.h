@@ -9,7 +9,7 @@
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_options.h"
-#include "crowdface/io/mesh_format.h"
+#include "crowdface/io/usd_subdivision.h"
 #include "crowdface/io/usda_text.h"
 #include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/displacements.h"
