@@ -119,17 +119,18 @@ export class Turntable extends Stage {
     if (this.wanted !== name) return;
     const { points, normals, roughness } = unpackFace(face.points, this.mesh);
     this.face = { points, normals, worn, shapes: face.moves ? unpackMoves(face.moves, this.mesh) : [] };
-    this.wear(pictures, face.skin?.of_look ?? []);
+    this.wear(pictures, face.skin?.of_look ?? [], face.colours);
     this.object.geometry.setAttribute('rough', new BufferAttribute(roughness ?? this.evenly, 1));
     this.shown = name;
     this.act(this.values);
   }
 
   /// Where a look has a picture its vertices have no colour but the light that reaches them.
-  wear(pictures, ofLook) {
+  /// \param own  the face's colours at vertices; none: those that all faces share.
+  wear(pictures, ofLook, own) {
     for (const picture of this.pictures ?? []) picture.dispose();
     this.pictures = pictures;
-    const colours = this.colours.slice();
+    const colours = own ? linearColours(bytesOf(own)) : this.colours.slice();
     const { groups, index } = this.object.geometry;
     groups.forEach(({ start, count, materialIndex }) => {
       const material = this.materials[materialIndex];

@@ -12,6 +12,7 @@
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/mesh_format.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_writer.h"
@@ -54,12 +55,14 @@ void write_mesh(const FileMesh& mesh, MeshFormat format, const fs::path& out,
   const auto normals = [&] { return vertex_normals(mesh.topology, mesh.positions); };
   const ColourRows colours = byte_colours(mesh.colours);
   switch (format) {
-    case MeshFormat::kObj:
-      if (colours.rows() > 0) {
-        return EncodedFile(with_colours(encode_obj(mesh, {}, mesh.materials).text(), colours))
-            .write(out);
-      }
-      return encode_obj(mesh, {}, mesh.materials).write(out);
+    case MeshFormat::kObj: {
+      const std::string library = mesh.textures.empty()
+                                      ? std::string()
+                                      : write_mesh_textures(mesh, out.parent_path(), name);
+      const EncodedFile plain = encode_obj(mesh, {}, mesh.materials, library);
+      if (colours.rows() == 0) return plain.write(out);
+      return EncodedFile(with_colours(plain.text(), colours)).write(out);
+    }
     case MeshFormat::kPly: {
       const PlyTemplate form(mesh.topology);
       return form.encode(mesh.positions, {}, name, colours).write(out);
@@ -102,10 +105,15 @@ void convert(const ConvertOptions& options) {
   }
   const fs::path out = output_file(options.out);
   refuse_to_write_over({options.in}, {out});
-  if (!options.force && is_there(out)) {
-    throw UsageError(concat(out.string(), ": exists already; --force replaces it"));
-  }
+  const auto refuse_to_replace = [&](const fs::path& file) {
+    if (options.force || !is_there(file)) return;
+    throw UsageError(concat(file.string(), ": exists already; --force replaces it"));
+  };
+  refuse_to_replace(out);
   FileMesh mesh = read_joined_mesh(options.in);
+  if (!mesh.textures.empty() && *format == MeshFormat::kObj) {
+    refuse_to_replace(fs::path(out).replace_extension(".mtl"));
+  }
   if (!options.like.empty()) take_faces(options.like, mesh);
   if (mesh.topology.face_count() == 0 && format != MeshFormat::kPoints) {
     refuse_file(options.in,
@@ -113,8 +121,8 @@ void convert(const ConvertOptions& options) {
                        " points and no face: --like names a mesh with the same vertices"));
   }
   for (const std::string& note : mesh.notes) log_warning(concat(options.in, ": ", note));
-  if (mesh.has_textures) {
-    log_warning(concat(options.in, ": its textures are not carried along"));
+  if (!mesh.textures.empty() && *format != MeshFormat::kObj) {
+    log_warning(concat(options.in, ": its textures are not carried along; OBJ keeps them"));
   }
   if (mesh.colours.rows() > 0 && *format == MeshFormat::kPoints) {
     log_warning(concat(options.in, ": its colours at vertices are not carried along"));
@@ -125,7 +133,8 @@ void convert(const ConvertOptions& options) {
 }
 
 void declare_convert(CLI::App& command, ConvertOptions& options) {
-  add_option(command, "input", options.in, "IN", "A mesh: OBJ, PLY, STL, GLB, glTF, FBX or NumPy")
+  add_option(command, "input", options.in, "IN",
+             "A mesh: OBJ, PLY, STL, GLB, glTF, FBX, USD as text or NumPy")
       .required();
   add_option(command, "-o,--output", options.out, "OUT.{obj,ply,glb,usda,npy}", "The file to write")
       .required();

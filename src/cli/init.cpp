@@ -193,7 +193,7 @@ void init(const InitOptions& options) {
   if (files.size() < kFewestHeads || files.size() > kMostHeads) {
     const std::string left_out = left_out_of_heads(heads);
     throw MissingInput(concat(heads.string(), ": expected ", kFewestHeads, " to ", kMostHeads,
-                              " heads (OBJ, PLY, GLB, glTF, FBX, NumPy), found ", files.size(),
+                              " heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found ", files.size(),
                               left_out.empty() ? "" : "; ", left_out));
   }
   if (const std::string left_out = left_out_of_heads(heads); !left_out.empty()) {

@@ -38,8 +38,8 @@ WantedMask heads_of_folder(const fs::path& folder) {
   WantedMask wanted;
   wanted.faces.files = list_heads(folder);
   if (wanted.faces.files.empty()) {
-    throw MissingInput(
-        concat(folder.string(), ": expected heads (OBJ, PLY, GLB, glTF, FBX, NumPy), found none"));
+    throw MissingInput(concat(
+        folder.string(), ": expected heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found none"));
   }
   for (const fs::path& file : wanted.faces.files) {
     wanted.faces.names.push_back(file.stem().string());

@@ -101,8 +101,8 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 
 /// Returns the landmarks from the files. If these are too few and the pose of the scan is known,
 /// adds landmarks that are detected on the shape.
-/// \param hint  pose of the scan. If empty, and a face is found in the scan's relief, receives the
-///              axes of that face.
+/// \param hint  pose of the scan. Receives the face that is found in the scan's relief, and if it was
+///              empty, the axes of that face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -114,10 +114,12 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
                        "name it with --template-landmarks, or under template in the YAML file"));
   }
   if (landmarks.size() >= kFewestLandmarks) return landmarks;
-  if (!hint) {
-    const auto face = find_scan_face(scan, std::nullopt);
+  auto face = find_scan_face(scan, hint);
+  if (hint) {
+    hint->face = std::move(face);
+  } else {
     if (!face) return landmarks;
-    hint = PoseHint{face->axes.up, face->axes.front};
+    hint = PoseHint{face->axes.up, face->axes.front, face};
     const Bearing bearing = all_bearings()[face->view];
     log_info(concat(task.scan.string(), ": its relief shows a face that looks along ",
                     name_of(bearing.front), " with ", name_of(bearing.up), " up"));
@@ -291,7 +293,7 @@ void declare_wrap(CLI::App& command, WrapOptions& options) {
   add_option(command, "template_file", options.first, "TEMPLATE.obj",
              "The head whose topology the result has");
   add_option(command, "scan_file", options.scan, "SCAN",
-             "The scan, in any unit and pose: OBJ, PLY, STL, GLB, glTF or FBX");
+             "The scan, in any unit and pose: OBJ, PLY, STL, GLB, glTF, FBX or USD");
   add_option(command, "-o,--output", options.out, "OUT",
              "The head to write, or with --batch the folder");
   add_option(command, "--batch", options.batch, "DIR",

@@ -48,7 +48,7 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
   const std::vector<fs::path> files = list_heads(options.model);
   if (files.size() < 2) {
     refuse_file(options.model, concat("expected two heads or more in the template's topology (OBJ, "
-                                      "PLY, GLB, glTF, FBX, NumPy), found ",
+                                      "PLY, GLB, glTF, FBX, USD, NumPy), found ",
                                       files.size()));
   }
   std::vector<Positions> heads;

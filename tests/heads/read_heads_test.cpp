@@ -2,6 +2,7 @@
 // Heads are read once: then the cache knows them, is never trusted when damaged, and sees any change.
 #include "crowdface/heads/read_heads.h"
 
+#include <array>
 #include <functional>
 #include <limits>
 
@@ -10,6 +11,10 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/io/glb_template.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/mesh/normals.h"
 #include "crowdface/run/generate.h"
 #include "crowdface/run/pipeline.h"
 
@@ -277,6 +282,59 @@ TEST_F(SideBySide, AMeshThatIsBadIsToldOfEach) {
   for (const char* name : {"ann.obj:", "bob.obj:", "cyd.obj:"}) {
     EXPECT_THAT(told, ::testing::HasSubstr(name));
   }
+}
+
+/// Heads as GLB files that hold a picture each.
+class TexturedFiles : public ::testing::Test {
+ protected:
+  TexturedFiles() : folder_(crowd()) {
+    for (std::size_t h = 0; h < folder_.names().size(); ++h) {
+      const fs::path obj = folder_.head(folder_.names()[h]);
+      const ObjFile head = read_obj(obj);
+      GlbOptions options;
+      options.unit = LengthUnit::kCentimetre;
+      options.materials = {{.name = "Skin", .image = 0}};
+      options.image_types = {"image/png"};
+      const auto tone = static_cast<std::uint8_t>(60 + 40 * h);
+      const std::string picture = encode_png(8, 8, 3, std::vector<std::uint8_t>(192, tone));
+      const std::array<std::string_view, 1> images = {picture};
+      GlbTemplate(head.topology, head.uvs, options)
+          .encode(head.positions, vertex_normals(head.topology, head.positions), "head", {}, images)
+          .write(fs::path(obj).replace_extension(".glb"));
+      fs::remove(obj);
+      paths_.push_back(fs::path(obj).replace_extension(".glb"));
+    }
+  }
+  static SmallCrowd crowd() {
+    SmallCrowd crowd;
+    crowd.heads = 3;
+    crowd.count = 2;
+    crowd.more = "\noutput: {directory: out, contact_sheet: none, meshes: [obj]}";
+    return crowd;
+  }
+
+  SmallCrowdFolder folder_;
+  std::vector<fs::path> paths_;
+};
+
+TEST_F(TexturedFiles, HaveTheirTexturesAsObjFilesHaveThem) {
+  Problems problems;
+  const std::vector<HeadFile> heads = read_heads(paths_, folder_.cache(), problems);
+  ASSERT_EQ(heads.size(), 3U);
+  for (const HeadFile& head : heads) {
+    const ObjFile& file = head.file;
+    const NamedTextures named = find_textures(file.material_path(), file.material_libraries);
+    EXPECT_TRUE(named.warnings.empty());
+    const auto& of_colour = named.of_kind.at(TextureKind::kColour);
+    ASSERT_TRUE(of_colour.contains("Skin"));
+    EXPECT_EQ(read_image(of_colour.at("Skin")).width, 8);
+    EXPECT_EQ(file.materials.at(0).name, "Skin");
+  }
+  EXPECT_EQ(list_cache(folder_.cache()).entries.size(), 3U);
+  EXPECT_EQ(clear_cache(folder_.cache()), 3U);
+  EXPECT_TRUE(fs::is_empty(folder_.cache()));
+  const std::vector<HeadFile> without = read_heads(paths_, {}, problems);
+  EXPECT_TRUE(without.at(0).file.material_libraries.empty());
 }
 
 }  // namespace

@@ -284,7 +284,7 @@ TEST(ParseGltf, TurnsTextureCoordinatesAsMaterialsAsk) {
   parts.views +=
       R"(,{"buffer":0,"byteOffset":60,"byteLength":32},{"buffer":0,"byteOffset":92,"byteLength":16})";
   parts.more =
-      R"("images":[{"uri":"skin.png"}],"materials":[{"name":"Skin","pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
+      R"("images":[{"uri":"data:image/png;base64,iVBORw=="}],"textures":[{"source":0}],"materials":[{"name":"Skin","pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
       R"("extensions":{"KHR_texture_transform":{"texCoord":1,"offset":[0.25,0.5],"scale":[0.5,0.25]}}}}}],)";
   const FileMesh mesh = mesh_of(parts);
   ASSERT_EQ(mesh.uvs.rows(), 4);
@@ -293,7 +293,14 @@ TEST(ParseGltf, TurnsTextureCoordinatesAsMaterialsAsk) {
   EXPECT_EQ(mesh.colours.row(2), Eigen::RowVector3d(1, 1, 1));
   ASSERT_EQ(mesh.materials.size(), 1U);
   EXPECT_EQ(mesh.materials[0].name, "Skin");
-  EXPECT_TRUE(mesh.has_textures);
+  ASSERT_EQ(mesh.textures.size(), 1U);
+  EXPECT_EQ(mesh.textures[0].material, "Skin");
+  EXPECT_EQ(mesh.textures[0].kind, TextureKind::kColour);
+  EXPECT_EQ(mesh.textures[0].bytes, "\x89PNG");
+  parts.more.replace(parts.more.find("data:"), 30, "skin.png");
+  const FileMesh without = mesh_of(parts);
+  EXPECT_TRUE(without.textures.empty());
+  EXPECT_THAT(without.notes, ::testing::ElementsAre(::testing::HasSubstr("skin.png: is missing")));
 }
 
 TEST(ParseGltf, ReadsStripsAndFans) {
@@ -371,6 +378,7 @@ TEST(ReadMesh, TellsFormatsByWhatTheyHoldAndWhatIsNone) {
   refuse("packed.ply", "PK\x03\x04zip", "ZIP");
   refuse("empty.glb", "", "empty");
   refuse("scene.usdc", "PXR-USDC", "usdcat");
+  refuse("scene.usdz", "PK\x03\x04zip", "usdz");
 }
 
 }  // namespace

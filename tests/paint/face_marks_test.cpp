@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/paint/face_marks.h"
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <random>
@@ -10,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/triangles.h"
 
 #include "paint/synth_heads.h"
@@ -68,16 +71,19 @@ struct Changed {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 };
 
-/// Vertices of each cell of a grid become one: a fine face, a coarse skull and neck, as in trackers' meshes.
-Changed thinned(const Topology& topology, const HeadShape& head) {
+/// Vertices of each cell of a grid become one.
+/// \param cell_at  the size of cells about a place
+template <class CellAt>
+Changed thinned(const char* what, const Topology& topology, const HeadShape& head,
+                const CellAt& cell_at) {
   std::map<std::array<int, 3>, std::uint32_t> cells;
   std::vector<std::uint32_t> place;
   std::vector<Eigen::RowVector3d> sums;
   std::vector<double> counts;
-  Changed result{"thinned unevenly", {}, {}};
+  Changed result{what, {}, {}};
   for (Index v = 0; v < head.positions.rows(); ++v) {
     const Eigen::RowVector3d p = head.positions.row(v);
-    const double cell = p.z() > 3 && p.y() > -9 && p.y() < 6 ? 0.5 : 2.0;
+    const double cell = cell_at(p);
     const std::array<int, 3> key = {static_cast<int>(std::floor(p.x() / cell)) +
                                         (head.skin[static_cast<std::size_t>(v)] ? 0 : 1000),
                                     static_cast<int>(std::floor(p.y() / cell)),
@@ -126,6 +132,35 @@ Changed cut(const char* what, const Topology& topology, const HeadShape& head, c
   return {what, topology_of(triangles, head.positions.rows()), head};
 }
 
+/// Each triangle becomes four.
+Changed refined(const Topology& topology, const HeadShape& head) {
+  std::vector<Eigen::RowVector3d> middles;
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> of_edge;
+  Changed result{"refined", {}, head};
+  const auto middle_of_edge = [&](std::uint32_t a, std::uint32_t b) {
+    const auto next = static_cast<std::uint32_t>(head.skin.size() + middles.size());
+    const auto [place, is_new] = of_edge.try_emplace({std::min(a, b), std::max(a, b)}, next);
+    if (is_new) {
+      middles.emplace_back((head.positions.row(a) + head.positions.row(b)) / 2);
+      result.head.skin.push_back(head.skin[a]);
+    }
+    return place->second;
+  };
+  std::vector<Triangle> triangles;
+  for (const Triangle& t : triangles_of(topology)) {
+    const std::uint32_t ab = middle_of_edge(t[0], t[1]), bc = middle_of_edge(t[1], t[2]),
+                        ca = middle_of_edge(t[2], t[0]);
+    triangles.insert(triangles.end(),
+                     {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
+  }
+  result.head.positions.conservativeResize(static_cast<Index>(result.head.skin.size()), 3);
+  for (std::size_t m = 0; m < middles.size(); ++m) {
+    result.head.positions.row(static_cast<Index>(head.skin.size() + m)) = middles[m];
+  }
+  result.topology = topology_of(triangles, result.head.positions.rows());
+  return result;
+}
+
 std::vector<Changed> changes_of(const FaceSet& faces, const HeadShape& head) {
   const Topology& topology = faces.topology;
   std::vector<Changed> all;
@@ -138,7 +173,18 @@ std::vector<Changed> changes_of(const FaceSet& faces, const HeadShape& head) {
       all.push_back(std::move(turned));
     }
   }
-  all.push_back(thinned(topology, head));
+  // A fine face, a coarse skull and neck, as in trackers' meshes.
+  all.push_back(thinned("thinned unevenly", topology, head, [](const Eigen::RowVector3d& p) {
+    return p.z() > 3 && p.y() > -9 && p.y() < 6 ? 0.5 : 2.0;
+  }));
+  for (double cell = 0.2;; cell *= 1.1) {
+    Changed few = thinned("thinned to a twentieth", topology, head,
+                          [&](const Eigen::RowVector3d&) { return cell; });
+    if (20 * few.head.positions.rows() > head.positions.rows()) continue;
+    all.push_back(std::move(few));
+    break;
+  }
+  all.push_back(refined(topology, head));
   Changed noisy{"with noise", topology, head};
   std::mt19937 random(1);
   std::normal_distribution<double> mm(0, 0.05);
@@ -153,41 +199,80 @@ std::vector<Changed> changes_of(const FaceSet& faces, const HeadShape& head) {
   return all;
 }
 
-/// Expects the same marks within 3 mm on each changed copy of the head.
-void expect_marks_of(const FaceSet& faces, const HeadShape& head) {
+/// How far a mark on a changed copy of a head is from the same mark on the head.
+struct MarkError {
+  std::string what, mark;
+  double mm;
+};
+
+/// \param head  in centimetres. Expects a face on each copy.
+std::vector<MarkError> mark_errors(const FaceSet& faces, const HeadShape& head) {
+  std::vector<MarkError> errors;
   const auto before = find_face_marks(faces.topology, {head.positions, head.skin, {}}, {});
-  ASSERT_TRUE(before);
+  EXPECT_TRUE(before);
+  if (!before) return errors;
   for (const Changed& one : changes_of(faces, head)) {
-    SCOPED_TRACE(one.what);
     const auto marks = find_face_marks(one.topology, one.head, {});
-    EXPECT_TRUE(marks);
+    EXPECT_TRUE(marks) << one.what;
     if (!marks) continue;
     // Heights along the axes that were found, of the places that were found before.
-    const auto expect_near = [&](const char* name, double height, double expected) {
-      const auto front = [&](double at) {
-        double most = -1e9;
-        for (Index v = 0; v < head.positions.rows(); ++v) {
-          const Eigen::RowVector3d p = head.positions.row(v);
-          if (head.skin[static_cast<std::size_t>(v)] && std::abs(p.x()) < 0.6 &&
-              std::abs(p.y() - at) < 0.3)
-            most = std::max(most, p.z());
-        }
-        return most;
-      };
-      const Eigen::Vector3d place = one.turn * Eigen::Vector3d(0, expected, front(expected));
-      EXPECT_NEAR(height, place.dot(marks->axes.up), 0.3) << name;
+    const auto add = [&](const char* mark, double height, double expected) {
+      double front = -1e9;
+      for (Index v = 0; v < head.positions.rows(); ++v) {
+        const Eigen::RowVector3d p = head.positions.row(v);
+        const bool is_there = std::abs(p.x()) < 0.6 && std::abs(p.y() - expected) < 0.3;
+        if (head.skin[static_cast<std::size_t>(v)] && is_there) front = std::max(front, p.z());
+      }
+      const Eigen::Vector3d place = one.turn * Eigen::Vector3d(0, expected, front);
+      errors.push_back({one.what, mark, 10 * std::abs(height - place.dot(marks->axes.up))});
     };
-    expect_near("tip", marks->tip, before->tip);
-    expect_near("eyes", marks->eyes, before->eyes);
-    expect_near("mouth", marks->mouth, before->mouth);
+    add("tip", marks->tip, before->tip);
+    add("eyes", marks->eyes, before->eyes);
+    add("mouth", marks->mouth, before->mouth);
   }
+  return errors;
 }
 
 TEST(FaceMarks, AreTheSameHoweverTheMeshIsCutOrTurned) {
   const FaceSet faces = synth_heads(20000);
   HeadShape head = shape_of_mean(faces);
   head.positions = faces.heads[1].positions;
-  expect_marks_of(faces, head);
+  for (const MarkError& error : mark_errors(faces, head)) {
+    // Few vertices do not show where the lips meet.
+    const bool is_coarse = error.what == "thinned to a twentieth" && error.mark == "mouth";
+    EXPECT_LT(error.mm, is_coarse ? 4 : 3) << error.mark << ", " << error.what;
+  }
+}
+
+/// Heads that are not kept in this repository.
+TEST(RealFaces, AreTheSameHoweverTheMeshIsCutOrTurned) {
+  const std::filesystem::path heads =
+      std::filesystem::path(CROWDFACE_SOURCE_DIR) / "../shared/faces/ict16";
+  if (!std::filesystem::is_directory(heads)) {
+    GTEST_SKIP() << "no real heads at " << heads << ": put OBJ files there";
+  }
+  std::size_t marks = 0, far = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(heads)) {
+    if (entry.path().extension() != ".obj") continue;
+    SCOPED_TRACE(entry.path().filename());
+    ObjFile file = read_obj(entry.path());
+    const FaceSet faces{file.topology, {}, {{"head", file.positions}}};
+    HeadShape head = shape_of_mean(faces);
+    EXPECT_EQ(find_bearing(faces.topology, head), (Bearing{{1, 1}, {2, 1}}));
+    const auto face = find_face(faces.topology, head, {});
+    EXPECT_TRUE(face);
+    if (!face) continue;
+    // In centimetres, and the eyes are at the height of the origin, as in synthetic heads.
+    constexpr double kMm = 0.1;
+    head.positions.rowwise() -= Eigen::RowVector3d(face->between.transpose());
+    head.positions *= kMm / face->scale;
+    head.positions.col(2).array() += 7;
+    for (const MarkError& error : mark_errors(faces, head)) {
+      ++marks;
+      if (error.mm > 3) ++far;
+    }
+  }
+  EXPECT_LT(far, marks / 20) << "more than 3 mm off, of " << marks;
 }
 
 TEST(FaceMarks, WhatIsNoHeadHasNoFace) {

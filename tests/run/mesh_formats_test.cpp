@@ -120,7 +120,7 @@ TEST(MeshFormats, HaveTheFacesColoursAtVertices) {
                                                     static_cast<std::uint8_t>(tones[h]));
     folder.folder().write("heads/" + head.filename().string(), with_colours(text, colours));
   }
-  run(folder, {kAll});
+  run(folder, {kAll, "output.lods=[50 %]"});
   const fs::path stem = folder.out() / "meshes" / "mob_0001";
   const std::string obj = testing::read_text(stem.string() + ".obj");
   const Index vertices = read_obj(stem.string() + ".obj").positions.rows();
@@ -136,6 +136,13 @@ TEST(MeshFormats, HaveTheFacesColoursAtVertices) {
   }
   EXPECT_NE(testing::read_text(stem.string() + ".usda").find("primvars:displayColor = [("),
             std::string::npos);
+  const std::string level = testing::read_text(stem.string() + "+LOD1.obj");
+  const Index kept = read_obj(stem.string() + "+LOD1.obj").positions.rows();
+  EXPECT_LT(kept, vertices);
+  EXPECT_EQ(obj_colours(level, kept).rows(), kept);
+  const fs::path shown = folder.out() / "gallery/data/faces/mob_0001.js";
+  if (!fs::exists(shown)) GTEST_SKIP() << "the page of the gallery was not built";
+  EXPECT_NE(testing::read_text(shown).find("\"colours\":\""), std::string::npos);
 }
 
 TEST(MeshFormats, GlbCornersHaveTheTextureCoordinatesOfTheObj) {

@@ -78,7 +78,7 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
     if (!left_out.empty()) log_warning(left_out);
     std::string where = concat(" in ", quoted(node.text));
     if (files.empty())
-      where += concat(" (OBJ, PLY, GLB, glTF, FBX, NumPy)", pattern_below(*folder));
+      where += concat(" (OBJ, PLY, GLB, glTF, FBX, USD, NumPy)", pattern_below(*folder));
     draft.heads_known = expect_head_count(node, files.size(), where, draft.complaints);
     add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
   } catch (const MissingInput& error) {

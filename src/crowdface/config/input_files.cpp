@@ -113,7 +113,7 @@ std::string left_out_of_heads(const fs::path& folder) {
       quoted(folder.string()), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
       count, "): the heads of a folder are its OBJ files, or those of the kind that most are of; ",
       "files: \"", (folder.filename() / "*").string(),
-      "\" takes OBJ, PLY, GLB, glTF, FBX and NumPy alike, and crowdface convert writes one as "
+      "\" takes OBJ, PLY, GLB, glTF, FBX, USD and NumPy alike, and crowdface convert writes one as "
       "another");
 }
 

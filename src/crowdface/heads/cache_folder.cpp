@@ -47,12 +47,16 @@ CacheContents list_cache(const fs::path& cache) {
   std::error_code error, ignored;
   CacheContents contents;
   contents.entries = list_files(
-      cache, [](const fs::path& path) { return has_name_of_entry(path) && is_file(path); }, &error);
+      cache, [](const fs::path& path) { return has_name_of_entry(path) && is_there(path); },
+      &error);
   if (error && error != std::errc::no_such_file_or_directory) {
     throw MissingInput(concat(cache.string(), ": cannot be read as a folder: ", error.message()));
   }
   for (const fs::path& entry : contents.entries) {
-    contents.bytes += fs::file_size(entry, ignored);
+    for (const fs::path& file :
+         is_directory(entry) ? list_files(entry, is_file) : std::vector{entry}) {
+      contents.bytes += fs::file_size(file, ignored);
+    }
     const std::string name = entry.filename().string();
     contents.prepared += name.starts_with(kPreparedKind) ? 1U : 0U;
     contents.read += name.starts_with(kReadKind) ? 1U : 0U;
@@ -64,7 +68,7 @@ std::size_t clear_cache(const fs::path& cache) {
   std::size_t removed = remove_leftovers(cache);
   for (const fs::path& entry : list_cache(cache).entries) {
     std::error_code error;
-    if (fs::remove(entry, error)) ++removed;
+    if (fs::remove_all(entry, error) > 0) ++removed;
     if (error) throw IoError(concat(entry.string(), ": cannot be removed: ", error.message()));
   }
   return removed;

@@ -108,6 +108,9 @@ std::uint64_t texture_bytes(const Inputs& inputs) {
   add(inputs.textures);
   for (const HeadTextures& textures : inputs.maps) add(textures);
   std::uint64_t bytes = 0;
+  for (const ColourRows& colours : inputs.colours) {
+    bytes += static_cast<std::uint64_t>(colours.size());
+  }
   for (const TextureMap* map : maps) {
     if (map != nullptr) bytes += map->planes.size() * sizeof(Density);
   }

@@ -33,7 +33,7 @@ Attachment item_of(const Config::Attachment& asked, HeadFile read) {
   item.file.topology = read.mesh->topology;
   item.file.uvs = read.mesh->uvs;
   item.file.corner_normals = read.mesh->corner_normals;
-  item.materials = find_material_files(item.file.path, item.file.material_libraries);
+  item.materials = find_material_files(item.file.material_path(), item.file.material_libraries);
   return item;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
@@ -20,6 +21,7 @@
 #include "crowdface/heads/cached.h"
 #include "crowdface/heads/seen_files.h"
 #include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/same_graph.h"
@@ -149,12 +151,31 @@ void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
   take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.outline), shelf);
 }
 
+/// Puts the textures of a mesh file where OBJ files have them: into a folder of the cache, beside a material file.
+/// \return the path beside which the material file lies, and its name; nothing without textures or a cache
+std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
+                                               const FileMesh& mesh) {
+  if (mesh.textures.empty() || cache.path.empty()) return {};
+  Hasher hasher;
+  hasher.add(head.text);
+  for (const MeshTexture& texture : mesh.textures) hasher.add(texture.bytes);
+  const fs::path folder = cache_entry(cache, {"textures", hasher.digest()});
+  const fs::path stem = head.file.path.stem();
+  std::string library = stem.string() + ".mtl";
+  if (!is_there(folder / library)) library = write_mesh_textures(mesh, folder, stem.string());
+  return {folder / stem, std::move(library)};
+}
+
 /// Arrays of positions may come without faces: then the head has no mesh.
-void read_other_format(HeadReading& reading, MeshShelf& shelf) {
+void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_joined_mesh(file.path);
-  if (mesh.topology.face_count() > 0)
-    return take_mesh(reading, as_obj(std::move(mesh), fs::path(file.path)), shelf);
+  if (mesh.topology.face_count() > 0) {
+    auto [textures_at, library] = keep_textures(reading.head, cache, mesh);
+    take_mesh(reading, as_obj(std::move(mesh), fs::path(file.path), library), shelf);
+    file.textures_at = std::move(textures_at);
+    return;
+  }
   file.positions = std::move(mesh.positions);
   file.is_mended = true;
 }
@@ -179,7 +200,7 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
     return reading;
   }
   if (!is_obj(path)) {
-    read_other_format(reading, shelf);
+    read_other_format(reading, cache, shelf);
     return reading;
   }
   reading.outline = outline_obj(head.file.file.bytes());
@@ -205,12 +226,16 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours 
   FileMesh mesh;
   mesh.topology = other.mesh->topology;
   mesh.uvs = other.mesh->uvs;
-  mesh.materials = other.file.materials;
+  // Materials of several names stand with the other's faces.
+  mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
   mesh.positions = head.file.positions;
   mesh.colours = colour_shares(colours);
-  ObjFile file = as_obj(std::move(mesh), head.file.path);
+  const std::vector<std::string>& libraries = head.file.material_libraries;
+  ObjFile file =
+      as_obj(std::move(mesh), head.file.path, libraries.empty() ? std::string() : libraries[0]);
   file.positions = std::move(head.file.positions);
   file.material_libraries = std::move(head.file.material_libraries);
+  file.textures_at = std::move(head.file.textures_at);
   file.notes = std::move(head.file.notes);
   file.topology = {};
   file.uvs.resize(0, 2);

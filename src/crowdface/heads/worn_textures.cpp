@@ -138,10 +138,10 @@ std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces,
   std::set<TextureKind> kinds = {TextureKind::kColour};
   for (const ObjFile& file : files) {
     const auto [entry, is_new] =
-        known.try_emplace({file.path.parent_path(), file.material_libraries});
+        known.try_emplace({file.material_path().parent_path(), file.material_libraries});
     NamedTextures& named = entry->second;
     if (is_new) {
-      named = find_textures(file.path, file.material_libraries);
+      named = find_textures(file.material_path(), file.material_libraries);
       if (!has_uvs) named.of_kind.clear();
     }
     for (const auto& [kind, of_material] : named.of_kind) kinds.insert(kind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -72,14 +73,26 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
   }
 }
 
-bool has_textures(const aiScene& scene) {
+/// Of textures beside the file only the names are told, in place of their bytes.
+void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::string>& beside) {
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
-    if (scene.mMaterials[m]->GetTextureCount(aiTextureType_DIFFUSE) > 0) return true;
+    const aiMaterial& material = *scene.mMaterials[m];
+    for (const auto& [type, kind] : {std::pair(aiTextureType_DIFFUSE, TextureKind::kColour),
+                                     std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
+      aiString name;
+      if (material.GetTexture(type, 0, &name) != aiReturn_SUCCESS) continue;
+      const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
+      const bool is_inside = texture != nullptr && texture->mHeight == 0;  // an image file
+      beside.emplace_back(is_inside ? "" : name.C_Str());
+      mesh.textures.push_back(
+          {material.GetName().C_Str(), kind,
+           is_inside ? std::string(reinterpret_cast<const char*>(texture->pcData), texture->mWidth)
+                     : std::string()});
+    }
   }
-  return scene.HasTextures();
 }
 
-void read(std::string_view bytes, FileMesh& mesh) {
+void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& beside) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
@@ -99,17 +112,17 @@ void read(std::string_view bytes, FileMesh& mesh) {
     mesh.topology.corner_uvs.clear();
     mesh.uvs.resize(0, 2);
   }
-  mesh.has_textures = has_textures(*scene);
+  collect_textures(*scene, mesh, beside);
 }
 
 }  // namespace
 }  // namespace crowdface
 
-extern "C" __attribute__((visibility("default"))) bool crowdface_read_fbx(std::string_view bytes,
-                                                                          crowdface::FileMesh& mesh,
-                                                                          std::string& error) {
+extern "C" __attribute__((visibility("default"))) bool crowdface_read_fbx(
+    std::string_view bytes, crowdface::FileMesh& mesh, std::vector<std::string>& beside,
+    std::string& error) {
   try {
-    crowdface::read(bytes, mesh);
+    crowdface::read(bytes, mesh, beside);
     return true;
   } catch (const std::exception& failure) {
     error = failure.what();

@@ -1,22 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/fbx_reader.h"
 
+#include <algorithm>
+
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/own_library.h"
 
 namespace crowdface {
 
-FileMesh parse_fbx(std::string_view bytes, const std::string& name) {
+FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
   static auto* const read = reinterpret_cast<ReadFbx*>(
       function_of_own_library("libcrowdface_meshes.so", "crowdface_read_fbx",
                               "FBX files need (Assimp)", "FBX files cannot be read"));
   FileMesh mesh;
+  std::vector<std::string> beside;
   std::string error;
-  if (!read(bytes, mesh, error)) {
+  if (!read(bytes, mesh, beside, error)) {
     throw InvalidInput(concat(
-        name, ": expected an FBX file that Assimp reads (FBX 2011 or later), found another: ",
-        error, "; export it anew, or as OBJ or GLB"));
+        path.string(),
+        ": expected an FBX file that Assimp reads (FBX 2011 or later), found another: ", error,
+        "; export it anew, or as OBJ or GLB"));
+  }
+  for (std::size_t t = mesh.textures.size(); t-- > 0;) {
+    if (beside[t].empty()) continue;
+    std::ranges::replace(beside[t], '\\', '/');
+    const std::filesystem::path file =
+        path.parent_path() / std::filesystem::path(beside[t]).filename();
+    if (is_file(file)) {
+      mesh.textures[t].bytes = read_file(file);
+      continue;
+    }
+    mesh.notes.push_back(concat("its texture ", quoted(file.filename().string()),
+                                " does not lie beside it and is not used"));
+    mesh.textures.erase(mesh.textures.begin() + static_cast<std::ptrdiff_t>(t));
   }
   return mesh;
 }

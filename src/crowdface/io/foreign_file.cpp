@@ -19,7 +19,8 @@ struct Known {
 
 /// Told by the first bytes as they are.
 constexpr std::array kBinary = {
-    Known{"PK\x03\x04"sv, "a ZIP archive: unpack it and name the mesh in it"},
+    Known{"PK\x03\x04"sv,
+          "a ZIP archive, as usdz files are: unpack it and name the mesh in it, or export GLB"},
     Known{"Rar!"sv, "a RAR archive: unpack it and name the mesh in it"},
     Known{"7z\xBC\xAF"sv, "a 7-Zip archive: unpack it and name the mesh in it"},
     Known{"\x1f\x8b"sv, "compressed with gzip: unpack it (gunzip)"},
@@ -29,7 +30,8 @@ constexpr std::array kBinary = {
     Known{"//Maya"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
     Known{"FOR4"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
     Known{"FOR8"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
-    Known{"PXR-USDC"sv, "a binary USD file: write it as text first (usdcat -o mesh.usda FILE)"},
+    Known{"PXR-USDC"sv,
+          "binary USD (usdc): save it as text (usdcat --flatten -o head.usda FILE), or export GLB"},
     Known{"\xff\xfe"sv, "text in UTF-16: save it as UTF-8"},
     Known{"\xfe\xff"sv, "text in UTF-16: save it as UTF-8"},
     Known{"\x89PNG"sv, "a picture"},

@@ -134,21 +134,11 @@ void GltfFile::fail(const std::string& what) const {
   refuse_file(path_, what);
 }
 
-std::string_view GltfFile::buffer(std::size_t number) {
-  const Json& json = scene_.at("buffers").at(number);
-  if (!json.contains("uri")) {
-    if (number != 0) fail(concat("its buffer ", number, " has no data"));
-    return binary_;
-  }
-  const auto [known, is_new] = own_buffers_.try_emplace(number);
-  if (!is_new) return known->second;
-  const auto uri = json.at("uri").get<std::string>();
+std::string GltfFile::resource(const std::string& uri, const std::string& what) const {
   if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(',');
-    if (comma == uri.npos) fail(concat("its buffer ", number, " has no data"));
-    known->second = decoded_base64(std::string_view(uri).substr(comma + 1));
-    room_ += kOften * known->second.size();
-    return known->second;
+    if (comma == uri.npos) fail(concat(what, " has no data"));
+    return decoded_base64(std::string_view(uri).substr(comma + 1));
   }
   const std::filesystem::path file = decoded_uri(uri);
   const bool inside = file.is_relative() && !file.lexically_normal().string().starts_with("..");
@@ -158,7 +148,19 @@ std::string_view GltfFile::buffer(std::size_t number) {
                               path_.string(),
                               " keeps its data there (export GLB, which is one file)"));
   }
-  known->second = read_file(path_.parent_path() / file);
+  return read_file(path_.parent_path() / file);
+}
+
+std::string_view GltfFile::buffer(std::size_t number) {
+  const Json& json = scene_.at("buffers").at(number);
+  const std::string what = concat("its buffer ", number);
+  if (!json.contains("uri")) {
+    if (number != 0) fail(what + " has no data");
+    return binary_;
+  }
+  const auto [known, is_new] = own_buffers_.try_emplace(number);
+  if (!is_new) return known->second;
+  known->second = resource(json.at("uri").get<std::string>(), what);
   room_ += kOften * known->second.size();
   return known->second;
 }

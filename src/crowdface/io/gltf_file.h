@@ -32,6 +32,8 @@ class GltfFile {
   std::vector<double> numbers(std::size_t accessor, std::size_t width);
   /// The same where they count something.
   std::vector<std::uint32_t> whole_numbers(std::size_t accessor, std::size_t width);
+  /// What a URI stands for: data within it, or a file beside. \param what  for messages: "its buffer 2"
+  std::string resource(const std::string& uri, const std::string& what) const;
   /// What a view of a buffer holds, uncompressed.
   std::string_view view(std::size_t number);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include <Eigen/Geometry>
 
@@ -264,7 +266,44 @@ class GltfMeshReader {
     if (uvs_.empty()) mesh_.topology.corner_uvs.clear();
     if (any_colours_) mesh_.colours = Eigen::Map<const Positions>(colours_.data(), rows, 3);
     if (!has_ids_) mesh_.vertex_ids.clear();
-    mesh_.has_textures = !file_.scene().value("images", GltfJson::array()).empty();
+    std::set<std::string> used;
+    for (const MaterialRange& range : mesh_.materials) used.insert(range.name);
+    const GltfJson& scene = file_.scene();
+    if (!scene.contains("materials")) return;
+    for (std::size_t m = 0; m < scene["materials"].size(); ++m) {
+      const GltfJson& material = scene["materials"][m];
+      const std::string name = material.value("name", concat("material_", m));
+      if (!used.contains(name)) continue;
+      if (material.contains("pbrMetallicRoughness")) {
+        add_texture(material["pbrMetallicRoughness"], "baseColorTexture", name,
+                    TextureKind::kColour);
+      }
+      add_texture(material, "normalTexture", name, TextureKind::kNormal);
+    }
+  }
+
+  /// \param from  what may name a texture as `key`
+  void add_texture(const GltfJson& from, const char* key, const std::string& material,
+                   TextureKind kind) {
+    if (!from.contains(key)) return;
+    try {
+      const GltfJson& scene = file_.scene();
+      const GltfJson& texture = scene.at("textures").at(from[key].at("index").get<std::size_t>());
+      const GltfJson* source = &texture;
+      for (const char* packed : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+        if (source->contains("source") || !texture.contains("extensions")) break;
+        if (texture["extensions"].contains(packed)) source = &texture["extensions"][packed];
+      }
+      const GltfJson& image = scene.at("images").at(source->at("source").get<std::size_t>());
+      mesh_.textures.push_back(
+          {material, kind,
+           image.contains("uri")
+               ? file_.resource(image.at("uri").get<std::string>(), "its texture")
+               : std::string(file_.view(image.at("bufferView").get<std::size_t>()))});
+    } catch (const std::exception& error) {
+      mesh_.notes.push_back(concat("the ", statement_of(kind).name, " texture of ",
+                                   quoted(material), " cannot be read: ", error.what()));
+    }
   }
 
   GltfFile file_;

@@ -6,6 +6,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/io/read_mesh.h"
@@ -25,20 +26,15 @@ bool is_head_file(const std::filesystem::path& path) {
          std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
 }
 
-ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path) {
+ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::string& library) {
   if (mesh.topology.face_count() == 0) {
     refuse_file(path,
                 concat("expected a mesh, found ", mesh.positions.rows(), " points and no face"));
   }
   for (MaterialRange& material : mesh.materials) {
-    constexpr std::size_t kLongest = 200;
-    material.name.resize(std::min(material.name.size(), kLongest));
-    std::ranges::replace_if(
-        material.name, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; },
-        '_');
-    if (material.name.empty()) material.name = "material";
+    material.name = material_name_of(std::move(material.name));
   }
-  std::string encoded = encode_obj(mesh, {}, mesh.materials).text();
+  std::string encoded = encode_obj(mesh, {}, mesh.materials, library).text();
   if (mesh.colours.rows() > 0) {
     encoded = with_colours(encoded, byte_colours(mesh.colours));
   }
@@ -47,10 +43,6 @@ ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path) {
   ObjFile file = read_obj(path, std::move(text), outline);
   file.notes = std::move(mesh.notes);
   file.is_mended = true;
-  if (mesh.has_textures) {
-    file.notes.emplace_back(
-        "textures inside the file are not read: export OBJ with a material file to have them");
-  }
   return file;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/obj_file.h"
@@ -14,8 +15,9 @@ bool is_head_file(const std::filesystem::path& path);
 bool is_obj(const std::filesystem::path& path);
 
 /// A mesh as the OBJ file that would be written of it: its text is in memory.
-/// \param path  of the file that it comes from. \throws InvalidInput if it has no faces, or positions are not finite.
-ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path);
+/// \param path     of the file that it comes from. \param library  the material file that it names; may be empty
+/// \throws InvalidInput if it has no faces, or positions are not finite.
+ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::string& library = {});
 
 /// A mesh of any format; vertices that a format split are joined, and it is said.
 FileMesh read_joined_mesh(const std::filesystem::path& path);

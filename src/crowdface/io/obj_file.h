@@ -24,8 +24,13 @@ struct ObjFile {
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;
-  std::vector<std::string> notes;  ///< what was mended or passed over, a sentence each
-  bool is_mended = false;          ///< the text is not the file's own
+  std::vector<std::string> notes;     ///< what was mended or passed over, a sentence each
+  bool is_mended = false;             ///< the text is not the file's own
+  std::filesystem::path textures_at;  ///< what material files lie beside if it is not `path`
+
+  const std::filesystem::path& material_path() const {
+    return textures_at.empty() ? path : textures_at;
+  }
 };
 
 /// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj), which is mended where it

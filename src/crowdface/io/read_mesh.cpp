@@ -121,6 +121,7 @@ std::string kind_of(std::string_view bytes, const fs::path& path) {
   if (bytes.starts_with("glTF")) return ".glb";
   if (bytes.starts_with("Kaydara FBX")) return ".fbx";
   if (bytes.starts_with("\x93NUMPY")) return ".npy";
+  if (bytes.starts_with("#usda")) return ".usda";
   return lower_case(path.extension().string());
 }
 
@@ -136,8 +137,8 @@ void require_limits(const FileMesh& mesh, const fs::path& path) {
 }  // namespace
 
 const std::vector<std::string_view>& mesh_endings() {
-  static const std::vector<std::string_view> endings = {".obj",  ".ply", ".stl", ".glb",
-                                                        ".gltf", ".fbx", ".npy"};
+  static const std::vector<std::string_view> endings = {
+      ".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx", ".npy", ".usda", ".usd", ".usdc", ".usdz"};
   return endings;
 }
 
@@ -155,7 +156,9 @@ FileMesh read_mesh(const fs::path& path) {
   } else if (kind == ".glb" || kind == ".gltf") {
     mesh = parse_gltf(file.bytes(), path);
   } else if (kind == ".fbx") {
-    mesh = parse_fbx(file.bytes(), path.string());
+    mesh = parse_fbx(file.bytes(), path);
+  } else if (kind == ".usda" || kind == ".usd") {
+    mesh = parse_usda(file.bytes(), path.string());
   } else if (kind == ".npy") {
     mesh = mesh_of_npy(file.bytes(), path);
   } else {

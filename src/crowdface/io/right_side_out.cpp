@@ -58,6 +58,7 @@ ObjFile right_side_out(ObjFile file) {
   turned.notes = std::move(file.notes);
   turned.notes.emplace_back(kTurned);
   turned.is_mended = true;
+  turned.textures_at = std::move(file.textures_at);
   return turned;
 }
 

@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/normals.h"
-#include "crowdface/paint/face_relief.h"
 #include "crowdface/parts/part_list.h"
 
 namespace crowdface {
@@ -169,44 +169,22 @@ constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
 constexpr double kBridgeWayMm = 15, kLipWayMm = 5;  ///< over which bridge and mouth are hollow
 constexpr double kPriorMm = 3;                      ///< penalty at the end of the reach
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
+constexpr double kFineMm = 5;  ///< edges that show lips
 // Of the way from eyes to mouth, some 65 mm.
 constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
 
-/// The marks of a face where its relief was found.
-FaceMarks marks_of(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
-  FaceMarks marks;
-  marks.axes = match.axes;
-  const double mm = match.scale, eyes = match.between.dot(match.axes.up);
-  // The middle of the skin is more exact, but hair or a cap may move it.
-  marks.middle = middle_of(topology, head, marks.axes);
-  const double of_relief = match.between.dot(match.axes.side());
-  if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
-  const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle, mm);
-  const Outline closed = outline.without_slits(kSlitMm * mm);
-  // A quadratic penalty keeps each feature near its height on the mean face, because shallow hollows may be noise.
-  const auto best_near = [&](double expected, double reach, const auto& measure) {
-    const double middle = eyes + expected * match.stretch * mm;
-    return outline.best(middle - reach * mm, middle + reach * mm, [&](double h) {
-      const double off = (h - middle) / (reach * mm);
-      return measure(h) - kPriorMm * mm * off * off;
-    });
-  };
-  marks.bridge = best_near(kBridgeMm, kBridgeReachMm,
-                           [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
-  marks.tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h); });
-  marks.mouth = best_near(kMouthMm, kMouthReachMm,
-                          [&](double h) { return outline.hollow(h, kLipWayMm * mm); });
-  marks.eyes = eyes;
-  double of_balls = 0;
-  for (const Eigen::Vector3d& eye : head.eyeballs) {
-    of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
+/// The length of an edge of the skin about the middle of a face, if all polygons there were squares of the median area.
+double edge_length_near(const Topology& topology, const HeadShape& head, const ReliefMatch& face) {
+  constexpr double kNearMm = 70;
+  std::vector<double> areas;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const std::uint32_t first = topology.face(f)[0];
+    const bool is_near = (row3(head.positions, first) - face.between).norm() < kNearMm * face.scale;
+    if (head.skin[first] && is_near) {
+      areas.push_back(face_area_vector(topology, f, head.positions).norm());
+    }
   }
-  if (!head.eyeballs.empty() && std::abs(of_balls - eyes) < kEyesNearMm * mm) marks.eyes = of_balls;
-  const double face = marks.face();
-  marks.chin = outline.best(marks.mouth - kMostChin * face, marks.mouth - kLeastChin * face,
-                            [&](double h) { return -outline.hollow(h, kChinWay * face); });
-  marks.chin_front = outline.at(marks.chin);
-  return marks;
+  return areas.empty() ? 0 : std::sqrt(value_of_rank(areas, areas.size() / 2));
 }
 
 }  // namespace
@@ -241,14 +219,61 @@ double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes
   return area > 0 ? sum / area : 0;
 }
 
+std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& head,
+                                     const HeadAxes& axes) {
+  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
+  auto match = match_relief(samples, {axes}, head.eyeballs);
+  if (match && (match->votes < kLeastVotes || match->degrees_off > kMostDegreesOff)) match.reset();
+  return match;
+}
+
+FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
+  FaceMarks marks;
+  marks.axes = match.axes;
+  const double mm = match.scale, eyes = match.between.dot(match.axes.up);
+  // The middle of the skin is more exact, but hair or a cap may move it.
+  marks.middle = middle_of(topology, head, marks.axes);
+  const double of_relief = match.between.dot(match.axes.side());
+  if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
+  const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle, mm);
+  const Outline closed = outline.without_slits(kSlitMm * mm);
+  // A quadratic penalty keeps each feature near its height on the mean face, because shallow hollows may be noise. A mesh
+  // with long edges does not show the slit between the lips, so there the mean face counts for more.
+  const double coarseness = std::max(1.0, edge_length_near(topology, head, match) / (kFineMm * mm));
+  const double prior = kPriorMm * mm * coarseness * coarseness;
+  const auto best_near = [&](double expected, double reach, const auto& measure) {
+    const double middle = eyes + expected * match.stretch * mm;
+    return outline.best(middle - reach * mm, middle + reach * mm, [&](double h) {
+      const double off = (h - middle) / (reach * mm);
+      return measure(h) - prior * off * off;
+    });
+  };
+  marks.bridge = best_near(kBridgeMm, kBridgeReachMm,
+                           [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
+  marks.mouth = best_near(kMouthMm, kMouthReachMm,
+                          [&](double h) { return outline.hollow(h, kLipWayMm * mm); });
+  // The tip stands out most beyond the line from bridge to mouth, however the head is bowed.
+  const double slope =
+      (closed.at(marks.bridge) - closed.at(marks.mouth)) / std::max(marks.bridge - marks.mouth, mm);
+  marks.tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h) - slope * h; });
+  marks.eyes = marks.bridge - kBridgeMm * match.stretch * mm;
+  double of_balls = 0;
+  for (const Eigen::Vector3d& eye : head.eyeballs) {
+    of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
+  }
+  if (!head.eyeballs.empty() && std::abs(of_balls - eyes) < kEyesNearMm * mm) marks.eyes = of_balls;
+  const double face = marks.face();
+  marks.chin = outline.best(marks.mouth - kMostChin * face, marks.mouth - kLeastChin * face,
+                            [&](double h) { return -outline.hollow(h, kChinWay * face); });
+  marks.chin_front = outline.at(marks.chin);
+  return marks;
+}
+
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes) {
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
-  const auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (!match || match->votes < kLeastVotes || match->degrees_off > kMostDegreesOff) {
-    return std::nullopt;
-  }
-  return marks_of(topology, head, *match);
+  const auto face = find_face(topology, head, axes);
+  if (!face) return std::nullopt;
+  return marks_of_face(topology, head, *face);
 }
 
 HeadAxes axes_of(const Bearing& bearing) {

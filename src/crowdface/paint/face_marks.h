@@ -6,6 +6,7 @@
 
 #include "crowdface/core/units.h"
 #include "crowdface/mesh/topology.h"
+#include "crowdface/paint/face_relief.h"
 #include "crowdface/parts/head_axes.h"
 
 namespace crowdface {
@@ -35,10 +36,14 @@ HeadShape shape_of_mean(const FaceSet& faces);
 /// Where the head's halves meet along HeadAxes::side(): the middle of its skin.
 double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
-/// Finds the face by its relief (see match_relief), then nose, mouth and chin in the outline that the face's middle
-/// plane cuts from the skin. Neither depends on how the mesh is cut.
+/// Finds the face by its relief, see match_relief.
 /// \param axes  how the head stands, within some 35°
 /// \return nothing if no part of the skin has the relief of a face
+std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& head,
+                                     const HeadAxes& axes);
+/// Finds nose, mouth and chin in the outline that the middle plane of a face cuts from the skin.
+FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& face);
+/// Both. Neither depends on how the mesh is cut.
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes);
 

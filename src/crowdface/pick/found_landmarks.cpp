@@ -22,11 +22,12 @@ constexpr double kOffMm = 14;
 /// Landmarks of a scan whose head has the axes `axes`; empty if the mesh is not usable as a head
 /// (for example too small).
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
-                                                const HeadAxes& axes) {
+                                                const HeadAxes& axes,
+                                                const std::optional<ReliefMatch>& face = {}) {
   if (!in_mm.allFinite()) return {};
   try {
     const WrapTemplate head =
-        make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes);
+        make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes, {}, face);
     return propose_landmarks(head, pickable(head, in_mm));
   } catch (const InvalidInput&) {
     return {};
@@ -51,19 +52,25 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
 
 std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
                                          const std::map<std::string, std::uint32_t>& here,
-                                         const Scan& scan, const PoseHint& hint) {
+                                         const Scan& scan, const PoseHint& given) {
+  PoseHint hint = given;
+  if (!hint.face) hint.face = find_scan_face(scan, hint);
   // Estimate the pose of the template on the scan.
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
   Positions rest = shape.skin.of(shape.positions);
   if (shape.reduced) rest = bent.of(rest);
-  const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face,
-                                     find_scan_face(scan, hint));
+  const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face);
   const Positions placed = inverse(pose).apply(scan.positions);
+  std::optional<ReliefMatch> face = hint.face;
+  if (face) {
+    face->between /= pose.scale;
+    face->scale /= pose.scale;
+  }
   // Try two orientations and keep the one with more landmarks. The fitted pose tilts scans that
   // differ much from the template; the axes of the hint are inexact for scans that stand at an
   // angle.
   const std::array ways = {
-      propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}),
+      propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
       propose_on(scan, placed, shape.axes)};
   std::vector<WrapLandmark> most;
   for (const auto& of_scan : ways) {

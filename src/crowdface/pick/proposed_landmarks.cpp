@@ -14,18 +14,6 @@
 namespace crowdface {
 namespace {
 
-HeadShape head_of(const WrapTemplate& shape, const Positions& positions) {
-  HeadShape head;
-  head.positions = positions;
-  for (const std::uint32_t c : shape.components.of_vertex) {
-    head.skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
-  }
-  for (const Part& part : shape.parts.parts) {
-    if (part.eyeball) head.eyeballs.push_back(shape.parts.shapes[part.ball].centre);
-  }
-  return head;
-}
-
 /// Casts rays at a head from the front. Coordinates: across (along the side axis) and height.
 class FrontView {
  public:
@@ -168,14 +156,14 @@ void propose_eye(const FrontView& view, double middle, const Eigen::Vector3d& ce
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape,
                                                        const PickableMesh& mesh) {
   Proposals proposals;
-  const auto marks = find_face_marks(shape.topology, head_of(shape, mesh.positions()), shape.axes);
-  if (!marks) return proposals;
-  const FrontView view(mesh, marks->axes);
-  propose_middle(view, *marks, proposals);
+  if (!shape.face) return proposals;
+  const FaceMarks marks = marks_of_face(shape.topology, head_shape(shape), *shape.face);
+  const FrontView view(mesh, marks.axes);
+  propose_middle(view, marks, proposals);
   for (const Part& part : shape.parts.parts) {
     if (!part.eyeball) continue;
     const ComponentShape& ball = shape.parts.shapes[part.ball];
-    propose_eye(view, marks->middle, ball.centre, ball.radius, proposals);
+    propose_eye(view, marks.middle, ball.centre, ball.radius, proposals);
   }
   return proposals;
 }
@@ -193,19 +181,19 @@ PickableMesh pickable(const WrapTemplate& shape, const Positions& positions) {
 }
 
 SkinRegions face_regions(const WrapTemplate& shape) {
-  const HeadShape head = head_of(shape, shape.positions);
-  const auto marks = find_face_marks(shape.topology, head, shape.axes);
-  if (!marks) return {};
+  if (!shape.face) return {};
+  const HeadShape head = head_shape(shape);
+  const FaceMarks marks = marks_of_face(shape.topology, head, *shape.face);
   std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth};
   for (const Band more : {Band::kEars, Band::kNeck}) {
     bands.push_back(more);
     try {
-      propose_bands(shape.topology, head, *marks, bands);
+      propose_bands(shape.topology, head, marks, bands);
     } catch (const InvalidInput&) {
       bands.pop_back();
     }
   }
-  const auto alpha = propose_bands(shape.topology, head, *marks, bands);
+  const auto alpha = propose_bands(shape.topology, head, marks, bands);
   SkinRegions regions;
   for (const Band band : bands) {
     for (const auto& [name, known] : kBandNames) {
@@ -221,7 +209,9 @@ SkinRegions face_regions(const WrapTemplate& shape) {
 }
 
 MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions) {
-  return {shape.axes.side(), middle_of(shape.topology, head_of(shape, positions), shape.axes)};
+  HeadShape head = head_shape(shape);
+  head.positions = positions;
+  return {shape.axes.side(), middle_of(shape.topology, head, shape.axes)};
 }
 
 }  // namespace crowdface

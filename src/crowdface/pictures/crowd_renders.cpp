@@ -110,9 +110,15 @@ FacePictures CrowdRenders::draw(const std::string& id, Index target, const Posit
   FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, worn),
                         std::nullopt};
   if (gallery_ != nullptr) {
-    pictures.preview = gallery_->face_script(id, positions, moves, painted, worn);
+    pictures.preview =
+        gallery_->face_script(id, positions, moves, painted, shown ? &*shown : nullptr, worn);
   }
   return pictures;
+}
+
+std::optional<VertexColours> CrowdRenders::colours_of(Index head, const TextureCoat* coat) const {
+  if (inputs_.colours.empty()) return std::nullopt;
+  return shown_colours(inputs_.colours[static_cast<std::size_t>(head)], coat);
 }
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,
@@ -167,9 +173,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const FaceTextu
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
   const std::optional<TextureCoat> coat = coat_of(head);
-  const auto colours = shown_colours(
-      inputs_.colours.empty() ? ColourRows(0, 3) : inputs_.colours[static_cast<std::size_t>(head)],
-      coat ? &*coat : nullptr);
+  const auto colours = colours_of(head, coat ? &*coat : nullptr);
   return render_png(positions, colours ? &*colours : nullptr, coat ? &*coat : nullptr);
 }
 

@@ -67,6 +67,8 @@ class CrowdRenders {
 
   /// Textures of a head; nothing if it has none or if textures are not shown.
   std::optional<TextureCoat> coat_of(Index head) const;
+  /// Vertex colours of a head; nothing if it has none or if textures cover them.
+  std::optional<VertexColours> colours_of(Index head, const TextureCoat* coat) const;
   /// An empty set of textures for a face, to be filled; nothing if faces have no textures of their
   /// own or if textures are not shown.
   std::optional<OwnCoat> own_coat(Index target) const;

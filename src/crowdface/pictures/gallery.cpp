@@ -300,7 +300,7 @@ std::string GalleryMeshes::shared_script() const {
 
 std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
                                        std::span<const Displacements> moves,
-                                       const TextureCoat* coat,
+                                       const TextureCoat* coat, const VertexColours* colours,
                                        const std::vector<WornAttachment>& worn) const {
   std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
   if (coat != nullptr && !places_.empty()) {
@@ -322,6 +322,10 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
   if (coat != nullptr) parts.push_back(concat("\"skin\":", skin(*coat)));
+  if (colours != nullptr) {
+    parts.push_back(
+        concat("\"colours\":\"", base64(shades((*colours)(mesh_.vertices, kAllColumns))), '"'));
+  }
   return concat("crowdface.setFace(", Json(name).dump(), ",{", join(parts, ","), "});\n");
 }
 

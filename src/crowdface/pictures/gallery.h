@@ -30,11 +30,13 @@ class GalleryMeshes {
   /// packed positions.
   std::string shared_script() const;
   /// The file data/faces/NAME.js or data/heads/NAME.js.
-  /// \param moves  displacements of each shape of the face.
-  /// \param coat   textures of the face, or null: it has the colours shared by all faces.
-  /// \param worn   its attachments.
+  /// \param moves    displacements of each shape of the face.
+  /// \param coat     textures of the face, or null: it has its vertex colours, or the colours shared by all faces.
+  /// \param colours  vertex colours of the face, or null.
+  /// \param worn     its attachments.
   std::string face_script(const std::string& name, const Positions& positions,
                           std::span<const Displacements> moves, const TextureCoat* coat,
+                          const VertexColours* colours,
                           const std::vector<WornAttachment>& worn = {}) const;
   /// The file data/attachments/NAME.js.
   std::string attachment_script(const std::string& name, const WornSurfaces& surfaces) const;

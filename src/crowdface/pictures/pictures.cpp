@@ -94,12 +94,14 @@ void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
   });
   parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
     const auto& [name, positions] = inputs_.faces.heads[h];
-    const std::optional<TextureCoat> coat = renders_.coat_of(static_cast<Index>(h));
+    const auto head = static_cast<Index>(h);
+    const std::optional<TextureCoat> coat = renders_.coat_of(head);
+    const TextureCoat* const worn_coat = coat ? &*coat : nullptr;
+    const auto colours = renders_.colours_of(head, worn_coat);
     // The prefix avoids a clash with a face of the same name.
-    write_file(
-        directory_.gallery_head(name),
-        gallery_->face_script(concat("head ", name), positions,
-                              shapes_.of_head(static_cast<Index>(h)), coat ? &*coat : nullptr));
+    write_file(directory_.gallery_head(name),
+               gallery_->face_script(concat("head ", name), positions, shapes_.of_head(head),
+                                     worn_coat, colours ? &*colours : nullptr));
   });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);

@@ -79,7 +79,7 @@ std::vector<bool> see_through_materials(const Inputs& inputs) {
   if (std::ranges::find(is_skin, false) == is_skin.end()) return see_through;
   const ObjFile& first = inputs.files.front();
   const std::vector<SurfaceMaterial> materials = surface_materials_of(
-      inputs.materials.names, find_material_files(first.path, first.material_libraries));
+      inputs.materials.names, find_material_files(first.material_path(), first.material_libraries));
   for (std::size_t m = 0; m < faces.size(); ++m) {
     see_through[m] = !is_skin[m] && is_see_through(materials[m], inputs.faces, faces[m]);
   }

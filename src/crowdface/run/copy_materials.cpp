@@ -27,8 +27,9 @@ class MaterialCopies {
 
   void add(const ObjFile& file, const std::string& head) {
     const auto [found, is_unknown] =
-        known_.try_emplace({file.path.parent_path(), file.material_libraries});
-    if (is_unknown) found->second = find_material_files(file.path, file.material_libraries);
+        known_.try_emplace({file.material_path().parent_path(), file.material_libraries});
+    if (is_unknown)
+      found->second = find_material_files(file.material_path(), file.material_libraries);
     for (const std::string& warning : found->second.warnings) {
       heads_of_warning_[warning].push_back(head);
     }

@@ -183,6 +183,8 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                            shapes.memory_bytes() + attachments.memory_bytes() +
                            worn_bytes(config, inputs, crowd);
   std::uint64_t of_thread = encoders_.encode_bytes() + attachments.worn_bytes();
+  // Colours at vertices: a face's own, and what a picture is drawn with.
+  if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.any()) {
     standing += textures_.memory_bytes();
     of_thread += textures_.blend_bytes();

@@ -7,6 +7,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/plain_obj_template.h"
 #include "crowdface/mesh/normals.h"
@@ -62,8 +63,8 @@ std::map<Index, std::string> shared_libraries(const MeshSource& source) {
   if (source.shared.empty()) return lines;
   for (const Index target : source.targets) {
     const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
-    lines[target] =
-        library_line(find_material_files(file.path, file.material_libraries).files, source.shared);
+    lines[target] = library_line(
+        find_material_files(file.material_path(), file.material_libraries).files, source.shared);
   }
   return lines;
 }
@@ -114,10 +115,12 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
                  inputs.files[static_cast<std::size_t>(face.target)].material_libraries) {
               head += concat("mtllib ", library, '\n');
             }
-            return forms->obj[forms->of_target.at(face.target)].encode(
+            EncodedFile plain = forms->obj[forms->of_target.at(face.target)].encode(
                 concat(head, "o ", face.id, '\n'), *face.positions, *face.normals, face.what);
+            if (face.colours->rows() == 0) return plain;
+            return EncodedFile(with_colours(plain.text(), *face.colours));
           },
-          memory, encode};
+          memory, inputs.colours.empty() ? encode : 3 * encode + 2 * memory};
 }
 
 }  // namespace

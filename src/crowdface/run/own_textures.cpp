@@ -159,7 +159,7 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
     const Index target = face.recipe.target;
     if (of_target_.contains(target)) continue;
     const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
-    Materials materials{OwnMaterials(file.path, file.material_libraries, shared), {}};
+    Materials materials{OwnMaterials(file.material_path(), file.material_libraries, shared), {}};
     std::size_t first = 0;
     const auto add = [&](const HeadTextures& textures) {
       if (!textures.blend()) return;

@@ -65,11 +65,10 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
 
 Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
                       const ScanSurface& scan, const PoseHint& hint,
-                      const std::optional<ReliefMatch>& face,
-                      const std::optional<ReliefMatch>& scanned) {
-  if (!face || !scanned) return best_fit(skin, rest, axes, scan, hint).pose;
+                      const std::optional<ReliefMatch>& face) {
+  if (!face || !hint.face) return best_fit(skin, rest, axes, scan, hint).pose;
   ShapeFit start;
-  start.pose = pose_of_faces(*face, *scanned);
+  start.pose = pose_of_faces(*face, *hint.face);
   return fit_shape(skin, {rest, {}}, scan, {}, start, {.reach_mm = {25, 20, 16, 12}, .steps = 4})
       .pose;
 }

@@ -3,6 +3,7 @@
 
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/paint/face_marks.h"
+#include "crowdface/wrap/centred_scan.h"
 
 namespace crowdface {
 
@@ -13,13 +14,16 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   } else {
     for (const Bearing& bearing : all_bearings()) axes.push_back(axes_of(bearing));
   }
-  const std::vector<bool> all(static_cast<std::size_t>(scan.positions.rows()), true);
-  const Positions samples = sample_skin(topology_of(scan.triangles, scan.positions.rows()),
-                                        scan.positions, all, kSkinSamples);
+  const CentredScan moved = centred(scan, {});
+  const Index vertices = scan.positions.rows();
+  const std::vector<bool> all(static_cast<std::size_t>(vertices), true);
+  const Positions samples =
+      sample_skin(topology_of(scan.triangles, vertices), moved.scan.positions, all, kSkinSamples);
   auto match = match_relief(samples, axes, {});
   if (match && (match->votes < kLeastVotes || (hint && match->degrees_off > kMostDegreesOff))) {
     match.reset();
   }
+  if (match) match->between += moved.middle;
   return match;
 }
 

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// The face of a scan, or of a template's skin, found by its relief (see match_relief).
+/// The face of a scan, found by its relief (see match_relief).
 /// \param hint  how it stands, within some 35°; without it all turns are searched
 /// \return nothing if no part has the relief of a face
 std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<PoseHint>& hint);

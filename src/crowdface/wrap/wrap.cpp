@@ -112,7 +112,7 @@ Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel*
 
 Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTemplate& shape,
                       const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
-                      const std::optional<PoseHint>& hint, const std::optional<ReliefMatch>& face) {
+                      const std::optional<PoseHint>& hint) {
   if (landmarks.size() >= kFewestLandmarks) {
     refuse_mirrored_landmarks(rest, landmarks);
     return pose_of_landmarks(rest, landmarks);
@@ -124,7 +124,7 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
                               landmarks.size(), " landmarks"));
   }
   return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint,
-                    shape.face, face);
+                    shape.face);
 }
 
 void refuse_no_pose(const Similarity& pose) {
@@ -152,20 +152,18 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
 static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                                const std::vector<WrapLandmark>& all_landmarks,
                                const std::optional<PoseHint>& hint) {
+  const std::optional<ReliefMatch> face = hint ? hint->face : std::nullopt;
   const SkinMesh& skin = shape.skin;
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
   std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
   const Positions rest = skin.of(shape.positions);
-  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
-  std::optional<ReliefMatch> face;  // of the scan
-  if (picked < static_cast<std::ptrdiff_t>(kFewestLandmarks)) face = find_scan_face(scan, hint);
   WrapResult result;
   ShapeFit fit;
   std::optional<Small> small;
   const ShapeModel* used = nullptr;
   {
     const ScanSurface surface(scan);
-    fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint, face);
+    fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint);
     if (shape.reduced) small = reduce(shape, rest, model, landmarks, fit.pose);
     const auto& marks = small ? small->landmarks : landmarks;
     const ShapeModel alone{small ? small->rest : rest, {}};
@@ -225,7 +223,15 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
   const CentredScan moved = centred(scan, landmarks);
-  WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, hint);
+  std::optional<PoseHint> standing = hint;
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
+  if (standing && picked >= static_cast<std::ptrdiff_t>(kFewestLandmarks)) {
+    standing->face.reset();
+  } else if (standing && !standing->face) {
+    standing->face = find_scan_face(scan, hint);
+  }
+  if (standing && standing->face) standing->face->between -= moved.middle;
+  WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, standing);
   result.pose.translation += moved.middle;
   return result;
 }

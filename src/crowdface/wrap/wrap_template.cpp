@@ -7,7 +7,6 @@
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/wrap/scan.h"
-#include "crowdface/wrap/scan_face.h"
 
 namespace crowdface {
 namespace {
@@ -33,7 +32,8 @@ void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
 }  // namespace
 
 WrapTemplate make_template(const Topology& topology, const Positions& positions,
-                           const HeadAxes& axes, const TemplateOptions& options) {
+                           const HeadAxes& axes, const TemplateOptions& options,
+                           const std::optional<ReliefMatch>& face) {
   WrapTemplate result{topology, build_adjacency(topology), {}, {}, axes, positions, {}, {}, {}};
   result.components = find_components(result.adjacency);
   result.parts = find_parts(topology, result.adjacency, result.components, positions, {}, axes);
@@ -53,9 +53,20 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
   result.skin.adjacency =
       build_adjacency(topology_of(result.skin.triangles, result.skin.vertex_count()));
   find_openness(options, result);
-  result.face = find_scan_face({result.skin.of(positions), result.skin.triangles},
-                               PoseHint{.up = axes.up, .front = axes.front});
+  result.face = face ? face : find_face(topology, head_shape(result), axes);
   return result;
+}
+
+HeadShape head_shape(const WrapTemplate& shape) {
+  HeadShape head;
+  head.positions = shape.positions;
+  for (const std::uint32_t c : shape.components.of_vertex) {
+    head.skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
+  }
+  for (const Part& part : shape.parts.parts) {
+    if (part.eyeball) head.eyeballs.push_back(shape.parts.shapes[part.ball].centre);
+  }
+  return head;
 }
 
 std::vector<Triangle> solid_triangles(const WrapTemplate& shape) {

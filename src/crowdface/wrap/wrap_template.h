@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "crowdface/paint/face_relief.h"
+#include "crowdface/paint/face_marks.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/wrap/reduced_skin.h"
@@ -20,7 +20,7 @@ struct WrapTemplate {
   HeadAxes axes;
   Positions positions;  ///< #V by 3, in millimetres
   SkinMesh skin;
-  std::optional<ReliefMatch> face;     ///< of the skin; nothing if its relief is not a face's
+  std::optional<ReliefMatch> face;     ///< nothing if the skin does not have the relief of a face
   std::optional<ReducedSkin> reduced;  ///< what a skin of many vertices is bent by
 };
 
@@ -30,9 +30,14 @@ struct TemplateOptions {
 };
 
 /// Finds skin and parts. \param positions  #V by 3, in millimetres.
+/// \param face  where the face is if that is known; otherwise it is looked for
 /// \throws InvalidInput if there is no skin to speak of.
 WrapTemplate make_template(const Topology& topology, const Positions& positions,
-                           const HeadAxes& axes, const TemplateOptions& options = {});
+                           const HeadAxes& axes, const TemplateOptions& options = {},
+                           const std::optional<ReliefMatch>& face = {});
+
+/// The template as far as its face is looked for.
+HeadShape head_shape(const WrapTemplate& shape);
 
 /// Triangles in the way of a look at the skin: all but lashes and tear lines.
 std::vector<Triangle> solid_triangles(const WrapTemplate& shape);

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/head_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/paint/face_marks.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kUvTolerance = 1e-4;
+
+/// The first corner that has another place in the texture, whatever rows the places stand in: programs
+/// number them anew when they write a file. Empty if there is none.
+std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found) {
+  const auto text = [](const TextureCoordinates& uvs, std::uint32_t row) {
+    return row == kNoIndex ? std::string("none") : concat(uvs(row, 0), ' ', uvs(row, 1));
+  };
+  for (Index f = 0; f < expected.topology.face_count(); ++f) {
+    const auto [begin, end] = expected.topology.corners(f);
+    for (std::uint32_t c = begin; c < end; ++c) {
+      const std::uint32_t a =
+          expected.topology.corner_uvs.empty() ? kNoIndex : expected.topology.corner_uvs[c];
+      const std::uint32_t b =
+          found.topology.corner_uvs.empty() ? kNoIndex : found.topology.corner_uvs[c];
+      if (a == kNoIndex && b == kNoIndex) continue;
+      if (a != kNoIndex && b != kNoIndex &&
+          (expected.uvs.row(a) - found.uvs.row(b)).cwiseAbs().maxCoeff() <= kUvTolerance) {
+        continue;
+      }
+      return concat("face ", f + 1, ", corner ", c - begin + 1,
+                    ": expected the texture coordinate ", text(expected.uvs, a), ", found ",
+                    text(found.uvs, b));
+    }
+  }
+  return {};
+}
+
+/// What an export did to a head that has another topology than the first, and what helps.
+std::string cause_of_difference(const Topology& first, const Topology& found) {
+  const auto triangles = [](const Topology& topology) {
+    return topology.corner_count() - 2 * topology.face_count();
+  };
+  const bool same_vertices = first.vertex_count == found.vertex_count;
+  const bool same_faces = first.face_count() == found.face_count();
+  if (same_vertices && same_faces) {
+    return "; it has as many vertices and faces, in another order or otherwise connected: export "
+           "it again with the order "
+           "of vertices kept, or wrap the first head onto it (crowdface wrap)";
+  }
+  if (same_vertices && triangles(first) == triangles(found)) {
+    return found.face_count() > first.face_count()
+               ? "; its polygons were cut into triangles: export it without triangulating"
+               : "; its triangles were joined to polygons: export it as the others were";
+  }
+  if (triangles(first) == triangles(found)) {
+    return found.vertex_count > first.vertex_count
+               ? "; its vertices were split, at texture seams or hard edges: export it with "
+                 "vertices shared"
+               : "; some of its vertices were joined: export it without welding or merging";
+  }
+  return concat("; it has ", found.vertex_count, " vertices and ", found.face_count(),
+                " faces, the first ", first.vertex_count, " and ", first.face_count(),
+                ": another mesh, onto which crowdface wrap brings the first head's");
+}
+
+}  // namespace
+
+void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) {
+  for (const HeadFile& head : heads) {
+    if (head.mesh == heads[0].mesh) continue;
+    const HeadMesh &first = *heads[0].mesh, &mesh = *head.mesh;
+    std::string difference = first_difference(first.topology, mesh.topology);
+    if (!difference.empty()) {
+      difference += cause_of_difference(first.topology, mesh.topology);
+    } else {
+      difference = first_uv_difference(first, mesh);
+    }
+    if (difference.empty()) continue;
+    problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
+                                            heads[0].file.path.string(), ": ", difference));
+  }
+}
+
+void check_stance(const Config& config, const Inputs& inputs) {
+  if (config.faces.align == Align::kNone) return;
+  const HeadShape head{inputs.mean, skin_of(inputs), {}};  // parts that follow are no skin
+  const Topology& topology = inputs.faces.topology;
+  const Bearing asked{config.faces.up, config.faces.front};
+  auto marks = find_face_marks(topology, head, axes_of(asked));
+  if (!marks) {
+    const auto found = find_bearing(topology, head);
+    if (!found) return;
+    throw InvalidInput(concat(
+        "the heads look along ", name_of(found->front), " with ", name_of(found->up),
+        " up, and not as faces.front ", name_of(asked.front), " and faces.up ", name_of(asked.up),
+        " say: set up: ", name_of(found->up), " and front: ", name_of(found->front),
+        " (faces.align: none takes them as they are)"));
+  }
+  constexpr double kLeastMm = 35, kMostMm = 120;  // of people, from a child's 45 mm to some 85
+  const double mm = marks->face() * mm_per(config.faces.units);
+  if (mm >= kLeastMm && mm <= kMostMm) return;
+  const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
+  const double units = up.maxCoeff() - up.minCoeff();
+  constexpr double kTypicalMm = 65;
+  LengthUnit fitting = fitting_unit(marks->face(), kTypicalMm);
+  for (const LengthUnit unit : kLengthUnits) {
+    const double other = marks->face() * mm_per(unit);
+    if (other >= kLeastMm && other <= kMostMm) fitting = unit;
+  }
+  throw InvalidInput(concat(
+      "the first head is ", format_fixed(units, 2), " units high, with faces.units ",
+      name_of(config.faces.units), " ", format_fixed(units * mm_per(config.faces.units) / 10, 1),
+      " cm, and ", format_fixed(mm, 0),
+      " mm from the eyes to the mouth; of people that is some 65 mm: set units: ", name_of(fitting),
+      " (faces.align: none takes any size)"));
+}
+
+std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
+  constexpr Index kSamples = 2000;
+  constexpr double kMostMm = 1,
+                   kMostOfOthers = 0.4;  // of the middle distance to the most alike head
+  const std::vector<Head>& heads = inputs.faces.heads;
+  std::vector<Positions> sampled(heads.size());
+  std::vector<Index> rows;
+  for (Index v = 0; v < inputs.mean.rows(); ++v) {
+    if (inputs.skin.of_vertex[static_cast<std::size_t>(v)] == inputs.skin.largest())
+      rows.push_back(v);
+  }
+  const std::size_t step =
+      std::max<std::size_t>(1, rows.size() / static_cast<std::size_t>(kSamples));
+  std::vector<Index> some;
+  for (std::size_t i = 0; i < rows.size(); i += step) some.push_back(rows[i]);
+  if (some.size() < 3) return {};
+  const auto distance = [&](std::size_t a, std::size_t b) {
+    const Positions from = heads[a].positions(some, kAllColumns),
+                    to = heads[b].positions(some, kAllColumns);
+    const Positions moved = fit_similarity(from, to, ScaleFit::kRigid).apply(from);
+    return mm * std::sqrt((moved - to).rowwise().squaredNorm().mean());
+  };
+  std::vector<std::vector<double>> apart(heads.size(), std::vector<double>(heads.size(), 0));
+  parallel_for_each(heads.size(), [&](std::size_t a) {
+    for (std::size_t b = a + 1; b < heads.size(); ++b) apart[a][b] = distance(a, b);
+  });
+  std::vector<double> nearest;
+  for (std::size_t a = 0; a < heads.size(); ++a) {
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t b = 0; b < heads.size(); ++b) {
+      if (b != a) least = std::min(least, apart[std::min(a, b)][std::max(a, b)]);
+    }
+    nearest.push_back(least);
+  }
+  std::ranges::sort(nearest);
+  const double middle = nearest[nearest.size() / 2];
+  std::vector<std::string> warnings;
+  for (std::size_t a = 0; a < heads.size(); ++a) {
+    for (std::size_t b = a + 1; b < heads.size(); ++b) {
+      const double mean = apart[a][b];
+      if (mean > kMostMm || (mean > kMostOfOthers * middle && mean > 0)) continue;
+      warnings.push_back(concat("heads ", heads[a].name, " and ", heads[b].name, " are ",
+                                format_fixed(mean, 2),
+                                " mm apart in the mean: is this one person twice? Faces of both "
+                                "are less varied than they seem"));
+    }
+  }
+  return warnings;
+}
+
+std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs) {
+  constexpr double kLeastMm = 0.01, kHalfStep = 0x1p-24;
+  double farthest = 0;
+  for (const Head& head : inputs.faces.heads) {
+    farthest = std::max(farthest, head.positions.cwiseAbs().maxCoeff());
+  }
+  const double farthest_mm = farthest * mm_per(config.faces.units);
+  if (farthest_mm * kHalfStep <= kLeastMm) return std::nullopt;
+  return concat("heads reach ", format_fixed(farthest_mm / 1000, 0),
+                " m from the origin, where meshes, in single precision, lose up to ",
+                format_fixed(farthest_mm * kHalfStep, 2), " mm: move the heads to the origin");
+}
+
+}  // namespace crowdface

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/mask_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "crowdface/core/text.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/region/vertex_weights.h"
+
+namespace crowdface {
+
+void check_masks(const std::vector<std::string>& files, Problems& problems) {
+  for (const std::string& file : files) {
+    const MaskSource mask(file);
+    if (mask.tiled()) continue;
+    try {
+      if (holds_vertex_weights(file)) {
+        read_vertex_weights(file);
+      } else {
+        mask.read(0);
+      }
+    } catch (const RecoverableError& error) {
+      problems.add(error);
+    }
+  }
+}
+
+std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) {
+  std::set<std::pair<double, double>> tiles;
+  const Topology& topology = inputs.faces.topology;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto uvs = topology.face_uvs(f);
+    if (uvs.empty() || inputs.skin.of_vertex[topology.face(f)[0]] != inputs.skin.largest())
+      continue;
+    Eigen::RowVector2d middle(0, 0);
+    for (const std::uint32_t uv : uvs) {
+      if (uv != kNoIndex) {
+        middle += inputs.faces.uvs.row(uv) / static_cast<double>(uvs.size());
+      }
+    }
+    tiles.emplace(std::floor(middle.x()), std::floor(middle.y()));
+  }
+  std::vector<std::string> warnings;
+  for (const std::string& mask : config.regions.mask) {
+    if (tiles.size() < 2 || MaskSource(mask).tiled() || holds_vertex_weights(mask)) continue;
+    warnings.push_back(concat("mask ", mask, " is one image, but the skin's texture has ",
+                              tiles.size(),
+                              " tiles: beyond the first its edge goes on; with <UDIM> "
+                              "in its name each tile has an image of its own"));
+  }
+  return warnings;
+}
+
+std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
+  const std::vector<std::string>& names = config.regions.names;
+  if (names.empty() || config.regions.mask.empty()) return {};
+  if (names.size() == 1) {
+    return {
+        concat("with one region its mask changes nothing, as what it does not cover goes to the "
+               "last region, which "
+               "is the same: name a second one, names: [",
+               names[0], ", rest], which gets what the first leaves")};
+  }
+  std::vector<std::string> warnings;
+  const std::vector<bool> skin = skin_of(inputs);
+  bool all_are_everywhere = true;
+  for (std::size_t r = 0; r < names.size(); ++r) {
+    double least = 1, most = 0;
+    for (std::size_t v = 0; v < skin.size(); ++v) {
+      if (!skin[v]) continue;
+      const double weight = inputs.regions.alpha(static_cast<Index>(v), static_cast<Index>(r));
+      least = std::min(least, weight);
+      most = std::max(most, weight);
+    }
+    if (most == 0) {
+      warnings.push_back(concat("the region ", names[r],
+                                " covers no skin: its mask is black wherever the texture "
+                                "coordinates of the skin lie"));
+    }
+    constexpr double kNothing = 0.02;
+    all_are_everywhere = all_are_everywhere && least > kNothing;
+  }
+  if (all_are_everywhere) {
+    warnings.push_back(concat("the masks (", join(config.regions.mask),
+                              ") leave no region out anywhere: each vertex of the skin "
+                              "belongs to all of ",
+                              join(names), "; are they a painting of skin and not masks?"));
+  }
+  return warnings;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/mesh_textures.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// By the first bytes; readers look at these, too.
+std::string_view image_ending(std::string_view bytes) {
+  return bytes.starts_with("\x89PNG")          ? ".png"
+         : bytes.starts_with("\xff\xd8")       ? ".jpg"
+         : bytes.starts_with("RIFF")           ? ".webp"
+         : bytes.starts_with("\xabKTX 20\xbb") ? ".ktx2"
+                                               : ".tif";
+}
+
+}  // namespace
+
+std::string material_name_of(std::string name) {
+  constexpr std::size_t kLongest = 200;
+  name.resize(std::min(name.size(), kLongest));
+  std::ranges::replace_if(
+      name, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '_');
+  return name.empty() ? "material" : name;
+}
+
+std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
+                                const std::string& name) {
+  make_directories(folder);
+  std::map<std::string_view, std::string> files;  // by their bytes
+  std::map<std::string, std::string> statements;  // by material
+  for (const MaterialRange& range : mesh.materials) statements[material_name_of(range.name)];
+  for (const MeshTexture& texture : mesh.textures) {
+    const auto [file, is_new] = files.try_emplace(texture.bytes);
+    if (is_new) {
+      file->second = concat(name, '_', files.size(), image_ending(texture.bytes));
+      write_file(folder / file->second, texture.bytes);
+    }
+    statements[material_name_of(texture.material)] +=
+        concat(statement_of(texture.kind).word, ' ', file->second, '\n');
+  }
+  std::string text;
+  for (const auto& [material, lines] : statements) {
+    text += concat("newmtl ", material, '\n', lines);
+  }
+  std::string library = name + ".mtl";
+  write_file(folder / library, text);
+  return library;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/file_mesh.h"
+#include "crowdface/io/gltf_file.h"
+#include "crowdface/io/srgb.h"
+#include "crowdface/io/usda_tokens.h"
+
+namespace crowdface {
+namespace {
+
+constexpr int kDeepest = 200;
+constexpr std::size_t kLongestStatement = 16;  // words before '='
+
+struct PrimProperty {
+  std::vector<double> numbers;
+  std::vector<std::string> texts;  ///< strings and paths
+  std::string interpolation;
+};
+
+struct Prim {
+  std::string_view type, name;
+  std::map<std::string, PrimProperty, std::less<>> properties;
+  std::string uvs, colours;  ///< names of the primvars
+  std::vector<Prim> subsets;
+
+  const PrimProperty* find(std::string_view property) const {
+    const auto found = properties.find(property);
+    return found == properties.end() ? nullptr : &found->second;
+  }
+};
+
+/// A turn about axes by angles in degrees. \param order  of the turns: "XYZ" turns about x first
+Eigen::Matrix3d turn_of(std::string_view order, const std::vector<double>& degrees) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const int axis = order[i] - 'X';
+    const double angle = degrees[order.size() == 1 ? 0 : static_cast<std::size_t>(axis)];
+    turn = Eigen::AngleAxisd(angle * std::numbers::pi / 180, Eigen::Vector3d::Unit(axis)) * turn;
+  }
+  return turn;
+}
+
+/// The matrix of one step of a transform: "xformOp:rotateXYZ:pivot". Steps of other kinds change nothing.
+Eigen::Matrix4d matrix_of(std::string_view step, const std::vector<double>& numbers) {
+  constexpr std::string_view kPrefix = "xformOp:";
+  step.remove_prefix(std::min(kPrefix.size(), step.size()));
+  const std::string_view kind = step.substr(0, step.find(':'));
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  const std::size_t count = numbers.size();
+  if (kind == "transform" && count == 16) return matrix_from(numbers);  // vectors are rows
+  if (kind == "translate" && count == 3) {
+    matrix.topRightCorner<3, 1>() = Eigen::Vector3d(numbers.data());
+  } else if (kind == "scale" && count == 3) {
+    matrix.diagonal().head<3>() = Eigen::Vector3d(numbers.data());
+  } else if (kind == "orient" && count == 4) {
+    matrix.topLeftCorner<3, 3>() =
+        Eigen::Quaterniond(numbers[0], numbers[1], numbers[2], numbers[3]).toRotationMatrix();
+  } else if (kind.starts_with("rotate")) {
+    const std::string_view order = kind.substr(6);
+    const bool is_known = order.find_first_not_of("XYZ") == order.npos && count == order.size() &&
+                          (count == 1 || count == 3);
+    if (is_known) matrix.topLeftCorner<3, 3>() = turn_of(order, numbers);
+  }
+  return matrix;
+}
+
+Eigen::Matrix4d place_of(const Prim& prim) {
+  constexpr std::string_view kInverse = "!invert!";
+  Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
+  const PrimProperty* order = prim.find("xformOpOrder");
+  if (order == nullptr) return place;
+  for (const std::string& step : order->texts) {
+    const bool is_inverse = step.starts_with(kInverse);
+    const std::string_view name = std::string_view(step).substr(is_inverse ? kInverse.size() : 0);
+    const PrimProperty* value = prim.find(name);
+    if (value == nullptr) continue;
+    const Eigen::Matrix4d matrix = matrix_of(name, value->numbers);
+    place = times(place, is_inverse ? Eigen::Matrix4d(matrix.inverse()) : matrix);
+  }
+  return place;
+}
+
+class UsdaReader {
+ public:
+  UsdaReader(std::string_view text, const std::string& name) : tokens_(text, name) {}
+
+  FileMesh read() {
+    for (UsdaToken token = tokens_.next(); token.kind != UsdaToken::Kind::kEnd;
+         token = tokens_.next()) {
+      if (token.is('(')) tokens_.skip_rest();
+      if (is_prim(token)) read_prim(token, Eigen::Matrix4d::Identity(), 0, nullptr);
+    }
+    if (mesh_.positions.rows() == 0 && points_.empty()) {
+      fail(
+          "it defines no mesh itself; if it refers to other files or has variants, usdcat "
+          "--flatten "
+          "-o flat.usda FILE makes one file of all");
+    }
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view what) const { tokens_.fail(what); }
+
+  static bool is_prim(const UsdaToken& token) {
+    return token.is_word("def") || token.is_word("over") || token.is_word("class");
+  }
+
+  void read_prim(const UsdaToken& keyword, const Eigen::Matrix4d& above, int depth, Prim* parent) {
+    if (depth > kDeepest) fail("its prims stand too deep");
+    Prim prim;
+    UsdaToken token = tokens_.next();
+    if (token.kind == UsdaToken::Kind::kWord) {
+      prim.type = token.text;
+      token = tokens_.next();
+    }
+    prim.name = token.text;
+    token = tokens_.next();
+    if (token.is('(')) {
+      tokens_.skip_rest();
+      token = tokens_.next();
+    }
+    if (!token.is('{')) fail(concat("expected the body of ", quoted(std::string(prim.name))));
+    if (!keyword.is_word("def")) {  // no prim of its own
+      tokens_.skip_rest();
+      return;
+    }
+    std::optional<Eigen::Matrix4d> place;
+    const auto placed = [&] {
+      if (!place) place = times(above, place_of(prim));
+      return *place;
+    };
+    std::vector<std::string_view> words;
+    for (token = tokens_.next(); !token.is('}'); token = tokens_.next()) {
+      if (token.kind == UsdaToken::Kind::kEnd) fail("it ends within a prim");
+      if (is_prim(token)) {
+        read_prim(token, placed(), depth + 1, &prim);
+        words.clear();
+      } else if (token.is('=')) {
+        read_property(words, prim);
+        words.clear();
+      } else if (token.is('(') || token.is('{') || token.is('[')) {
+        tokens_.skip_rest();
+        words.clear();
+      } else if (token.kind == UsdaToken::Kind::kWord) {
+        if (words.size() == kLongestStatement) words.erase(words.begin());
+        words.push_back(token.text);
+      }
+    }
+    if (prim.type == "Mesh") add_mesh(prim, placed());
+    if (prim.type == "GeomSubset" && parent != nullptr) parent->subsets.push_back(std::move(prim));
+  }
+
+  /// \param words  before '=': "uniform token orientation"
+  void read_property(const std::vector<std::string_view>& words, Prim& prim) {
+    const std::string name(words.empty() ? std::string_view() : words.back());
+    const std::string_view type = words.size() < 2 ? std::string_view() : words[words.size() - 2];
+    PrimProperty property;
+    constexpr std::array<std::string_view, 4> kNumbers = {"points", "faceVertexCounts",
+                                                          "faceVertexIndices", "indices"};
+    const bool is_plain = name.find('.') == name.npos;  // "points.timeSamples"
+    const bool is_primvar = name.starts_with("primvars:");
+    const bool is_list = name == "xformOpOrder" || name == "material:binding";
+    const bool is_text = name == "orientation" || name == "visibility" || name == "purpose";
+    if (is_plain &&
+        (std::ranges::find(kNumbers, name) != kNumbers.end() || name.starts_with("xformOp:") ||
+         (is_primvar && (type.starts_with("texCoord2") || type.starts_with("color3") ||
+                         type.starts_with("float2") || type == "int[]")))) {
+      property.numbers = tokens_.numbers();
+    } else {
+      const UsdaToken token = tokens_.next();
+      if (token.kind == UsdaToken::Kind::kQuoted && (is_list || is_text)) {
+        property.texts.emplace_back(token.text);
+      }
+      if (token.is('[') && is_list) {
+        for (UsdaToken item = tokens_.next(); !item.is(']') && item.kind != UsdaToken::Kind::kEnd;
+             item = tokens_.next()) {
+          if (item.kind == UsdaToken::Kind::kQuoted) property.texts.emplace_back(item.text);
+        }
+      } else if (token.is('(') || token.is('[') || token.is('{')) {
+        tokens_.skip_rest();
+      }
+    }
+    if (tokens_.pass('(')) property.interpolation = tokens_.skip_rest();
+    const bool are_uvs = type.starts_with("texCoord2") || type.starts_with("float2");
+    if (is_primvar && are_uvs && prim.uvs.empty()) prim.uvs = name;
+    if (name == "primvars:displayColor") prim.colours = name;
+    prim.properties[name] = std::move(property);
+  }
+
+  std::uint32_t index_of(double number, std::size_t count) const {
+    if (number >= 0 && number < static_cast<double>(count)) {
+      return static_cast<std::uint32_t>(number);
+    }
+    fail(concat("expected an index below ", count, ", found ", number));
+  }
+
+  /// The row of a primvar that each corner has, and its rows; of no corners if it has none.
+  std::vector<std::uint32_t> rows_of_corners(const Prim& prim, const std::string& primvar,
+                                             std::size_t width,
+                                             const std::vector<std::uint32_t>& vertices) const {
+    const PrimProperty* values = primvar.empty() ? nullptr : prim.find(primvar);
+    if (values == nullptr || values->numbers.size() < width) return {};
+    const bool of_corners = values->interpolation == "faceVarying";
+    const bool of_vertices =
+        values->interpolation == "vertex" || values->interpolation == "varying";
+    if (!of_corners && !of_vertices) return {};
+    const PrimProperty* indices = prim.find(primvar + ":indices");
+    const std::size_t rows = values->numbers.size() / width;
+    std::vector<std::uint32_t> result;
+    for (std::size_t c = 0; c < vertices.size(); ++c) {
+      std::size_t row = of_corners ? c : vertices[c];
+      if (indices != nullptr && !indices->numbers.empty()) {
+        const std::size_t count = indices->numbers.size();
+        row = index_of(indices->numbers[index_of(static_cast<double>(row), count)], rows);
+      }
+      result.push_back(index_of(static_cast<double>(row), rows));
+    }
+    return result;
+  }
+
+  void add_mesh(const Prim& prim, const Eigen::Matrix4d& place) {
+    const PrimProperty *points = prim.find("points"), *counts = prim.find("faceVertexCounts"),
+                       *corners = prim.find("faceVertexIndices");
+    if (points == nullptr || counts == nullptr || corners == nullptr) return;
+    const std::size_t vertices = points->numbers.size() / 3, first = points_.size() / 3,
+                      first_uv = uvs_.size() / 2, faces = counts->numbers.size();
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const Eigen::Vector3d point = moved(place, &points->numbers[3 * v]);
+      points_.insert(points_.end(), point.data(), point.data() + 3);
+    }
+    std::vector<std::uint32_t> all;
+    for (const double corner : corners->numbers) all.push_back(index_of(corner, vertices));
+    const auto uv_rows = rows_of_corners(prim, prim.uvs, 2, all);
+    if (!uv_rows.empty()) {
+      const auto& numbers = prim.find(prim.uvs)->numbers;
+      uvs_.insert(uvs_.end(), numbers.begin(),
+                  numbers.end() - static_cast<std::ptrdiff_t>(numbers.size() % 2));
+    }
+    const auto colour_rows = rows_of_corners(prim, prim.colours, 3, all);
+    any_colours_ = any_colours_ || !colour_rows.empty();
+    colours_.resize(points_.size(), 1);
+    for (std::size_t c = 0; c < colour_rows.size(); ++c) {
+      const double* light = &prim.find(prim.colours)->numbers[3 * std::size_t{colour_rows[c]}];
+      for (std::size_t k = 0; k < 3; ++k) {
+        colours_[3 * (first + all[c]) + k] = srgb_of_linear(light[k]);
+      }
+    }
+    std::vector<std::string> materials(faces, material_of(prim));
+    for (const Prim& subset : prim.subsets) {
+      const PrimProperty* of = subset.find("indices");
+      if (of == nullptr || subset.find("material:binding") == nullptr) continue;
+      for (const double face : of->numbers) materials[index_of(face, faces)] = material_of(subset);
+    }
+    const PrimProperty* orientation = prim.find("orientation");
+    const bool is_left = orientation != nullptr && !orientation->texts.empty() &&
+                         orientation->texts[0] == "leftHanded";
+    const bool is_turned = is_left != (place.topLeftCorner<3, 3>().determinant() < 0);
+    std::size_t begin = 0;
+    for (std::size_t f = 0; f < faces; ++f) {
+      const std::size_t count = index_of(counts->numbers[f], all.size() - begin + 1);
+      add_face(begin, count, is_turned, all, uv_rows, first, first_uv, materials[f]);
+      begin += count;
+    }
+  }
+
+  void add_face(std::size_t begin, std::size_t count, bool is_turned,
+                const std::vector<std::uint32_t>& vertices,
+                const std::vector<std::uint32_t>& uv_rows, std::size_t first, std::size_t first_uv,
+                const std::string& material) {
+    if (count < 3) return;
+    Topology& topology = mesh_.topology;
+    if (mesh_.materials.empty() || mesh_.materials.back().name != material) {
+      mesh_.materials.push_back({material, topology.face_count()});
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::size_t corner = begin + (is_turned ? (count - c) % count : c);
+      topology.corner_vertices.push_back(static_cast<std::uint32_t>(first) + vertices[corner]);
+      topology.corner_uvs.push_back(
+          uv_rows.empty() ? kNoIndex : static_cast<std::uint32_t>(first_uv) + uv_rows[corner]);
+    }
+    topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+  }
+
+  /// The name of the material that a prim is bound to, or the prim's own.
+  static std::string material_of(const Prim& prim) {
+    const PrimProperty* binding = prim.find("material:binding");
+    if (binding == nullptr || binding->texts.empty()) return std::string(prim.name);
+    return binding->texts[0].substr(binding->texts[0].rfind('/') + 1);
+  }
+
+  void finish() {
+    const auto rows = static_cast<Index>(points_.size() / 3);
+    mesh_.topology.vertex_count = rows;
+    mesh_.positions = Eigen::Map<const Positions>(points_.data(), rows, 3);
+    mesh_.uvs =
+        Eigen::Map<const TextureCoordinates>(uvs_.data(), static_cast<Index>(uvs_.size() / 2), 2);
+    if (uvs_.empty()) mesh_.topology.corner_uvs.clear();
+    if (any_colours_) mesh_.colours = Eigen::Map<const Positions>(colours_.data(), rows, 3);
+  }
+
+  UsdaTokens tokens_;
+  FileMesh mesh_;
+  std::vector<double> points_, uvs_, colours_;
+  bool any_colours_ = false;
+};
+
+}  // namespace
+
+FileMesh parse_usda(std::string_view text, const std::string& name) {
+  return UsdaReader(text, name).read();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/usda_tokens.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+constexpr std::string_view kSigns = "()[]{}=,;", kEnds = "()[]{}=,;\"'@<#";
+
+}  // namespace
+
+UsdaTokens::UsdaTokens(std::string_view text, const std::string& name) : text_(text), name_(name) {
+  if (!text_.starts_with("#usda")) {
+    fail("expected a USD layer as text (#usda 1.0), found another");
+  }
+}
+
+void UsdaTokens::fail(std::string_view what) const {
+  throw InvalidInput(concat(name_, ": ", what));
+}
+
+void UsdaTokens::skip_blanks() {
+  while (at_ < text_.size()) {
+    if (text_[at_] == '#') {
+      at_ = std::min(text_.find('\n', at_), text_.size());
+    } else if (static_cast<unsigned char>(text_[at_]) <= ' ') {
+      ++at_;
+    } else {
+      return;
+    }
+  }
+}
+
+std::string_view UsdaTokens::up_to(std::string_view end, bool escapes) {
+  const std::size_t begin = at_;
+  for (; at_ < text_.size(); ++at_) {
+    if (escapes && text_[at_] == '\\') {
+      ++at_;
+    } else if (text_.substr(at_).starts_with(end)) {
+      const std::string_view inside = text_.substr(begin, at_ - begin);
+      at_ += end.size();
+      return inside;
+    }
+  }
+  fail("it ends within a text or a path");
+}
+
+UsdaToken UsdaTokens::next() {
+  skip_blanks();
+  if (at_ >= text_.size()) return {};
+  const std::string_view rest = text_.substr(at_);
+  for (const std::string_view quote : {"\"\"\"", "'''", "@@@", "\"", "'", "@"}) {
+    if (!rest.starts_with(quote)) continue;
+    at_ += quote.size();
+    return {UsdaToken::Kind::kQuoted, up_to(quote, quote.front() != '@')};
+  }
+  if (rest.front() == '<') {
+    ++at_;
+    return {UsdaToken::Kind::kQuoted, up_to(">", false)};
+  }
+  if (kSigns.find(rest.front()) != kSigns.npos) {
+    ++at_;
+    return {UsdaToken::Kind::kSign, rest.substr(0, 1)};
+  }
+  std::size_t length = 0;
+  while (length < rest.size() && static_cast<unsigned char>(rest[length]) > ' ') {
+    const bool is_array = rest.substr(length).starts_with("[]");
+    if (!is_array && kEnds.find(rest[length]) != kEnds.npos) break;
+    length += is_array ? 2 : 1;
+  }
+  length = std::max<std::size_t>(length, 1);
+  at_ += length;
+  return {UsdaToken::Kind::kWord, rest.substr(0, length)};
+}
+
+bool UsdaTokens::pass(char sign) {
+  skip_blanks();
+  if (at_ >= text_.size() || text_[at_] != sign) return false;
+  ++at_;
+  return true;
+}
+
+std::string UsdaTokens::skip_rest() {
+  std::string interpolation;
+  bool is_next = false;
+  for (int open = 1; open > 0;) {
+    const UsdaToken token = next();
+    if (token.kind == UsdaToken::Kind::kEnd) fail("it ends within brackets");
+    if (token.is('(') || token.is('[') || token.is('{')) ++open;
+    if (token.is(')') || token.is(']') || token.is('}')) --open;
+    if (is_next && token.kind == UsdaToken::Kind::kQuoted) interpolation = token.text;
+    is_next = token.is_word("interpolation") || (is_next && token.is('='));
+  }
+  return interpolation;
+}
+
+std::vector<double> UsdaTokens::numbers() {
+  std::vector<double> numbers;
+  int open = 0;
+  do {
+    skip_blanks();
+    if (at_ >= text_.size()) fail("it ends within a list");
+    const char c = text_[at_];
+    if (c == '[' || c == '(' || c == ']' || c == ')' || c == ',') {
+      open += c == '[' || c == '(' ? 1 : c == ',' ? 0 : -1;
+      ++at_;
+      continue;
+    }
+    if (text_.substr(at_).starts_with("None")) {
+      at_ += 4;
+      continue;
+    }
+    double number = 0;
+    const auto [after, error] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), number);
+    if (error != std::errc() || !std::isfinite(number)) {
+      fail("expected a list of numbers, found something else in it");
+    }
+    at_ = static_cast<std::size_t>(after - text_.data());
+    numbers.push_back(number);
+  } while (open > 0);
+  return numbers;
+}
+
+}  // namespace crowdface

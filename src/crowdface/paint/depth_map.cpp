@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/depth_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crowdface/mesh/vector3.h"
+
+namespace crowdface {
+
+DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square)
+    : square_(square) {
+  const Eigen::Vector3d side = axes.side();
+  Positions seen(samples.rows(), 3);
+  for (Index i = 0; i < samples.rows(); ++i) {
+    const Eigen::Vector3d p = row3(samples, i);
+    seen.row(i) << p.dot(side), p.dot(axes.up), p.dot(axes.front);
+    box_.extend(Eigen::Vector2d(seen(i, 0), seen(i, 1)));
+  }
+  columns_ = static_cast<Index>(box_.sizes().x() / square_) + 1;
+  rows_ = static_cast<Index>(box_.sizes().y() / square_) + 1;
+  depths_.assign(static_cast<std::size_t>(columns_ * rows_), kNoDepth);
+  for (Index i = 0; i < seen.rows(); ++i) {
+    double& depth = depths_[index(seen(i, 0), seen(i, 1))];
+    depth = std::max(depth, seen(i, 2));
+  }
+}
+
+void DepthMap::soften() {
+  const std::vector<double> before = depths_;
+  for (Index row = 1; row + 1 < rows_; ++row) {
+    for (Index column = 1; column + 1 < columns_; ++column) {
+      double sum = 0;
+      int count = 0;
+      for (const Index beside : {-columns_ - 1, -columns_, -columns_ + 1, Index{-1}, Index{0},
+                                 Index{1}, columns_ - 1, columns_, columns_ + 1}) {
+        const double depth = before[static_cast<std::size_t>(row * columns_ + column + beside)];
+        if (depth == kNoDepth) continue;
+        sum += depth;
+        ++count;
+      }
+      if (count > 0) depths_[static_cast<std::size_t>(row * columns_ + column)] = sum / count;
+    }
+  }
+}
+
+DepthMap::Lookup DepthMap::look_up(double offset, double extent, Index count) const {
+  Lookup lookup;
+  if (!(offset >= 0 && offset <= extent)) return lookup;
+  const double place = offset / square_;
+  lookup.nearest = std::min(static_cast<Index>(place), count - 1);
+  if (place < 0.5) return lookup;
+  const auto below = static_cast<Index>(place - 0.5);
+  if (below + 1 >= count) return lookup;
+  lookup.below = below;
+  lookup.share = place - 0.5 - static_cast<double>(below);
+  return lookup;
+}
+
+ReliefFit DepthMap::fit(double across, double height, double scale, double stretch) const {
+  const Eigen::Vector2d extent = box_.sizes();
+  std::array<Lookup, kReliefColumns> columns;
+  std::array<Lookup, kReliefRows> rows;
+  for (int c = 0; c < kReliefColumns; ++c) {
+    const double x = across + scale * across_mm(c);
+    columns[static_cast<std::size_t>(c)] = look_up(x - box_.min().x(), extent.x(), columns_);
+  }
+  for (int r = 0; r < kReliefRows; ++r) {
+    const double y = height + stretch * scale * height_mm(r * kReliefColumns);
+    rows[static_cast<std::size_t>(r)] = look_up(y - box_.min().y(), extent.y(), rows_);
+  }
+  ReliefDepths depths;
+  auto depth = depths.begin();
+  for (const Lookup& row : rows) {
+    for (const Lookup& column : columns) *depth++ = at(column, row) / scale;
+  }
+  return fit_relief(depths);
+}
+
+double DepthMap::at(const Lookup& column, const Lookup& row) const {
+  if (column.nearest < 0 || row.nearest < 0) return kNoDepth;
+  if (column.below >= 0 && row.below >= 0) {
+    const double* corner = &depths_[static_cast<std::size_t>(row.below * columns_ + column.below)];
+    const double s = column.share, t = row.share;
+    const double depth = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
+                         t * ((1 - s) * corner[columns_] + s * corner[columns_ + 1]);
+    if (std::isfinite(depth)) return depth;
+  }
+  return depths_[static_cast<std::size_t>(row.nearest * columns_ + column.nearest)];
+}
+
+std::size_t DepthMap::index(double x, double y) const {
+  const auto column = std::min(static_cast<Index>((x - box_.min().x()) / square_), columns_ - 1);
+  const auto row = std::min(static_cast<Index>((y - box_.min().y()) / square_), rows_ - 1);
+  return static_cast<std::size_t>(row * columns_ + column);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/paint/relief_fit.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <cstdlib>
+
+#include <Eigen/Cholesky>
+
+namespace crowdface {
+namespace {
+
+constexpr double kMiddleMm = kReliefTopMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
+// Of 16 synthetic heads: depths in mm behind the tip of the nose. Columns go from the middle to the side.
+constexpr std::array<std::array<double, kHalfReliefColumns>, kReliefRows> kMeanRelief = {{
+    {-23, -24, -26, -29, -32, -36},
+    {-21, -22, -25, -28, -32, -35},
+    {-20, -21, -24, -28, -32, -34},
+    {-20, -22, -28, -33, -33, -35},
+    {-19, -22, -35, -33, -33, -35},
+    {-15, -19, -31, -33, -33, -35},
+    {-9, -14, -28, -30, -32, -34},
+    {-3, -8, -23, -28, -29, -31},
+    {0, -5, -18, -27, -28, -30},
+    {-1, -4, -12, -27, -28, -31},
+    {-14, -21, -26, -28, -29, -32},
+    {-22, -22, -24, -28, -31, -34},
+    {-16, -18, -22, -27, -32, -36},
+    {-16, -18, -22, -27, -33, -38},
+    {-18, -20, -24, -29, -34, -40},
+    {-21, -22, -25, -30, -36, -43},
+    {-21, -22, -25, -30, -37, -47},
+}};
+
+constexpr int kTerms = 6;  // of a fit: 1, x, y, x², y², relief
+using Coefficients = Eigen::Matrix<double, kTerms, 1>;
+using Products = Eigen::Matrix<double, kTerms, kTerms>;
+
+constexpr double kUnitMm = 40;  // of x and y in the terms
+
+/// The terms of each cell, and the sum of their products over all cells.
+struct Terms {
+  std::array<Coefficients, kReliefCells> of_cell;
+  Products products = Products::Zero();
+
+  Terms() {
+    for (int c = 0; c < kReliefCells; ++c) {
+      const double x = across_mm(c) / kUnitMm, y = (height_mm(c) - kMiddleMm) / kUnitMm;
+      Coefficients& terms = of_cell[static_cast<std::size_t>(c)];
+      terms = Coefficients(1, x, y, x * x, y * y, relief_mm(c));
+      products += terms * terms.transpose();
+    }
+  }
+};
+const Terms& terms() {
+  static const Terms all;
+  return all;
+}
+
+using UsedCells = std::bitset<kReliefCells>;
+
+/// A fit over the cells that are used. The relief is the last term, so the Cholesky factor of the terms' products holds what
+/// the relief explains of what the other terms leave.
+struct CellFit {
+  ReliefFit fit;
+  Eigen::LLT<Products> factor;
+  Coefficients explained = Coefficients::Zero();
+
+  CellFit(const ReliefDepths& depths, const UsedCells& used) {
+    constexpr double kFewest = 0.72 * kReliefCells, kFlatMm = 0.05;
+    const auto& of_cell = terms().of_cell;
+    const auto count = static_cast<double>(used.count());
+    if (count < kFewest) return;
+    Products products = terms().products;
+    Coefficients by_depth = Coefficients::Zero();
+    double squares = 0;
+    for (std::size_t c = 0; c < kReliefCells; ++c) {
+      if (used[c]) {
+        by_depth += depths[c] * of_cell[c];
+        squares += depths[c] * depths[c];
+      } else {
+        products -= of_cell[c] * of_cell[c].transpose();
+      }
+    }
+    factor.compute(products);
+    explained = factor.matrixL().solve(by_depth);
+    const double by_relief = explained(kTerms - 1);
+    const double without_relief = squares - explained.head<kTerms - 1>().squaredNorm();
+    const bool is_flat = !(without_relief > kFlatMm * kFlatMm * count);
+    if (factor.info() != Eigen::Success || is_flat) return;
+    fit.agreement = by_relief / std::sqrt(without_relief);
+    fit.amplitude = by_relief / factor.matrixLLT()(kTerms - 1, kTerms - 1);
+  }
+
+  Coefficients coefficients() const { return factor.matrixU().solve(explained); }
+};
+
+}  // namespace
+
+double relief_mm(int cell) {
+  const int column = std::abs(cell % kReliefColumns - (kHalfReliefColumns - 1));
+  return kMeanRelief[static_cast<std::size_t>(cell / kReliefColumns)]
+                    [static_cast<std::size_t>(column)];
+}
+
+ReliefFit fit_relief(ReliefDepths depths) {
+  constexpr double kDeepestMm = 75, kHoleMm = 14, kPromising = 0.25;
+  const double foremost = *std::ranges::max_element(depths);
+  if (foremost == kNoDepth) return {};
+  UsedCells used;
+  for (std::size_t c = 0; c < kReliefCells; ++c) {
+    depths[c] -= foremost;
+    used[c] = depths[c] > -kDeepestMm;
+  }
+  CellFit of_cells(depths, used);
+  // An open mouth and the openings of the eyes lie behind the face: what is too deep is left out, twice.
+  for (int round = 0; round < 2 && of_cells.fit.agreement > kPromising; ++round) {
+    const Coefficients by = of_cells.coefficients();
+    const UsedCells before = used;
+    for (std::size_t c = 0; c < kReliefCells; ++c) {
+      if (depths[c] - by.dot(terms().of_cell[c]) <= -kHoleMm) used.reset(c);
+    }
+    if (used == before) break;
+    of_cells = CellFit(depths, used);
+  }
+  ReliefFit fit = of_cells.fit;
+  if (fit.agreement > kPromising) {
+    const Coefficients by = of_cells.coefficients();
+    const double eyes = -kMiddleMm / kUnitMm;
+    fit.offset = by(0) + by(2) * eyes + by(4) * eyes * eyes + foremost;
+    fit.slope_up = by(2) / kUnitMm;
+  }
+  return fit;
+}
+
+}  // namespace crowdface

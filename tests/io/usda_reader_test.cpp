@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/io/file_mesh.h"
+#include "crowdface/io/usda_template.h"
+
+#include "support/expect_error.h"
+#include "support/meshes.h"
+
+namespace crowdface::testing {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr const char* kSquare =
+    "int[] faceVertexCounts = [3, 3]\n int[] faceVertexIndices = [0, 1, 2, 2, 1, 3]\n"
+    "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0.5)] (\n interpolation = "
+    "\"vertex\"\n)\n";
+
+FileMesh mesh_of(const std::string& body) {
+  return parse_usda("#usda 1.0\n(\n upAxis = \"Y\"\n)\n" + body, "head.usda");
+}
+
+FileMesh square_with(const std::string& lines) {
+  return mesh_of(
+      concat("def Xform \"root\" {\n def Mesh \"skin\" {\n", kSquare, lines, "\n}\n}\n"));
+}
+
+TEST(ParseUsda, ReadsWhatWeWrite) {
+  Topology topology = cube_topology();
+  TextureCoordinates uvs(topology.corner_count(), 2);
+  for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
+    topology.corner_uvs.push_back(c);
+    uvs.row(c) << c / 32.0, 1 - c / 64.0;
+  }
+  GlbOptions options;
+  options.colours = true;
+  options.materials = {{"skin"}, {"eyes"}};
+  for (Index f = 0; f < topology.face_count(); ++f) options.face_materials.push_back(f < 2 ? 0 : 1);
+  const Positions positions = cube_positions();
+  ColourRows colours(8, 3);
+  for (Index i = 0; i < colours.size(); ++i) colours.data()[i] = static_cast<std::uint8_t>(9 * i);
+  const std::string text =
+      UsdaTemplate(topology, uvs, options, Subdivision::kNone)
+          .encode(positions, positions.rowwise().normalized(), "a cube", {}, {}, {}, {}, colours)
+          .text();
+  const FileMesh mesh = parse_usda(text, "cube.usda");
+  EXPECT_TRUE(first_difference(topology, mesh.topology).empty());
+  EXPECT_EQ(mesh.topology.corner_uvs, topology.corner_uvs);
+  EXPECT_LT((mesh.uvs - uvs).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_LT((mesh.positions - positions).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((255 * mesh.colours - colours.cast<double>()).cwiseAbs().maxCoeff(), 1e-3);
+  ASSERT_EQ(mesh.materials.size(), 2U);
+  EXPECT_EQ(mesh.materials[0].name, "skin");
+  EXPECT_EQ(mesh.materials[1].name, "eyes");
+  EXPECT_EQ(mesh.materials[1].first_face, 2);
+}
+
+TEST(ParseUsda, StandsMeshesWhereTheirTransformsSay) {
+  const FileMesh mesh = mesh_of(
+      concat("def Xform \"head\" (kind = \"component\")\n{\n"
+             " double3 xformOp:translate = (10, 0, 0)\n float xformOp:rotateY = 90\n"
+             " double3 xformOp:translate:pivot = (1, 0, 0)\n float3 xformOp:scale = (2, 2, 2)\n"
+             " uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:translate:pivot\", "
+             "\"xformOp:rotateY\", \"xformOp:scale\", \"!invert!xformOp:translate:pivot\"]\n"
+             " def Mesh \"skin\" {\n",
+             kSquare, "}\n}\n"));
+  // (p - pivot) doubled, turned from x to -z, and moved by pivot and 10.
+  EXPECT_LT((mesh.positions.row(0) - Eigen::RowVector3d(11, 0, 2)).norm(), 1e-9);
+  EXPECT_LT((mesh.positions.row(3) - Eigen::RowVector3d(12, 2, 0)).norm(), 1e-9);
+}
+
+TEST(ParseUsda, TurnsLeftHandedFacesAndReadsPrimvars) {
+  const FileMesh mesh = square_with(
+      "uniform token orientation = \"leftHanded\"\n"
+      "texCoord2f[] primvars:UVMap = [(0, 0), (1, 0), (0.5, 1)] (interpolation = \"vertex\")\n"
+      "int[] primvars:UVMap:indices = [0, 1, 2, 2]\n"
+      "color3f[] primvars:displayColor = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)] (\n"
+      " interpolation = \"vertex\"\n)\nrel material:binding = </root/mtl/Skin_Mat>");
+  EXPECT_THAT(mesh.topology.corner_vertices, ElementsAre(0, 2, 1, 2, 3, 1));
+  EXPECT_THAT(mesh.topology.corner_uvs, ElementsAre(0, 2, 1, 2, 2, 1));
+  EXPECT_EQ(mesh.uvs.row(2), Eigen::RowVector2d(0.5, 1));
+  EXPECT_EQ(mesh.colours.row(2), Eigen::RowVector3d(0, 0, 1));
+  EXPECT_EQ(mesh.materials.at(0).name, "Skin_Mat");
+}
+
+TEST(ParseUsda, PassesWhatIsNoMesh) {
+  const FileMesh mesh = square_with(
+      "# def Mesh \"comment\" {\n"
+      "custom string note = \"\"\"a } \" brace\"\"\"\nasset file = @./a(b.png@\n"
+      "point3f[] points.timeSamples = {\n 0: [(9, 9, 9)],\n}\n"
+      "token outputs:surface\n"
+      "variantSet \"lod\" = {\n \"high\" {\n def Mesh \"other\" { }\n }\n}\n"
+      "over \"elsewhere\" { point3f[] points = [(1, 2, 3)] }");
+  EXPECT_EQ(mesh.positions.rows(), 4);
+  EXPECT_EQ(mesh.topology.face_count(), 2);
+}
+
+TEST(ParseUsda, RefusesWhatHasNoMeshOfItsOwnOrIsBroken) {
+  const auto refuse = [](const std::string& body, const char* phrase) {
+    expect_error(ExitCode::kBadData, {"head.usda", phrase}, [&] { mesh_of(body); });
+  };
+  refuse("def Xform \"a\" (references = @b.usd@) { }", "--flatten");
+  refuse("def Mesh \"a\" {", "ends within a prim");
+  refuse("def Mesh \"a\" { point3f[] points = [(1, x, 2)] }", "expected a list of numbers");
+  refuse(
+      "def Mesh \"a\" { point3f[] points = [(1, 2, 3)] int[] faceVertexCounts = [3] "
+      "int[] faceVertexIndices = [0, 0, 1] }",
+      "an index below 1, found 1");
+  refuse(
+      "def Mesh \"a\" { point3f[] points = [(1, 2, 3)] int[] faceVertexCounts = [4] "
+      "int[] faceVertexIndices = [0, 0, 0] }",
+      "an index below 4, found 4");
+}
+
+}  // namespace
+}  // namespace crowdface::testing
