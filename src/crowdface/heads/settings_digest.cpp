@@ -56,7 +56,8 @@ Digest materials_digest(const Inputs& inputs) {
   std::set<std::filesystem::path> known;  // heads mostly share theirs
   Hasher hasher;
   for (const ObjFile& head : inputs.files) {
-    for (const MaterialFile& file : find_material_files(head.path, head.material_libraries).files) {
+    for (const MaterialFile& file :
+         find_material_files(head.material_path(), head.material_libraries).files) {
       const bool is_hashed = file.kind && (*file.kind != TextureKind::kColour || has_colours);
       if (is_hashed || !known.insert(file.from).second) continue;
       throw_if_interrupted();
