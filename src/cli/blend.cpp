@@ -55,13 +55,14 @@ struct BlendOptions : CommonOptions {
 void declare_blend(CLI::App& command, BlendOptions& options) {
   options.config.add_to(command);
   add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
-             "Which: the plan's file, #, the face's id")
+             "The plan file and the id of the face, joined by #")
       .required();
-  add_option(command, "-o,--output", options.out, "FILE",
-             concat("The mesh to write; its ending says the format: ", list_of_extensions()))
+  add_option(
+      command, "-o,--output", options.out, "FILE",
+      concat("The mesh to write; the file extension sets the format: ", list_of_extensions()))
       .required();
   add_flag(command, "--any-settings", options.any_settings,
-           "Blend even if heads, masks or smoothing differ from the plan's");
+           "Blend even if the heads, masks or smoothing differ from those of the plan");
 }
 
 void blend(const BlendOptions& options) {
@@ -76,10 +77,10 @@ void blend(const BlendOptions& options) {
   refuse_to_write_over(input_files(job.config), {file});
   const PlanLine line = find_recipe(options.recipe, job.names);
   if (line.settings != job.settings.hex() && !options.any_settings) {
-    throw InvalidInput(concat(options.recipe, ": was cast under other settings: expected ",
+    throw InvalidInput(concat(options.recipe, ": planned with other settings: expected ",
                               job.settings.hex(), " (heads, masks and smoothing of ",
                               options.config.config, "), found ", line.settings,
-                              "; --any-settings blends it all the same"));
+                              "; use --any-settings to blend the face anyway"));
   }
   if (job.config.smoothing.levels != Levels::kExact)
     check_levels(line.face.recipe, job, options.recipe);
@@ -97,7 +98,8 @@ void blend(const BlendOptions& options) {
 }  // namespace
 
 Run add_blend(CLI::App& program) {
-  return add_command(program, "blend", "One face from its recipe in a plan", declare_blend, blend);
+  return add_command(program, "blend", "Blend one face from its recipe in a plan", declare_blend,
+                     blend);
 }
 
 }  // namespace crowdface::cli

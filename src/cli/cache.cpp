@@ -15,7 +15,7 @@ Run add_cache(CLI::App& program) {
     bool clear = false;
   };
   return add_command<Options>(
-      program, "cache", "Where heads are kept, as read and prepared, and what is there",
+      program, "cache", "Show the folder and the contents of the head cache, or clear the cache",
       [](CLI::App& command, Options& options) {
         options.cache.add_to(command);
         add_flag(command, "--clear", options.clear, "Remove all entries");
@@ -28,7 +28,7 @@ Run add_cache(CLI::App& program) {
         }
         const CacheContents contents = list_cache(folder);
         print(concat(folder.string(), "\n", contents.prepared, " prepared heads, ", contents.read,
-                     " heads as read, ", format_fixed(static_cast<double>(contents.bytes) / 1e6, 1),
+                     " loaded heads, ", format_fixed(static_cast<double>(contents.bytes) / 1e6, 1),
                      " MB\n"));
       });
 }

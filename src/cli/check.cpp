@@ -25,7 +25,7 @@ void look_at_output(const Job& job) {
   try {
     check_output(job, Replace::kRefuse);
   } catch (const RecoverableError& error) {
-    log_warning(concat("generate would refuse this: ", error.what()));
+    log_warning(concat("generate would refuse the output folder: ", error.what()));
   }
 }
 
@@ -39,7 +39,7 @@ void describe(const Job& job) {
       job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
       join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
       inputs.faces.topology.face_count(), " faces, ", inputs.components.count(), " components, ",
-      std::ranges::count(boundary, true), " vertices on open rims\n", "edges       ",
+      std::ranges::count(boundary, true), " boundary vertices\n", "edges       ",
       format_fixed(inputs.edge_length_mm, 3), " mm (rms, on the skin)\n", "smoothing   up to ",
       inputs.max_level, " iterations, a size of ",
       format_fixed(
@@ -106,11 +106,11 @@ Run add_check(CLI::App& program) {
     std::string masks;
   };
   return add_command<Options>(
-      program, "check", "Validate config, heads and masks: every problem at once",
+      program, "check", "Check config, heads and masks, and report all problems",
       [](CLI::App& command, Options& options) {
         options.config.add_to(command);
         add_option(command, "--masks", options.masks, "DIR",
-                   "Render each region's mask on the mean head here");
+                   "Render the mask of each region on the mean head, to this folder");
       },
       [](const Options& options) {
         const Job job =

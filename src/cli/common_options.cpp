@@ -38,7 +38,7 @@ void open_log(const std::string& path) {
   const std::filesystem::path file = output_file(path);
   if (is_there(file) && !begins_like_a_log(file)) {
     throw CannotCreate(
-        concat(path, ": --log-file: expected a log, or no file yet, found another file"));
+        concat(path, ": --log-file: expected a new file or an existing log, found another file"));
   }
   add_log_file(file);
 }
@@ -46,12 +46,12 @@ void open_log(const std::string& path) {
 }  // namespace
 
 void CommonOptions::add_to(CLI::App& command) {
-  add_option(command, "--threads", threads, "N", "Threads to use (default: all the machine has)");
-  add_flag(command, "-q,--quiet", quiet, "Only warnings and errors");
-  add_flag(command, "-v,--verbose", verbose, "More about what happens").excludes({"-q"});
-  add_option(command, "--log-file", log_file, "FILE", "Also write everything to this file");
+  add_option(command, "--threads", threads, "N", "Number of threads (default: one per processor)");
+  add_flag(command, "-q,--quiet", quiet, "Print only warnings and errors");
+  add_flag(command, "-v,--verbose", verbose, "Print more details").excludes({"-q"});
+  add_option(command, "--log-file", log_file, "FILE", "Also write all messages to this file");
   add_repeated(command, "--limit", limits, "NAME=NUMBER",
-               "How large inputs may be: " + describe_input_limits());
+               "Change a limit on the size of inputs: " + describe_input_limits());
 }
 
 std::vector<std::string> CommonOptions::limit_arguments() const {
@@ -72,7 +72,7 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
 }
 
 void CacheOption::add_to(CLI::App& command) {
-  add_option(command, "--cache", cache, "DIR", "Folder of prepared heads");
+  add_option(command, "--cache", cache, "DIR", "Folder of the head cache");
 }
 
 std::filesystem::path CacheOption::cache_path() const {
@@ -91,23 +91,23 @@ void ConfigOptions::add_to(CLI::App& command) {
 
 void ConfigOptions::add_review_to(CLI::App& command) {
   add_repeated(command, "--review", overrides.review, "FILE",
-               "Draw the faces anew that this review rejects, in order");
+               "Draw the rejected faces of this review again; reviews apply in order");
 }
 
 void WriteOptions::add_to(CLI::App& command) {
   add_flag(command, "--force", force, "Replace another config's crowd in the output folder");
   add_flag(command, "--dry-run", dry_run,
-           "Check everything, say what would be written, write nothing");
+           "Check everything and report what would be written, but write nothing");
   add_option(command, "--memory", memory, "SIZE",
-             "How much the run may take, such as \"4 GiB\" (default: three quarters of what there "
-             "is): sets how many faces are in flight; images take at most half of it");
+             "Memory limit, such as \"4 GiB\" (default: three quarters of the machine's memory); "
+             "sets how many faces are made at once; images use at most half of it");
 }
 
 void WriteOptions::add_shard_to(CLI::App& command) {
   add_option(command, "--shard", shard, "I/N",
-             "Only part I of N of the faces; `crowdface gather` puts the parts together");
+             "Make only part I of N of the faces; `crowdface gather` combines the parts");
   add_flag(command, "--planned", planned,
-           "Only with the plan that `crowdface plan` left in the folder; cast nothing")
+           "Use the plan that `crowdface plan` wrote to the output folder; make no new plan")
       .needs("--shard");
 }
 

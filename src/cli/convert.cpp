@@ -88,8 +88,9 @@ void write_mesh(const FileMesh& mesh, MeshFormat format, const fs::path& out,
 void take_faces(const std::string& like, FileMesh& mesh) {
   FileMesh other = read_joined_mesh(like);
   if (other.positions.rows() != mesh.positions.rows()) {
-    refuse_file(like, concat("expected as many vertices as there are positions, ",
-                             mesh.positions.rows(), ", found ", other.positions.rows()));
+    refuse_file(like,
+                concat("the number of vertices differs from the number of positions: expected ",
+                       mesh.positions.rows(), ", found ", other.positions.rows()));
   }
   mesh.topology = std::move(other.topology);
   mesh.uvs = std::move(other.uvs);
@@ -107,7 +108,7 @@ void convert(const ConvertOptions& options) {
   refuse_to_write_over({options.in}, {out});
   const auto refuse_to_replace = [&](const fs::path& file) {
     if (options.force || !is_there(file)) return;
-    throw UsageError(concat(file.string(), ": exists already; --force replaces it"));
+    throw UsageError(concat(file.string(), ": already exists; use --force to replace it"));
   };
   refuse_to_replace(out);
   FileMesh mesh = read_joined_mesh(options.in);
@@ -118,18 +119,19 @@ void convert(const ConvertOptions& options) {
   if (mesh.topology.face_count() == 0 && format != MeshFormat::kPoints) {
     refuse_file(options.in,
                 concat("expected a mesh, found ", mesh.positions.rows(),
-                       " points and no face: --like names a mesh with the same vertices"));
+                       " points and no faces; use --like to name a mesh with the same vertices"));
   }
   for (const std::string& note : mesh.notes) log_warning(concat(options.in, ": ", note));
   if (!mesh.textures.empty() && *format != MeshFormat::kObj) {
-    log_warning(concat(options.in, ": its textures are not carried along; OBJ keeps them"));
+    log_warning(
+        concat(options.in, ": the textures are not converted; convert to OBJ to keep them"));
   }
   if (mesh.colours.rows() > 0 && *format == MeshFormat::kPoints) {
-    log_warning(concat(options.in, ": its colours at vertices are not carried along"));
+    log_warning(concat(options.in, ": the vertex colours are not converted"));
   }
   write_mesh(mesh, *format, out, options);
   log_info(concat(options.in, ": ", mesh.positions.rows(), " vertices and ",
-                  mesh.topology.face_count(), " faces, now in ", out.string()));
+                  mesh.topology.face_count(), " faces, written to ", out.string()));
 }
 
 void declare_convert(CLI::App& command, ConvertOptions& options) {
@@ -138,15 +140,17 @@ void declare_convert(CLI::App& command, ConvertOptions& options) {
       .required();
   add_option(command, "-o,--output", options.out, "OUT.{obj,ply,glb,usda,npy}", "The file to write")
       .required();
-  add_option(command, "--units", options.units, "UNIT", "What one unit is, for GLB and USD");
-  add_option(command, "--like", options.like, "MESH", "Whose faces an array of positions has");
+  add_option(command, "--units", options.units, "UNIT",
+             "The length unit of the mesh, for GLB and USD");
+  add_option(command, "--like", options.like, "MESH",
+             "A mesh that provides the faces for an array of positions");
   add_flag(command, "--force", options.force, "Replace an existing file");
 }
 
 }  // namespace
 
 Run add_convert(CLI::App& program) {
-  return add_command(program, "convert", "Write a mesh of one format as another", declare_convert,
+  return add_command(program, "convert", "Convert a mesh to another format", declare_convert,
                      convert);
 }
 

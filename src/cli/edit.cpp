@@ -16,14 +16,14 @@ struct EditorOptions : CommonOptions {
 void declare_edit(CLI::App& command, EditorOptions& options) {
   options.config.add_to(command);
   add_option(command, "--port", options.port, "N",
-             "The port on 127.0.0.1 to serve at; 0: any that is free");
+             "The port to serve on at 127.0.0.1; 0: any free port");
   add_option(command, "--preview-vertices", options.preview_vertices, "N",
-             "About how many vertices the page shows at most");
+             "Approximate maximum number of vertices in the preview");
   add_flag(command, "--benchmark", options.benchmark,
-           "Serve nothing: print how long full faces take after a change");
+           "Start no server; print how long full faces take after a change");
   add_flag(command, "--hash-all", options.hash_all,
-           "Read heads and cache whole, also where nobody has written to them since");
-  add_flag(command, "--no-browser", options.no_browser, "Open no browser, print the address only");
+           "Read all head files and cache entries in full, even if they have not changed");
+  add_flag(command, "--no-browser", options.no_browser, "Print the address, but open no browser");
 }
 
 void edit(const EditorOptions& options) {
@@ -52,7 +52,7 @@ void edit(const EditorOptions& options) {
 }  // namespace
 
 Run add_edit(CLI::App& program) {
-  return add_command(program, "edit", "Direct faces by hand, in a page of this machine's browser",
+  return add_command(program, "edit", "Edit faces by hand on a page in this machine's browser",
                      declare_edit, edit);
 }
 

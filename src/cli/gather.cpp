@@ -12,7 +12,8 @@ Run add_gather(CLI::App& program) {
     std::string directory;
   };
   return add_command<Options>(
-      program, "gather", "After generate --shard: checks all faces, then makes sheets and report",
+      program, "gather",
+      "After generate --shard: check all faces, then make the contact sheets and the report",
       [](CLI::App& command, Options& options) {
         add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
             .required();

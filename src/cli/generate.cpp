@@ -12,7 +12,7 @@ Run add_generate(CLI::App& program) {
     WriteOptions write;
   };
   return add_command<Options>(
-      program, "generate", "The whole job: prepare, cast, blend, write, render, report",
+      program, "generate", "Run the whole job: prepare, plan, blend, write, render, report",
       [](CLI::App& command, Options& options) {
         options.config.add_to(command);
         options.config.add_review_to(command);

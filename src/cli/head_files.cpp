@@ -37,7 +37,7 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
     if (!holds(file.path, {made.size(), made.digest()})) {
       problems.add(ExitCode::kUsage,
                    concat(file.path.string(),
-                          ": exists already and holds something else; --force replaces it"));
+                          ": already exists with other contents; use --force to replace it"));
     }
     progress.step();
   }
@@ -56,9 +56,10 @@ std::string_view age_class(double years) {
 }
 
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view about) {
-  std::string out = concat("# ", about, ". For the config's section faces.\n# young: under ",
-                           kAdultFrom, " years; old: from ", kOldFrom, " on; adult: between.\n",
-                           "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
+  std::string out =
+      concat("# ", about, ". Copy this into the section faces of a config.\n# young: under ",
+             kAdultFrom, " years; old: ", kOldFrom, " years or more; adult: between.\n",
+             "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
   for (const TaggedHead& head : heads) {
     out += concat("    ", head.name, ": [", head.male ? "male" : "female", ", ",
                   age_class(head.years), head.more.empty() ? "" : ", ", head.more, "]  # ",

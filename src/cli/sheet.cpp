@@ -13,12 +13,12 @@ Run add_sheet(CLI::App& program) {
     std::vector<std::string> set;
   };
   return add_command<Options>(
-      program, "sheet", "The contact sheets of a finished crowd again, from its meshes",
+      program, "sheet", "Render the contact sheets of a finished crowd again from its meshes",
       [](CLI::App& command, Options& options) {
         add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder")
             .required();
         add_repeated(command, "--set", options.set, "KEY.PATH=VALUE",
-                     "Change the sheet, such as output.contact_sheet.columns=8");
+                     "Override a value of the sheet, such as output.contact_sheet.columns=8");
         options.cache.add_to(command);
       },
       [](const Options& options) {

@@ -32,7 +32,7 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
   for (const std::string_view level : split(text, ',')) {
     levels.push_back(whole_number("--iterations", std::string(level), 0, kMaxIterations));
     if (std::ranges::count(levels, levels.back()) > 1) {
-      throw UsageError(concat("--iterations: ", levels.back(), " is named twice"));
+      throw UsageError(concat("--iterations: ", levels.back(), " is given twice"));
     }
   }
   return levels;
@@ -88,21 +88,23 @@ void add_word_option(CLI::App& command, const char* name, Value& value, const ch
 void declare_smooth(CLI::App& command, SmoothOptions& options) {
   add_option(command, "input", options.in, "IN.obj", "The mesh").required();
   add_option(command, "--iterations", options.iterations, "L[,L...]",
-             "How often the one-ring mean is taken; several levels (500,2500) come from one pass "
-             "and go to OUT_500.obj, OUT_2500.obj")
+             "Number of smoothing iterations; several levels (500,2500) are computed in one pass "
+             "and written to OUT_500.obj, OUT_2500.obj")
       .required();
   add_option(command, "-o,--output", options.out, "OUT.obj", "The mesh to write").required();
-  add_word_option(command, "--boundary", options.boundary, "Open rims stay (fixed) or move (free)");
-  add_word_option(command, "--operator", options.operator_kind,
-                  "The mean of the neighbours (umbrella), or half-way to it (lazy)");
+  add_word_option(command, "--boundary", options.boundary,
+                  "Keep boundary vertices in place (fixed) or move them (free)");
+  add_word_option(
+      command, "--operator", options.operator_kind,
+      "Move each vertex to the mean of its neighbours (umbrella) or half the way (lazy)");
   add_flag(command, "--plain", options.plain,
-           "Iterate one by one instead of filtering: slow, for comparison");
+           "Run each iteration instead of the polynomial filter; slow, for comparison");
 }
 
 }  // namespace
 
 Run add_smooth(CLI::App& program) {
-  return add_command(program, "smooth", "Laplacian smoothing on its own: S_L of one mesh (Eq. 1)",
+  return add_command(program, "smooth", "Apply the Laplacian smoothing S_L (Eq. 1) to one mesh",
                      declare_smooth, smooth_file);
 }
 

@@ -26,9 +26,10 @@ struct StatusOptions : CommonOptions {
 
 void declare_status(CLI::App& command, StatusOptions& options) {
   add_option(command, "directory", options.directory, "CROWD_DIR", "The crowd's folder").required();
-  add_flag(command, "--json", options.json, "As one JSON object on one line");
-  add_flag(command, "--watch", options.watch, "Look again and again until the crowd is finished");
-  add_option(command, "--every", options.every, "SECONDS", "How often to look").needs("--watch");
+  add_flag(command, "--json", options.json, "Print one JSON object on one line");
+  add_flag(command, "--watch", options.watch, "Repeat until the crowd is finished");
+  add_option(command, "--every", options.every, "SECONDS", "Seconds between two outputs")
+      .needs("--watch");
 }
 
 void wait(std::uint64_t seconds) {
@@ -58,7 +59,7 @@ void show(const StatusOptions& options) {
 
 Run add_status(CLI::App& program) {
   return add_command(program, "status",
-                     "How far a crowd is that this or other machines are at work on",
+                     "Show the progress of a crowd that this or other machines are making",
                      declare_status, show);
 }
 

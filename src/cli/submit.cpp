@@ -33,29 +33,29 @@ struct SubmitOptions : CommonOptions {
 void declare_submit(CLI::App& command, SubmitOptions& options) {
   options.config.add_to(command);
   options.config.add_review_to(command);
-  add_option(command, "--engine", options.engine, "NAME", "slurm or parallel");
+  add_option(command, "--engine", options.engine, "NAME", "The engine: slurm or parallel");
   add_option(command, "--shards", options.shards, "N",
-             "Tasks that make faces (default: as many as last about ten minutes each)");
+             "Number of tasks that make faces (default: about ten minutes per task)");
   add_option(command, "--prepare-tasks", options.prepares, "N",
-             "Tasks that prepare heads (default: as many as last about a minute each)");
-  add_option(command, "--processors", options.processors, "N", "Processors of each task");
+             "Number of tasks that prepare heads (default: about one minute per task)");
+  add_option(command, "--processors", options.processors, "N", "Processors per task");
   add_option(command, "--memory", options.memory, "SIZE",
-             "Memory of each task, such as \"8 GiB\" (default: the engine's)");
-  add_option(command, "--partition", options.of_engine.partition, "NAME", "Slurm's");
+             "Memory per task, such as \"8 GiB\" (default: set by the engine)");
+  add_option(command, "--partition", options.of_engine.partition, "NAME", "The Slurm partition");
   add_option(command, "--time", options.of_engine.time, "TIME",
-             "How long a task may take, in Slurm's form (2:00:00)");
+             "Time limit of a task in a Slurm format, such as 2:00:00");
   add_option(command, "--grace", options.grace, "SECONDS",
-             "How long before its time is up a task is told to end");
+             "Seconds before the time limit at which a task is told to stop");
   add_option(command, "--scratch", options.scratch, "DIR",
-             "A folder of each machine's own, where tasks copy the prepared heads to; variables "
-             "such as $TMPDIR are the machine's");
+             "A local folder on each machine, to which tasks copy the prepared heads; each machine "
+             "expands variables such as $TMPDIR");
   add_repeated(command, "--host", options.of_engine.hosts, "HOST",
-               "With --engine parallel: a machine to reach by ssh");
+               "With --engine parallel: a machine that runs tasks, reached by ssh");
   add_repeated(command, "--engine-option", options.of_engine.more, "OPTION",
-               "Given to sbatch or parallel as it is, such as --engine-option=--account=films");
+               "Pass this option to sbatch or parallel, such as --engine-option=--account=films");
   add_option(command, "--program", options.program, "FILE",
-             "The program on the machines (default: this one)");
-  add_flag(command, "--print", options.print, "Write the scripts and submit nothing");
+             "The path of crowdface on the machines (default: this program)");
+  add_flag(command, "--print", options.print, "Write the scripts, but submit nothing");
 }
 
 fs::path full_path(const fs::path& path) {
@@ -88,15 +88,15 @@ void refuse_strange_options(const SubmitOptions& options, Engine engine) {
   const EngineOptions& of_engine = options.of_engine;
   const auto only_for = [&](const char* name, bool given, Engine wanted) {
     if (!given || engine == wanted) return;
-    throw UsageError(concat(name, ": only --engine ", name_of(wanted), " has a use for it"));
+    throw UsageError(concat(name, ": only --engine ", name_of(wanted), " supports this option"));
   };
   only_for("--partition", !of_engine.partition.empty(), Engine::kSlurm);
   only_for("--time", !of_engine.time.empty(), Engine::kSlurm);
   only_for("--host", !of_engine.hosts.empty(), Engine::kParallel);
   if (of_engine.time.find_first_not_of("0123456789:-") != std::string::npos) {
     throw UsageError(
-        concat("--time: expected minutes, hours:minutes:seconds or another form of "
-               "Slurm's, found ",
+        concat("--time: expected minutes, hours:minutes:seconds or another Slurm "
+               "format, found ",
                quoted(of_engine.time)));
   }
 }
@@ -135,7 +135,7 @@ void run_script(const fs::path& script) {
   pid_t child = 0;
   if (const int error =
           ::posix_spawnp(&child, "bash", nullptr, nullptr, arguments.data(), environ)) {
-    throw IoError(concat("bash cannot be started: ", std::generic_category().message(error)));
+    throw IoError(concat("cannot start bash: ", std::generic_category().message(error)));
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
@@ -163,7 +163,7 @@ void submit(const SubmitOptions& options) {
   log_info(concat(face_count(job.config), " faces; tasks: ", tasks.prepares,
                   " to prepare heads, 1 to ", "plan, ", tasks.shards,
                   " to make faces, 1 to gather; crowdface status ", tasks.directory.root.string(),
-                  " tells how far they are"));
+                  " shows their progress"));
   if (options.print) {
     print(concat(file.string(), "\n"));
   } else {
@@ -174,8 +174,9 @@ void submit(const SubmitOptions& options) {
 }  // namespace
 
 Run add_submit(CLI::App& program) {
-  return add_command(program, "submit", "The whole job as tasks for a farm: Slurm or GNU parallel",
-                     declare_submit, submit);
+  return add_command(program, "submit",
+                     "Run the whole job as tasks on a farm: Slurm or GNU parallel", declare_submit,
+                     submit);
 }
 
 }  // namespace crowdface::cli

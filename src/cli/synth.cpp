@@ -65,8 +65,7 @@ void synth(const SynthOptions& options) {
   using Parts = SyntheticHeads::Parts;
   using Scalp = SyntheticHeads::Scalp;
   if (options.hair && options.textures.empty()) {
-    throw UsageError(
-        "--hair: expected --textures beside it, which paints the scalp below the hair");
+    throw UsageError("--hair: also expected --textures, which paints the scalp below the hair");
   }
   const Scalp painted = options.hair ? Scalp::kShorn : Scalp::kHaired;
   const SyntheticHeads heads(static_cast<Index>(vertices),
@@ -121,36 +120,36 @@ void synth(const SynthOptions& options) {
       text_file(mask, encode_png(kMaskSize, kMaskSize, 3, synthetic_region_mask(kMaskSize))));
   write_head_files("synthetic heads", files, options.force);
   log_info(concat(count, " heads of ", heads.topology().vertex_count, " vertices in ",
-                  directory.string(), ", their regions in ", mask.string()));
+                  directory.string(), ", with the region mask in ", mask.string()));
 }
 
 void declare_synth(CLI::App& command, SynthOptions& options) {
   add_option(command, "-o,--output", options.out, "DIR", "The folder to write to").required();
-  add_option(command, "--count", options.count, "N", "How many heads");
+  add_option(command, "--count", options.count, "N", "Number of heads");
   add_option(command, "--vertices", options.vertices, "V",
-             "About how many vertices each, 5000 to 1200000");
+             "Approximate number of vertices per head, 5000 to 1200000");
   add_option(command, "--seed", options.seed, "S",
-             "Which heads; the same seed gives the same heads");
+             "Random seed; the same seed gives the same heads");
   add_option(command, "--mask", options.mask, "FILE",
-             "Where the region mask goes (default: DIR/regions.png)");
+             "The region mask to write (default: DIR/regions.png)");
   add_option(command, "--textures", options.textures, "SIZE",
-             "Give each head hair and paint it, pictures of this side in texels: NAME_albedo.png, "
-             "NAME_normal.png, NAME_roughness.png, NAME.mtl");
+             "Give each head hair, and write textures with this many texels per side: "
+             "NAME_albedo.png, NAME_normal.png, NAME_roughness.png, NAME.mtl");
   add_flag(command, "--hair", options.hair,
-           "With --textures: hair as meshes of its own, to DIR/attachments, and --tags");
+           "With --textures: write hair as separate meshes to DIR/attachments; implies --tags");
   add_flag(command, "--skin-only", options.skin_only,
-           "No eyeballs and teeth: one mesh of skin, the eyes cut into it");
+           "Make no eyeballs and teeth: one skin mesh that includes the fronts of the eyes");
   add_flag(command, "--tags", options.tags,
-           "Write sex and age of each head to DIR/tags.yaml, as faces.tags takes them");
-  add_flag(command, "--force", options.force, "Replace files that hold something else");
+           "Write the sex and age of each head to DIR/tags.yaml, in the format of faces.tags");
+  add_flag(command, "--force", options.force, "Replace existing files with other contents");
 }
 
 }  // namespace
 
 Run add_synth(CLI::App& program) {
   return add_command(program, "synth",
-                     "Synthetic heads in one topology, with UVs and a region mask", declare_synth,
-                     synth);
+                     "Make synthetic heads in one topology, with UVs and a region mask",
+                     declare_synth, synth);
 }
 
 }  // namespace crowdface::cli

@@ -63,7 +63,8 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
                                        materials);
                    }});
   std::string section =
-      "# For a config beside the heads; crowdface init takes it over. Tags as in tags.yaml.\n"
+      "# Copy this into a config in the folder of the heads; crowdface init does so. The tags are "
+      "those of tags.yaml.\n"
       "attachments:\n  fitted_to: attachments/base.obj\n  items:";
   if (wishes_.empty()) section += " []";
   section += '\n';

@@ -38,16 +38,16 @@ void verify(const VerifyOptions& options) {
                               count(check.altered.size(), "altered; "),
                               count(check.unfinished.size(), "not finished"),
                               check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
-                              "; crowdface generate with the crowd's config mends that"));
+                              "; to repair the crowd, run crowdface generate with its config"));
   }
-  print(concat(options.directory, ": all ", check.files, " files are as they were written\n"));
+  print(concat(options.directory, ": all ", check.files, " files are unchanged\n"));
 }
 
 }  // namespace
 
 Run add_verify(CLI::App& program) {
   return add_command(program, "verify",
-                     "A finished crowd against its ledger: what is missing, what is altered",
+                     "Check a finished crowd against its ledger: find missing and altered files",
                      declare_verify, verify);
 }
 

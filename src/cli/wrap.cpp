@@ -109,9 +109,9 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   std::vector<WrapLandmark> landmarks = match_landmarks(file, shared.file.positions, scan);
   if (landmarks.empty() && !file.of_scan.empty()) {
     log_warning(concat(task.scan.string(), ": none of its ", file.of_scan.size(), " landmarks (",
-                       file.of_scan.begin()->first,
-                       ", …) has a place on the template under the same name: ",
-                       "name it with --template-landmarks, or under template in the YAML file"));
+                       file.of_scan.begin()->first, ", …) has the name of a template landmark: ",
+                       "name template landmarks with --template-landmarks, or under template in "
+                       "the YAML file"));
   }
   if (landmarks.size() >= kFewestLandmarks) return landmarks;
   auto face = find_scan_face(scan, hint);
@@ -121,8 +121,8 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
     if (!face) return landmarks;
     hint = PoseHint{face->axes.up, face->axes.front, face};
     const Bearing bearing = all_bearings()[face->view];
-    log_info(concat(task.scan.string(), ": its relief shows a face that looks along ",
-                    name_of(bearing.front), " with ", name_of(bearing.up), " up"));
+    log_info(concat(task.scan.string(), ": found a face that looks along ", name_of(bearing.front),
+                    " with ", name_of(bearing.up), " up"));
   }
   std::vector<std::string> found;
   for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *hint)) {
@@ -134,7 +134,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   }
   if (!found.empty()) {
     log_info(concat(task.scan.string(), ": ", found.size(),
-                    " landmarks found by its shape: ", join(found)));
+                    " landmarks detected from the shape: ", join(found)));
   }
   return landmarks;
 }
@@ -182,7 +182,7 @@ std::string other_bearing(const WrapInputs& shared, const Scan& scan,
   if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
     return {};
   return concat("; the scan seems to look along ", name_of(found.front), " with ",
-                name_of(found.up), " up: --scan-up ", name_of(found.up), " --scan-front ",
+                name_of(found.up), " up: use --scan-up ", name_of(found.up), " --scan-front ",
                 name_of(found.front));
 }
 
@@ -236,7 +236,7 @@ void check_one(const WrapInputs& shared, const Task& task) {
   std::optional<PoseHint> hint = shared.hint;
   const auto landmarks = landmarks_on(shared, task, scan, hint);
   log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ", landmarks.size(),
-                  " landmarks; would become ", task.head.string()));
+                  " landmarks; would be wrapped to ", task.head.string()));
 }
 
 void wrap_all(const WrapOptions& options) {
@@ -268,14 +268,14 @@ void wrap_all(const WrapOptions& options) {
     }
     progress.step();
   }
-  if (done > 0) log_info(concat(done, " of ", tasks.size(), " were there already"));
+  if (done > 0) log_info(concat(done, " of ", tasks.size(), " scans are already wrapped"));
   problems.throw_if_any();
 }
 
 /// Checks the combination of options and stores the template in `shape`, with and without --batch.
 WrapOptions sorted(WrapOptions options) {
   if (options.pick && !options.out.empty()) {
-    throw UsageError("--pick wraps nothing: expected no -o, --output");
+    throw UsageError("--pick: expected no -o, --output, because --pick wraps nothing");
   }
   if (!options.pick && options.out.empty()) throw UsageError("-o, --output is required");
   if (options.batch.empty()) {
@@ -291,52 +291,57 @@ WrapOptions sorted(WrapOptions options) {
 
 void declare_wrap(CLI::App& command, WrapOptions& options) {
   add_option(command, "template_file", options.first, "TEMPLATE.obj",
-             "The head whose topology the result has");
+             "The template head, whose topology the result has");
   add_option(command, "scan_file", options.scan, "SCAN",
              "The scan, in any unit and pose: OBJ, PLY, STL, GLB, glTF, FBX or USD");
   add_option(command, "-o,--output", options.out, "OUT",
-             "The head to write, or with --batch the folder");
+             "The head to write, or the folder with --batch");
   add_option(command, "--batch", options.batch, "DIR",
-             "A folder of scans, each with its own landmarks beside it (NAME.yaml)");
-  add_option(command, "--template", options.shape, "TEMPLATE.obj", "The template, with --batch");
+             "A folder of scans, with the landmarks of each scan in NAME.yaml");
+  add_option(command, "--template", options.shape, "TEMPLATE.obj",
+             "With --batch: the template head");
   add_option(command, "--landmarks", options.landmarks, "FILE",
-             "template: {NAME: vertex} and scan: {NAME: [x, y, z]}; vertices count from 0; or the "
-             "scan's alone, as MeshLab's .pp, CSV, JSON or .npy");
+             "A YAML file with template: {NAME: vertex}, numbered from 0, and scan: {NAME: [x, y, "
+             "z]}; or only the landmarks of the scan, as .pp (MeshLab), CSV, JSON or .npy");
   add_option(command, "--template-landmarks", options.template_landmarks, "FILE",
-             "The template's landmarks alone, in the same formats");
-  add_option(command, "--model", options.model, "DIR",
-             "Heads in the template's topology, whose mean and variety guide the wrap");
-  add_option(command, "--ignore", options.ignore, "MASK",
-             "A mask over the template's texture: what is white there is left alone, as hair");
+             "Only the landmarks of the template, in the same formats");
+  add_option(
+      command, "--model", options.model, "DIR",
+      "A folder of heads in the template's topology; their mean and variation guide the wrap");
+  add_option(
+      command, "--ignore", options.ignore, "MASK",
+      "A mask over the template's texture; white areas, such as hair, are not fitted to the scan");
   add_option(command, "--units", options.units, "UNIT",
-             "One unit of the template (default: guessed)");
-  add_option(command, "--scan-units", options.scan_units, "UNIT",
-             "One unit of the scans: heads keep their size (default: the template's size)");
-  add_option(command, "--up", options.up, "AXIS", "Where the template's head points");
-  add_option(command, "--front", options.front, "AXIS", "Where the template's face looks");
-  add_option(command, "--scan-up", options.scan_up, "AXIS", "The same of scans without landmarks");
+             "The length unit of the template (default: guessed)");
+  add_option(
+      command, "--scan-units", options.scan_units, "UNIT",
+      "The length unit of the scans; heads get the size of the scan (default: of the template)");
+  add_option(command, "--up", options.up, "AXIS", "The up axis of the template");
+  add_option(command, "--front", options.front, "AXIS", "The axis along which the template looks");
+  add_option(command, "--scan-up", options.scan_up, "AXIS",
+             "The up axis of scans without landmarks");
   add_option(command, "--scan-front", options.scan_front, "AXIS",
-             "The same of scans without landmarks");
-  add_flag(command, "--pick", options.pick,
-           "Wrap nothing: open a page on which landmarks are picked and saved");
+             "The axis along which scans without landmarks look");
+  add_flag(command, "--pick", options.pick, "Wrap nothing; open a page to pick and save landmarks");
   add_option(command, "--port", options.port, "N",
-             "With --pick: the port on 127.0.0.1 to serve at; 0: any that is free");
+             "With --pick: the port to serve on at 127.0.0.1; 0: any free port");
   add_flag(command, "--no-browser", options.no_browser,
-           "With --pick: open no browser, print the address only");
-  add_flag(command, "--estimate", options.estimate,
-           "Wrap some times more, each without some landmarks: how far those then end from where "
-           "they were picked "
-           "(unseen_mm and correspondence_mm in the report)");
+           "With --pick: print the address, but open no browser");
+  add_flag(
+      command, "--estimate", options.estimate,
+      "Wrap several more times without some landmarks, and report how far these end from their "
+      "picked places (unseen_mm and correspondence_mm)");
   add_flag(command, "--no-pictures", options.no_pictures, "Write no picture beside the report");
-  add_flag(command, "--force", options.force, "Wrap again what is there already");
-  add_flag(command, "--dry-run", options.dry_run, "Read and check everything, write nothing");
+  add_flag(command, "--force", options.force,
+           "Wrap all scans again, including those already wrapped");
+  add_flag(command, "--dry-run", options.dry_run, "Read and check everything, but write nothing");
 }
 
 }  // namespace
 
 Run add_wrap(CLI::App& program) {
   return add_command<WrapOptions>(
-      program, "wrap", "Bend a template head onto raw scans, so that they share one topology",
+      program, "wrap", "Fit a template head to raw scans, so that all heads share one topology",
       declare_wrap, [](const WrapOptions& options) {
         const WrapOptions known = sorted(options);
         known.pick ? pick(known) : wrap_all(known);

@@ -47,9 +47,10 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
                 Hasher& digest) {
   const std::vector<fs::path> files = list_heads(options.model);
   if (files.size() < 2) {
-    refuse_file(options.model, concat("expected two heads or more in the template's topology (OBJ, "
-                                      "PLY, GLB, glTF, FBX, USD, NumPy), found ",
-                                      files.size()));
+    refuse_file(options.model,
+                concat("expected at least two heads in the template's topology (OBJ, "
+                       "PLY, GLB, glTF, FBX, USD, NumPy), found ",
+                       files.size()));
   }
   std::vector<Positions> heads;
   Problems problems;
@@ -57,7 +58,7 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
     const ObjFile head = read_mesh_as_obj(path);
     if (const std::string other = first_difference(inputs.file.topology, head.topology);
         !other.empty()) {
-      problems.add(ExitCode::kBadData, concat(path.string(), ": is no head in the topology of ",
+      problems.add(ExitCode::kBadData, concat(path.string(), ": expected the topology of ",
                                               options.shape, ": ", other));
       continue;
     }
@@ -83,12 +84,13 @@ void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, H
 std::optional<PoseHint> pose_hint(const WrapOptions& options) {
   if (options.scan_up.empty() && options.scan_front.empty()) return std::nullopt;
   if (options.scan_up.empty() || options.scan_front.empty()) {
-    throw UsageError("--scan-up and --scan-front belong together: expected both or none");
+    throw UsageError("--scan-up and --scan-front: expected both or neither, found one");
   }
   const PoseHint hint = {unit_vector(axis_of("--scan-up", options.scan_up)),
                          unit_vector(axis_of("--scan-front", options.scan_front))};
   if (hint.up.dot(hint.front) != 0) {
-    throw UsageError("--scan-up and --scan-front: expected two axes, found one");
+    throw UsageError(
+        "--scan-up and --scan-front: expected two different axes, found the same axis");
   }
   return hint;
 }
@@ -112,7 +114,8 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
         return std::ranges::find(endings, ending) != endings.end();
       },
       &error);
-  if (error) throw MissingInput(concat(folder.string(), ": cannot be read: ", error.message()));
+  if (error)
+    throw MissingInput(concat(folder.string(), ": cannot read the folder: ", error.message()));
   return files;
 }
 
@@ -125,8 +128,9 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
   std::map<std::string, fs::path> names;
   for (const fs::path& scan : scans) {
     if (const auto [before, added] = names.emplace(scan.stem().string(), scan); !added) {
-      throw UsageError(concat(before->second.string(), " and ", scan.string(),
-                              " would give one head; expected different names"));
+      throw UsageError(
+          concat(before->second.string(), " and ", scan.string(),
+                 " would be wrapped to the same file; expected scans with different names"));
     }
   }
   return scans;
@@ -171,8 +175,8 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (options.estimate) digest.add("--estimate");
   inputs.digest = digest.digest();
   log_info(concat(options.shape, ": ", inputs.shape.skin.vertex_count(), " of ",
-                  inputs.file.topology.vertex_count, " vertices are skin; one unit is taken for 1 ",
-                  name_of(unit)));
+                  inputs.file.topology.vertex_count,
+                  " vertices are skin; assumed unit: ", name_of(unit)));
   return inputs;
 }
 

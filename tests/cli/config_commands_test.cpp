@@ -199,7 +199,7 @@ TEST(Mask, GoesFromAFolderOrAConfigIntoOne) {
                                  heads + ", units: cm}\noutput: {directory: out}\n" + first.out);
   const std::string config = (folder / "crowd.yaml").string();
   crowdface(0, {"check", config}, {"is fine", "brow, nose, mouth, ears, neck"});
-  crowdface(64, {"mask", config, "-o", mask}, {"holds something else"});
+  crowdface(64, {"mask", config, "-o", mask}, {"already exists with other contents"});
   crowdface(0, {"mask", config, "-o", mask, "--force"}, {"[brow, nose, mouth]"});
   crowdface(64, {"mask", heads, "-o", mask, "--up", "+Z", "--front", "-Z"}, {"--up"});
   crowdface(65, {"mask", heads, "-o", mask, "--up", "+Z", "--front", "+X"}, {"along +Z with +Y"});

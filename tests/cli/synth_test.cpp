@@ -92,7 +92,7 @@ TEST(Synth, HairOfItsOwnIsWhatAConfigTakes) {
   EXPECT_TRUE(fs::exists(folder / "heads/attachments/base.obj"));
   fs::rename(folder / "heads/tags.yaml", folder / "tags.yaml");
   crowdface(0, {"init", heads, "-o", (folder / "untagged.yaml").string()},
-            {"attachments.yaml", "wear nothing"});
+            {"attachments.yaml", "get no attachments"});
   EXPECT_THAT(read_text(folder / "untagged.yaml"), Not(HasSubstr("kind: hair")));
   fs::rename(folder / "tags.yaml", folder / "heads/tags.yaml");
   crowdface(0, {"init", heads, "-o", (folder / "crowd.yaml").string()});

@@ -66,7 +66,7 @@ TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {
       folder_ / "out",  "--no-pictures"};
   auto dry = batch;
   dry.emplace_back("--dry-run");
-  crowdface(0, dry, {"person_2.obj", "7 landmarks", "would become"});
+  crowdface(0, dry, {"person_2.obj", "7 landmarks", "would be wrapped to"});
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   folder_.write("scans/broken.ply", "ply\n");
   crowdface(65, batch, {"broken.ply", "header does not end"});
@@ -74,7 +74,7 @@ TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {
   EXPECT_TRUE(fs::exists(folder_ / "out/reports/person_3.wrap.json"));
   fs::remove(scans_ / "broken.ply");
   fs::remove(folder_ / "out/person_3.obj");
-  crowdface(0, batch, {"1 of 2 were there already"});
+  crowdface(0, batch, {"1 of 2 scans are already wrapped"});
   EXPECT_EQ(read_file(folder_ / "out/person_2.obj"), first);
   EXPECT_TRUE(fs::exists(folder_ / "out/person_3.obj"));
 }
@@ -169,7 +169,7 @@ TEST_F(Wrap, WhatCannotBePickedOnIsRefusedBeforeThePageOpens) {
             {"--pick wraps nothing", "--output"});
   crowdface(64, {"wrap", "--pick", "--batch", scans_.string(), "--landmarks", file},
             {"--batch", "--template TEMPLATE.obj"});
-  crowdface(64, pick(head(2), {"--landmarks", head(2).string()}), {"name.yaml"});
+  crowdface(64, pick(head(2), {"--landmarks", head(2).string()}), {"ends in .yaml"});
   crowdface(64, pick(head(2), {"--landmarks", file, "--port", "99999"}), {"--port", "99999"});
   crowdface(66, pick(folder_ / "none.ply", {"--landmarks", file}), {"none.ply"});
   crowdface(65, pick(folder_.write("broken.ply", "ply\n"), {"--landmarks", file}),
