@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kBlock = 16384;
 
-/// Both directions of every face's edges, grouped by their first vertex: with repetitions, one for
-/// each face at the edge.
+/// Both directions of all polygon edges, grouped by their first vertex. An edge occurs once for
+/// each of its polygons.
 Grouped<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
   return grouped<std::uint32_t>(
       static_cast<std::size_t>(topology.vertex_count), [&](const auto& put) {
@@ -35,7 +35,7 @@ Grouped<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
 Adjacency build_adjacency(const Topology& topology) {
   Grouped<std::uint32_t> all = half_edges_by_vertex(topology);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  // A neighbour met once belongs to an edge with one face.
+  // A neighbour that occurs once in the list is the other end of an edge with one polygon.
   std::vector<std::uint8_t> on_boundary(vertices, 0);
   std::vector<std::size_t> kept(vertices, 0);
   parallel_for_each(vertices, kBlock, [&](std::size_t i) {
@@ -90,7 +90,7 @@ double rms_edge_length(const Adjacency& adjacency, const Components& components,
   for (Index i = 0; i < adjacency.vertex_count(); ++i) {
     if (components.of_vertex[static_cast<std::size_t>(i)] != component) continue;
     for (const std::uint32_t n : adjacency.of(i)) {
-      if (n <= i) continue;  // each edge once
+      if (n <= i) continue;  // count each edge once
       const double x = positions(i, 0) - positions(n, 0);
       const double y = positions(i, 1) - positions(n, 1);
       const double z = positions(i, 2) - positions(n, 2);

@@ -8,31 +8,32 @@
 
 namespace crowdface {
 
-/// The edge-neighbours (one-ring) of every vertex, ascending, and where the surface is open.
-/// Opposite corners of a quad are no neighbours.
+/// The edge-neighbours (one-ring) of every vertex in ascending order, and the vertices on the
+/// mesh's boundary. Opposite corners of a quad are not neighbours.
 struct Adjacency : Grouped<std::uint32_t> {
-  std::vector<bool> boundary;  ///< #V: on an edge that has exactly one face
+  /// #V: whether the vertex is an end of an edge with exactly one polygon.
+  std::vector<bool> boundary;
 
   Index vertex_count() const { return static_cast<Index>(group_count()); }
 };
 
-/// Edges with three or more faces are kept and are no boundary; a face that names a vertex twice
-/// gives no edge from it to itself.
+/// An edge with three or more polygons is kept and is not a boundary edge. A polygon that names a
+/// vertex twice adds no edge from the vertex to itself.
 Adjacency build_adjacency(const Topology& topology);
 
-/// The connected component of each vertex (vertices joined by edges), numbered by their first
-/// vertex; an isolated vertex is a component of its own.
+/// The connected component of each vertex; edges connect vertices. Components are numbered in the
+/// order of their first vertices. An isolated vertex is its own component.
 struct Components {
   std::vector<std::uint32_t> of_vertex;  ///< #V
-  std::vector<std::uint32_t> sizes;      ///< vertices in each component
+  std::vector<std::uint32_t> sizes;      ///< number of vertices in each component
   Index count() const { return static_cast<Index>(sizes.size()); }
-  /// The component with most vertices: the skin.
+  /// The component with the most vertices: the skin.
   std::uint32_t largest() const;
 };
 Components find_components(const Adjacency& adjacency);
 
-/// Root of the mean squared length of the edges of one component, in the positions' unit; 0 if it
-/// has none.
+/// Root mean square of the edge lengths of one component, in the unit of the positions; 0 if the
+/// component has no edges.
 double rms_edge_length(const Adjacency& adjacency, const Components& components,
                        std::uint32_t component, const Positions& positions);
 

@@ -5,8 +5,9 @@
 
 namespace crowdface {
 
-/// The second index of `matrix(rows, kAllColumns)`. Eigen 3.4 calls it Eigen::all, Eigen 5 Eigen::placeholders::all; each refuses,
-/// or warns of, the other's name.
+/// Column index that selects all columns: `matrix(rows, kAllColumns)`. Eigen 3.4 names this value
+/// Eigen::all, and Eigen 5 names it Eigen::placeholders::all. Each version rejects the other name
+/// or warns about it.
 inline const Eigen::placeholders::all_t kAllColumns{};
 
 }  // namespace crowdface

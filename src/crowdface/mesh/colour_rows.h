@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// #V by 3 red, green and blue of vertices, sRGB; or no rows.
+/// Vertex colours, #V by 3: red, green and blue in sRGB. No rows if the mesh has no colours.
 using ColourRows = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 }  // namespace crowdface

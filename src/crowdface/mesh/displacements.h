@@ -8,10 +8,10 @@
 
 namespace crowdface {
 
-/// Where some vertices of a mesh go; all others stay.
+/// Displacements of some vertices of a mesh; all other vertices stay in place.
 struct Displacements {
-  std::vector<std::uint32_t> vertices;  ///< ascending
-  Positions moves;                      ///< #vertices by 3
+  std::vector<std::uint32_t> vertices;  ///< the displaced vertices, ascending
+  Positions moves;                      ///< displacement of each of these vertices, #vertices by 3
 
   /// \param positions  #V by 3
   void add_to(Positions& positions) const {

@@ -34,7 +34,7 @@ void EdgeDistances::begin(std::span<const std::uint32_t> sources) {
   open_.clear();
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const std::uint32_t v = sources[s];
-    if (distances_[v] == 0) continue;  // of the same vertex twice the first counts
+    if (distances_[v] == 0) continue;  // if a vertex occurs twice, its first occurrence counts
     distances_[v] = 0;
     sources_[v] = static_cast<std::uint32_t>(s);
     touched_.push_back(v);
@@ -82,7 +82,8 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
                                double limit) {
   begin(std::span(&source, 1));
   if (goals.empty()) return;
-  // A ball around the goals: whoever is farther from it than is left of the limit reaches none.
+  // A ball around the goals. A vertex whose distance from the ball exceeds the rest of the limit
+  // cannot reach any goal.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const std::uint32_t goal : goals) middle += row3(positions_, goal);
   middle /= static_cast<double>(goals.size());

@@ -12,51 +12,57 @@
 
 namespace crowdface {
 
-/// How far vertices are from some others along the edges of a mesh (Dijkstra 1959). One object serves
-/// many searches; each costs what it reaches.
+/// Shortest distances from source vertices along the edges of a mesh (Dijkstra 1959). One object
+/// serves many searches; the cost of a search depends on the number of vertices that it reaches.
 class EdgeDistances {
  public:
-  /// Both must outlive it.
+  /// The adjacency and the positions must outlive this object.
   EdgeDistances(const Adjacency& adjacency, const Positions& positions);
 
-  /// Looks as far as `limit` around some vertices, forgetting what was found before.
+  /// Finds all vertices within the distance `limit` of a source. Discards the results of the
+  /// previous search.
   void search(std::span<const std::uint32_t> sources,
               double limit = std::numeric_limits<double>::infinity());
 
-  /// The same from one vertex, for the distances of some others alone: it leaves out what no way to them
-  /// that keeps the limit can pass, and ends when it has reached all of them.
+  /// Finds the distances from one source to the goals only. Skips each vertex that cannot lie on a
+  /// path to a goal of length at most `limit`, and stops when all goals are reached.
   void search_for(std::uint32_t source, std::span<const std::uint32_t> goals, double limit);
 
-  /// Of a vertex from the nearest source; infinite if it was not reached.
+  /// Distance from the nearest source to a vertex; infinite if the search did not reach the vertex.
   double distance(std::uint32_t vertex) const {
     return settled_[vertex] ? distances_[vertex] : std::numeric_limits<double>::infinity();
   }
-  /// Which of the sources is nearest, of equally near ones the first; kNoIndex if none reached it.
+  /// Index of the nearest source in the list of sources; the first one if several are equally near.
+  /// kNoIndex if the search did not reach the vertex.
   std::uint32_t source(std::uint32_t vertex) const {
     return settled_[vertex] ? sources_[vertex] : kNoIndex;
   }
-  /// Nearest first.
+  /// The vertices that the search reached, nearest first.
   const std::vector<std::uint32_t>& reached() const { return reached_; }
 
  private:
   using Open = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
 
   void begin(std::span<const std::uint32_t> sources);
-  /// Settles what is nearest until nothing is open or `settled` says that it is enough.
-  /// \param may_lead  of a distance and the vertex there: whether to go on from there.
+  /// Settles vertices in the order of their distances until no vertex is open or `settled` returns
+  /// true.
+  /// \param may_lead  called with a distance and a vertex; returns whether the search continues
+  ///         from this vertex.
   template <class MayLead, class Settled>
   void spread(const MayLead& may_lead, const Settled& settled);
 
   const Adjacency& adjacency_;
   const Positions& positions_;
-  std::vector<double> distances_;  ///< the least that is known; of those reached, the least
+  std::vector<double> distances_;  ///< smallest distance found so far; final once settled
   std::vector<std::uint32_t> sources_, reached_, touched_;
   std::vector<bool> settled_;
-  std::vector<Open> open_;  ///< a heap, the nearest first
+  std::vector<Open> open_;  ///< a heap, the nearest vertex first
 };
 
-/// For each vertex which of some vertices is nearest along the edges, #V; of equally near ones the one that comes
-/// there first. kNoIndex where none is joined. Surfaces that nearly touch are far apart so.
+/// Index in `sources` of the nearest source of each vertex along the edges, #V; kNoIndex if no
+/// source is connected to the vertex. If several sources are equally near, the path that the search
+/// finds first counts; the result is deterministic. Surfaces that almost touch, such as the lips,
+/// are far apart along the edges.
 std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
                                                const Positions& positions,
                                                std::span<const std::uint32_t> sources);

@@ -8,18 +8,17 @@
 
 namespace crowdface {
 
-/// Which of some numbered things belong together. At first each is a group by itself.
+/// Disjoint sets of numbered items (union-find). At first each item is its own group.
 class Grouping {
  public:
   explicit Grouping(std::size_t things) : parent_(things) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
-  /// The smallest number in a thing's group.
+  /// The smallest item in the group to which `thing` belongs.
   std::uint32_t root(std::uint32_t thing) {
     while (parent_[thing] != thing) {
-      thing = parent_[thing] =
-          parent_[parent_[thing]];  // half as long a way for whoever comes next
+      thing = parent_[thing] = parent_[parent_[thing]];  // path halving
     }
     return thing;
   }
@@ -28,7 +27,8 @@ class Grouping {
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  /// Undoes what was joined: for all of a group at once.
+  /// Makes an item its own group again. Call this for all items of a group, or the group is left
+  /// inconsistent.
   void release(std::uint32_t thing) { parent_[thing] = thing; }
 
  private:

@@ -6,7 +6,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kRows = 4096;  ///< a task
+constexpr Index kRows = 4096;  ///< rows in each parallel task
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
 
 Positions between_mirrored(const Positions& positions, const Positions& image, double w) {
   Positions result(positions.rows(), 3);
-  // From the nearer of the two, so that either end is met to the bit.
+  // Interpolates from the nearer end, so that both ends are reproduced bitwise.
   const bool near_image = w > 0.5;
   const Positions& from = near_image ? image : positions;
   const Positions& to = near_image ? positions : image;

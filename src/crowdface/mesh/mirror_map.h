@@ -10,36 +10,40 @@
 
 namespace crowdface {
 
-/// The points with n·x = d.
+/// The plane of the points x with n·x = d.
 struct MirrorPlane {
-  Eigen::Vector3d normal = {1, 0, 0};  ///< n, of length one
-  double offset = 0;                   ///< d
+  Eigen::Vector3d normal = {1, 0, 0};  ///< unit normal n
+  double offset = 0;                   ///< distance d from the origin along n
 
   Eigen::Vector3d image(const Eigen::Vector3d& point) const;
 };
 
-/// Where on a mesh the other side of each vertex is: which side is left and which right is told by the
-/// mean head, so that mirroring is a linear map of a head's positions, with one plane for all heads.
+/// Maps each vertex to its mirror point, a point on the surface on the other side of the head. The
+/// mean head defines the left and right sides, so that mirroring is a linear map of a head's
+/// positions, with one plane for all heads.
 struct MirrorMap {
   MirrorPlane plane;
-  std::vector<Triangle> corners;  ///< #V: the triangle of a vertex' place
+  std::vector<Triangle> corners;  ///< #V: the triangle that holds the mirror point of each vertex
   std::vector<std::array<double, 3>>
-      shares;                          ///< #V: barycentric; {1, 0, 0} where the place is a vertex
-  std::vector<std::uint32_t> without;  ///< vertices that have nothing on the other side, ascending
-  Positions kept;  ///< #without by 3: what is added there so that the mean head keeps its form
+      shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if it is a vertex
+  std::vector<std::uint32_t> without;  ///< vertices without a mirror point, ascending
+  /// #without by 3: offsets added at these vertices, so that the mean head keeps its shape.
+  Positions kept;
 
   bool is_vertex(std::uint32_t v) const { return shares[v][0] == 1; }
 };
 
-/// M(A): at each vertex the image of what A has on the other side, #V by 3. Where all places are vertices
-/// and the plane is a coordinate plane, M(M(A)) is A to the bit.
+/// M(A), #V by 3: the mirrored head. Each vertex gets the image of its mirror point in A. If all
+/// mirror points are vertices and the plane is a coordinate plane, M(M(A)) is bitwise equal to A.
 Positions mirrored(const MirrorMap& map, const Positions& positions);
 
-/// (1 − w)·A + w·M(A), both known; to the bit A for w = 0 and M(A) for w = 1, and A where both are equal.
+/// Returns (1 − w)·A + w·M(A) for given A and M(A). The result is bitwise equal to A for w = 0, to
+/// M(A) for w = 1, and to A where A and M(A) are equal.
 Positions between_mirrored(const Positions& positions, const Positions& image, double w);
 
-/// How much of its mirror image a face takes whose left and right differ `asymmetry` times as much, and
-/// that may be mirrored as a whole: A' = (1 + a)/2·A + (1 − a)/2·M(A), or the other way round.
+/// Weight of the mirror image in a head whose differences between left and right are scaled by the
+/// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is set, A and M(A)
+/// change places.
 double mirror_share(double asymmetry, bool mirrored);
 
 }  // namespace crowdface

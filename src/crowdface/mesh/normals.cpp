@@ -16,7 +16,8 @@ constexpr Index kRowsPerBlock = 8192;
 
 Eigen::Vector3d face_area_vector(const Topology& topology, Index face, const Positions& positions) {
   const auto vertices = topology.face(face);
-  // Relative to the first corner, so that a mesh far from the origin loses no digits.
+  // Coordinates are relative to the first corner, so that a mesh far from the origin loses no
+  // precision.
   const Eigen::Vector3d origin = positions.row(vertices[0]);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t c = 1; c + 1 < vertices.size(); ++c) {

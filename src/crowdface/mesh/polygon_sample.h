@@ -6,14 +6,16 @@
 
 namespace crowdface {
 
-/// A point of a polygon: corner 0, plus s times the edge to corner `fan`, plus t times the edge to corner `fan` + 1.
+/// A point in a polygon: corner 0, plus s times the edge from corner 0 to corner `fan`, plus t
+/// times the edge from corner 0 to corner `fan` + 1.
 struct PolygonSample {
   std::size_t fan = 1;
-  double s = 0, t = 0;  ///< not negative; their sum is at most 1
+  double s = 0, t = 0;  ///< not negative; s + t is at most 1
 };
 
-/// Member `number` of a low-discrepancy sequence in the plane (Roberts 2018), folded into one triangle of a polygon.
-/// \param corners  at least three
+/// Point number `number` of a low-discrepancy sequence in the plane (Roberts 2018), folded into one
+/// triangle of a polygon.
+/// \param corners  number of corners of the polygon, at least three
 inline PolygonSample polygon_sample(std::size_t number, std::size_t corners) {
   const auto n = static_cast<double>(number);
   const double s = std::fmod(0.5 + 0.7548776662466927 * n, 1.0);

@@ -13,9 +13,10 @@
 namespace crowdface {
 namespace {
 
-constexpr int kRounds = 12;                   ///< of refining colours
-constexpr std::size_t kMostCandidates = 256;  ///< that a component is tried at
-constexpr std::size_t kMostSteps = 64;  ///< corners that are walked in all, of each that a mesh has
+constexpr int kRounds = 12;                   ///< rounds of colour refinement
+constexpr std::size_t kMostCandidates = 256;  ///< start corners that are tried for each component
+/// Limit of all traversal steps, as a multiple of the number of corners.
+constexpr std::size_t kMostSteps = 64;
 
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
@@ -24,7 +25,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ x >> 31U;
 }
 
-/// A mesh whose corners can be walked.
+/// A mesh whose corners can be traversed.
 class Graph {
  public:
   explicit Graph(const Topology& topology)
@@ -53,7 +54,7 @@ class Graph {
     const auto [begin, end] = topology_.corners(face_of_[corner]);
     return corner + 1 == end ? begin : corner + 1;
   }
-  /// The corner on the other side of the edge that begins here, or kNoIndex.
+  /// The opposite corner across the edge that starts at `corner`, or kNoIndex.
   std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
   std::uint32_t face_size(std::uint32_t corner) const {
     const auto [begin, end] = topology_.corners(face_of_[corner]);
@@ -67,13 +68,14 @@ class Graph {
     return std::uint64_t{a} << 32U | b;
   }
 
-  /// What a vertex sees of its faces, whatever order they stand in.
+  /// Refines the colour of each vertex from the polygons around it. The result does not depend on
+  /// the order of the polygons.
   void refine() {
     colours_.assign(static_cast<std::size_t>(topology_.vertex_count), 0);
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::uint64_t> sums(colours_.size(), mixed(static_cast<std::uint64_t>(round)));
       for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-        // Around the face from this corner on.
+        // Hash the colours around the polygon, starting at this corner.
         std::uint64_t seen = face_size(c) + (twins_[c] == kNoIndex ? 1000U : 0U);
         std::uint32_t at = c;
         for (std::uint32_t k = face_size(c); k > 1; --k) {
@@ -122,9 +124,11 @@ class Matcher {
   }
 
  private:
-  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  ///< vertices of a and b
+  /// Matched vertices of a and b.
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-  /// A corner of all faces that hang together by edges, at the vertex of the rarest colour; larger components first.
+  /// One start corner for each set of polygons that edges connect, at a vertex of the rarest
+  /// colour. Larger sets come first.
   std::vector<std::uint32_t> seeds() const {
     const Topology& topology = a_.topology();
     Grouping groups(static_cast<std::size_t>(topology.face_count()));
@@ -150,7 +154,8 @@ class Matcher {
   }
 
   bool match_from(std::uint32_t seed) {
-    const std::uint32_t known = to_b_[a_.vertex(seed)];  // another component shares the vertex
+    // Set if another component shares the vertex.
+    const std::uint32_t known = to_b_[a_.vertex(seed)];
     double best = std::numeric_limits<double>::infinity();
     std::optional<Pairs> nearest;
     std::size_t tried = 0;
@@ -176,7 +181,8 @@ class Matcher {
     return true;
   }
 
-  /// Pairs of vertices that follow from one pair of corners; nothing if they contradict each other.
+  /// The vertex pairs that follow from one pair of corners; nothing if two of the pairs contradict
+  /// each other.
   std::optional<Pairs> walk(std::uint32_t from_a, std::uint32_t from_b) {
     Pairs pairs, open = {{from_a, from_b}};
     std::vector<std::uint32_t> faces;
@@ -231,7 +237,7 @@ class Matcher {
     placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
   }
 
-  /// Vertices of no face come in their order.
+  /// Matches the vertices without a polygon in their order.
   bool match_loose() {
     std::uint32_t w = 0;
     for (std::uint32_t& in_b : to_b_) {
@@ -245,13 +251,14 @@ class Matcher {
 
   const Graph &a_, &b_;
   const Positions &at_a_, &at_b_;
-  Positions placed_;         ///< b's vertices in a's frame
-  bool is_aligned_ = false;  ///< … by the first component and not by the middle of all alone
+  Positions placed_;  ///< vertices of b in the coordinate frame of a
+  /// Whether placed_ is aligned by the first component, not only by the centres of the two meshes.
+  bool is_aligned_ = false;
   std::size_t steps_left_;
   std::vector<std::uint32_t> to_b_, to_a_;
   Grouped<std::uint32_t> corners_at_b_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> with_colour_;
-  std::vector<bool> seen_;  ///< faces of a
+  std::vector<bool> seen_;  ///< polygons of a that the traversal has visited
 };
 
 }  // namespace

@@ -9,18 +9,20 @@
 
 namespace crowdface {
 
-/// Finds the vertices of one mesh in another whose vertices and faces stand in another order: an isomorphism of their
-/// graphs that keeps faces and the way round them. Colours of vertices are refined from those of their neighbours
-/// (Weisfeiler and Leman 1968); then each component is walked face by face from a vertex of the rarest colour. Where
-/// a component fits in several ways, as balls do, the nearest one counts.
-/// \return #V, the vertex of `found` for each of `expected`; nothing if the graphs differ, or an edge has more than two
-///         faces.
+/// Matches the vertices of two meshes that differ in the order of their vertices and polygons. The
+/// match is a graph isomorphism that preserves polygons and their orientation. The function refines
+/// vertex colours from the colours of the neighbours (Weisfeiler and Leman 1968), then traverses
+/// each component polygon by polygon from a vertex of the rarest colour. If a component matches in
+/// several ways, as a sphere does, the match with the nearest positions counts.
+/// \return #V, the vertex of `found` that matches each vertex of `expected`; nothing if the graphs
+///         differ, or if an edge has more than two polygons.
 std::optional<std::vector<std::uint32_t>> same_graph(const Topology& expected,
                                                      const Positions& expected_positions,
                                                      const Topology& found,
                                                      const Positions& found_positions);
 
-/// Polygons as triangles around their first corner, or around their second.
+/// Cuts each polygon into triangles around its first corner, or each quad around its corner number
+/// `around`, counted from 0.
 Topology triangulated(const Topology& topology, std::uint32_t around);
 
 }  // namespace crowdface

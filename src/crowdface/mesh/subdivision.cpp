@@ -8,14 +8,15 @@
 namespace crowdface {
 namespace {
 
-/// The edges between corners of faces, each once, in ascending order of their ends.
+/// The edges between corners of polygons: each edge once, in ascending order of its ends.
 struct Edges {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  ///< #E, first < second
-  std::vector<std::uint32_t> of_corner;  ///< #C, the edge from a corner to the next of its face
-  std::vector<std::uint32_t> faces;      ///< #E, how many faces
+  /// #C: the edge from each corner to the next corner of its polygon.
+  std::vector<std::uint32_t> of_corner;
+  std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge
 };
 
-/// \param indices  #C: vertices, or texture coordinates.
+/// \param indices  #C: vertices or texture coordinates.
 Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& indices) {
   struct Side {
     std::uint32_t first, second, corner;
@@ -45,7 +46,7 @@ Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& ind
   return edges;
 }
 
-/// The corners of the new quads: old index, edge, face, edge.
+/// The corners of the new quads, in the order: old index, edge point, face point, edge point.
 std::vector<std::uint32_t> split_corners(const Topology& topology,
                                          const std::vector<std::uint32_t>& indices,
                                          const Edges& edges, std::size_t index_count) {
@@ -78,7 +79,8 @@ Rows face_means(const Topology& topology, const std::vector<std::uint32_t>& indi
   return means;
 }
 
-/// New places of the old vertices: sums over their faces and edges first, then one formula each.
+/// New positions of the old vertices. Sums over the polygons and edges of each vertex first, then
+/// applies one formula to each vertex.
 Positions move_vertices(const Mesh& mesh, const Edges& edges, const Positions& faces) {
   const Index n = mesh.topology.vertex_count;
   Positions face_sum = Positions::Zero(n, 3), edge_sum = face_sum, rim_sum = face_sum;
@@ -177,7 +179,8 @@ Mesh subdivide(const Mesh& mesh) {
 }
 
 int subdivision_rounds(const Topology& topology, Index wanted_vertices) {
-  // A round adds one vertex an edge and one a face, and every quad becomes four.
+  // A round adds one vertex for each edge and one for each polygon, and turns every quad into four
+  // quads.
   double vertices = static_cast<double>(topology.vertex_count);
   double faces = static_cast<double>(topology.face_count());
   double edges = static_cast<double>(find_edges(topology, topology.corner_vertices).ends.size());

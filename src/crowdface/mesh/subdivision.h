@@ -5,16 +5,18 @@
 
 namespace crowdface {
 
-/// One round of subdivision: a polygon of k corners becomes k quads, in the order of its corners, so
-/// that those of face f are the faces [face_offsets[f], face_offsets[f + 1]) of the result. Vertices
-/// come first as they were, then one an edge, then one a face. Open edges become cubic curves that
-/// do not depend on the inside; texture coordinates are halved between their neighbours, so that
-/// they stay within their borders.
+/// One round of Catmull-Clark subdivision. A polygon of k corners becomes k quads in the order of
+/// its corners: polygon f becomes the quads [face_offsets[f], face_offsets[f + 1]), where
+/// face_offsets belongs to `mesh`. The result lists the old vertices first, then one vertex for
+/// each edge, then one for each polygon. Boundary edges become cubic curves that do not depend on
+/// the interior. New texture coordinates are midpoints, so that they stay inside the borders of the
+/// texture; the result has texture coordinates only if all corners of `mesh` have one.
 /// Source: Catmull & Clark 1978, "Recursively generated B-spline surfaces on arbitrary topological
-/// meshes"; open edges as in Hoppe et al. 1994, "Piecewise smooth surface reconstruction".
+/// meshes"; boundary edges as in Hoppe et al. 1994, "Piecewise smooth surface reconstruction".
 Mesh subdivide(const Mesh& mesh);
 
-/// How many rounds bring the number of vertices nearest to this one (as a ratio); 0 to 8.
+/// The number of rounds, 0 to 8, that brings the number of vertices closest to `wanted_vertices`,
+/// measured as a ratio.
 int subdivision_rounds(const Topology& topology, Index wanted_vertices);
 
 }  // namespace crowdface

@@ -15,52 +15,53 @@ namespace crowdface {
 
 using Eigen::Index;
 
-/// #V by 3 vertex positions, one row a vertex, in the unit of the mesh's file.
+/// Vertex positions, #V by 3, in the unit of the mesh's file.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-/// Positions or displacements in single precision, one a row.
+/// Positions or displacements in single precision, #rows by 3.
 using SingleRows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// #T by 2 texture coordinates.
+/// Texture coordinates, #T by 2.
 using TextureCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-/// Marks a corner that has no texture coordinate.
+/// Marks a corner without a texture coordinate.
 inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 
-/// Which vertices form which faces: triangles, quads and larger polygons, as corners and offsets.
-/// Face f owns the corners [face_offsets[f], face_offsets[f + 1]).
+/// The polygons of a mesh: triangles, quads and larger polygons, stored as corners and offsets.
+/// Polygon f owns the corners [face_offsets[f], face_offsets[f + 1]).
 struct Topology {
   Index vertex_count = 0;
-  std::vector<std::uint32_t> corner_vertices;     ///< #C, each < vertex_count
-  std::vector<std::uint32_t> corner_uvs;          ///< #C rows of the UVs or kNoIndex; or empty
+  std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
+  /// #C: row of the texture coordinates for each corner, or kNoIndex; or empty.
+  std::vector<std::uint32_t> corner_uvs;
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1, ascending
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
   Index corner_count() const { return static_cast<Index>(corner_vertices.size()); }
   void add_face(std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> uvs = {});
-  /// The vertices of face f in order.
+  /// The vertices of polygon f in order.
   std::span<const std::uint32_t> face(Index f) const {
     const auto [begin, end] = corners(f);
     return {corner_vertices.data() + begin, end - begin};
   }
-  /// Its rows of the UVs; empty if there are none.
+  /// The rows of the texture coordinates of polygon f; empty if the mesh has none.
   std::span<const std::uint32_t> face_uvs(Index f) const {
     const auto [begin, end] = corners(f);
     if (corner_uvs.empty()) return {};
     return {corner_uvs.data() + begin, end - begin};
   }
-  /// Its first corner, and the first of the next face.
+  /// The first corner of polygon f, and the first corner of the next polygon.
   std::pair<std::uint32_t, std::uint32_t> corners(Index f) const {
     return {face_offsets[static_cast<std::size_t>(f)],
             face_offsets[static_cast<std::size_t>(f) + 1]};
   }
 };
 
-/// The faces that meet at each vertex, ascending.
+/// The polygons that meet at each vertex, ascending.
 struct FacesAround : Grouped<std::uint32_t> {
   explicit FacesAround(const Topology& topology);
 };
 
-/// A mesh by itself: what a generator makes and a writer writes.
+/// A complete mesh: generators produce it and writers write it.
 struct Mesh {
   Topology topology;
   Positions positions;     ///< #V by 3
@@ -68,26 +69,28 @@ struct Mesh {
 };
 
 struct Head {
-  std::string name;     ///< unique in its set: the file's name without its ending
+  std::string name;     ///< unique in the set: the file name without its extension
   Positions positions;  ///< #V by 3
 };
 
-/// Heads in one topology, with shared texture coordinates.
+/// Heads that share one topology and its texture coordinates.
 struct FaceSet {
   Topology topology;
   TextureCoordinates uvs;
   std::vector<Head> heads;
 };
 
-/// Numbers what is used anew, in ascending order. \return the old number of each.
-/// \param indices  each < count; become the new numbers.
+/// Renumbers the indices in use without gaps, in ascending order.
+/// \param indices  each < count; replaced by the new numbers.
+/// \return the old number of each new number.
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);
 
 /// The mean of all heads, #V by 3.
 Positions mean_head(const FaceSet& faces);
 
-/// The first difference between two topologies as a sentence ("face 12: expected vertices 1 2 3 4,
-/// found 1 2 4 3"; faces and vertices counted from 1 as in OBJ), or an empty text if there is none.
+/// Describes the first difference between two topologies in one sentence ("face 12: expected
+/// vertices 1 2 3 4, found 1 2 4 3"). Counts polygons and vertices from 1, as OBJ does. Returns an
+/// empty text if the topologies are equal.
 std::string first_difference(const Topology& expected, const Topology& found);
 
 }  // namespace crowdface

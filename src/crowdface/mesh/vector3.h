@@ -12,7 +12,7 @@ inline Eigen::Vector3d unit_vector(Axis axis) {
   return axis.sign * Eigen::Vector3d::Unit(axis.index);
 }
 
-/// Row `i` of positions, or of normals, as a vector.
+/// Row `i` of positions or normals as a column vector.
 inline Eigen::Vector3d row3(const Positions& positions, Index i) {
   return positions.row(i).transpose();
 }

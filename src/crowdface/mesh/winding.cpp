@@ -11,8 +11,8 @@ namespace {
 
 constexpr Index kFacesPerBlock = 4096;
 
-/// Flux of (position − middle) through the surface, divided by its greatest possible value: 1 if all faces look away from
-/// the middle, −1 if all look towards it.
+/// Flux of (position − middle) through the surface, divided by its largest possible value: 1 if all
+/// polygons face away from the middle, −1 if all face towards it.
 double outward_share(const Topology& topology, const Positions& positions, const Positions& areas,
                      const Eigen::RowVector3d& middle) {
   const auto sum = [&](auto&& term) {
@@ -42,7 +42,7 @@ float winding(const Topology& topology, const Positions& positions) {
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  constexpr double kClearly = 0.2;  // a sphere has 1, an open mask of a face some 0.3
+  constexpr double kClearly = 0.2;  // a sphere has 1, an open mask of a face about 0.3
   constexpr double kFlat = 0.8;     // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);
   Eigen::RowVector3d middle(0, 0, 0);

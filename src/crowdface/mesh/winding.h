@@ -5,15 +5,16 @@
 
 namespace crowdface {
 
-/// +1, or −1 if the surface as a whole is wound inside out, as a mirrored one is: its faces look
-/// towards its middle.
+/// Returns −1 if the surface as a whole is wound inside out, as a mirrored surface is: its polygons
+/// face the mean of the vertices. Returns +1 otherwise.
 float winding(const Topology& topology, const Positions& positions);
 
-/// Turns faces round: each keeps its first corner and has the others in reverse order.
+/// Reverses the orientation of all polygons: each keeps its first corner, and its other corners
+/// change to reverse order.
 void turn_faces(Topology& topology);
 
-/// Whether the faces of a mesh look inward, beyond doubt: measured from the middle of its area, so that small parts beside a
-/// large open surface do not decide.
+/// Whether the polygons of a mesh clearly face inwards. The function measures from the
+/// area-weighted centre, so that small parts next to a large open surface do not decide the result.
 bool is_inside_out(const Topology& topology, const Positions& positions);
 
 }  // namespace crowdface
