@@ -10,19 +10,22 @@
 
 namespace crowdface {
 
-/// How a head stands against the reference head.
+/// The rotation, shift and scale of a head relative to the reference head.
 struct HeadPose {
-  double angle_degrees = 0;  ///< rotation that carries it onto the reference
-  double shift = 0;          ///< distance of the heads' middles, as a fraction of the head's size
-  double scale = 1;          ///< its size relative to the reference
+  double angle_degrees = 0;  ///< rotation that aligns the head with the reference
+  double shift = 0;  ///< distance between the heads' centroids, as a fraction of the head's size
+  double scale = 1;  ///< size of the head relative to the reference
 };
 
-/// Poses of all heads against the one that stands most like all others; skin vertices only.
+/// Poses of all heads relative to the medoid (the head nearest in pose to all others). Only skin
+/// vertices count.
 std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& components);
 
-/// Warnings about heads that are turned, moved or scaled against the others, which would enter as
-/// detail. `check`: as found; `rigid`: heads are moved onto the first head first.
-/// \throws InvalidInput if a head is in another unit, or (`check`) turned by more than 45 degrees.
+/// Warns about heads that are rotated, shifted or scaled relative to the others, because blending
+/// would treat that as detail. With `check`, heads stay as they are; with `rigid`, each head is
+/// first aligned with the first head.
+/// \throws InvalidInput if a head has another unit or, with `check`, is rotated by more than 45
+///         degrees.
 std::vector<std::string> align_heads(FaceSet& faces, const Components& components, Align align);
 
 }  // namespace crowdface

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one format of the cache's files: a header, the key, named arrays, a checksum (docs/cache-format.md).
+// The format of all cache files: a header, the key, named arrays and a checksum
+// (docs/cache-format.md).
 #pragma once
 
 #include <array>
@@ -21,21 +22,21 @@
 
 namespace crowdface {
 
-/// The ending of the cache's files.
+/// File name extension of cache entries.
 inline constexpr std::string_view kCacheEnding = ".cfcache";
 
-/// Names an entry. The file is called `kind-digest.cfcache`; its header holds a hash of both, so that an entry under
-/// another entry's name is noticed.
+/// Identifies a cache entry. The file is called `kind-digest.cfcache`; its header holds a hash of
+/// both parts, so that a renamed entry is detected.
 struct CacheKey {
-  std::string_view kind;  ///< for example "mesh"; a part of the file's name
-  Digest digest;          ///< of everything that the arrays depend on
+  std::string_view kind;  ///< for example "mesh"; part of the file name
+  Digest digest;          ///< hash of everything that the arrays depend on
 };
 
 std::filesystem::path cache_entry(const std::filesystem::path& cache, const CacheKey& key);
 
 namespace detail {
 
-/// The numbers that an array's elements consist of.
+/// The number type of an array element, and how many numbers an element has.
 template <class T>
 struct Element {
   using Number = T;
@@ -52,7 +53,7 @@ struct Element<Digest> {
   static constexpr std::uint32_t kNumbers = 2;
 };
 
-/// The type of an array's numbers as the file tells it: "f4", "u8", "i2".
+/// The number type as written in the file: "f4", "u8", "i2".
 template <class T>
 constexpr std::array<char, 4> number_type() {
   static_assert(std::is_arithmetic_v<T>);
@@ -64,21 +65,21 @@ constexpr std::array<char, 4> number_type() {
 
 }  // namespace detail
 
-/// An array of an entry: where its numbers lie in memory.
+/// Describes an array of an entry and points to its numbers in memory.
 struct EntryArray {
   std::string name;  ///< at most 23 bytes
   std::array<char, 4> type;
   std::uint32_t
-      columns;  ///< numbers that stand together: of an element, or of a row of a row-major matrix
+      columns;  ///< contiguous numbers: those of an element, or of a row of a row-major matrix
   std::uint64_t rows;
   const void* data;
   std::uint64_t bytes;
   std::shared_ptr<const void>
-      owner;  ///< of the numbers, if nobody else owns them while the entry is written
+      owner;  ///< keeps the numbers alive while the entry is written; null if the caller does
 };
 
-/// Collects arrays that are to be written: `arrays("name", value)` for a number, a std::array of numbers, a vector or
-/// span of such, or a matrix. The values must live until the entry is written.
+/// Collects arrays to write. `arrays("name", value)` accepts a number, a std::array of numbers, a
+/// vector or span of these, or a matrix. The values must live until the entry is written.
 class ArrayWriter {
  public:
   template <class T>
@@ -124,28 +125,29 @@ class ArrayWriter {
 void write_entry(const std::filesystem::path& cache, const CacheKey& key,
                  const std::vector<EntryArray>& arrays);
 
-/// Whether all numbers are finite, and none larger than coordinates of a mesh may be, with room for
-/// what smoothing makes of them.
+/// Whether all numbers are finite and within the limit for mesh coordinates, with a margin for what
+/// smoothing adds.
 bool are_coordinates(std::span<const float> values);
 bool are_coordinates(std::span<const double> values);
-/// Whether all numbers are below `end`; in `are_rows` some may be kNoIndex, too.
+/// `all_below`: whether all numbers are below `end`. `are_rows` also accepts kNoIndex.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
 bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end);
 
-/// An entry, mapped: its arrays lie in the file, for as long as `file()` lives.
+/// A memory-mapped cache entry. Its arrays lie in the mapped file and are valid while `file()`
+/// lives.
 class CacheEntry {
  public:
-  /// \param known  the checksum, if the file's bytes are known to have it; otherwise they are hashed.
-  /// \return nothing if there is no such file. \throws InvalidInput if it is damaged, of another version or of another
-  ///         key.
+  /// \param known  the file's checksum, if known already; otherwise the function hashes the file.
+  /// \return nothing if the file does not exist.
+  /// \throws InvalidInput if the file is damaged or has another version or another key.
   static std::optional<CacheEntry> open(const std::filesystem::path& cache, const CacheKey& key,
                                         const std::optional<Digest>& known = {});
 
   const std::shared_ptr<const MappedFile>& file() const { return file_; }
   const Digest& checksum() const { return checksum_; }
 
-  /// An array in the file. \throws InvalidInput if the entry has no array of this name and type, or if floating-point
-  /// numbers of it are no coordinates.
+  /// An array in the file. \throws InvalidInput if the entry has no array with this name and type,
+  /// or if floating-point numbers in the array are not valid coordinates (see are_coordinates).
   template <class T>
   std::span<const T> get(std::string_view name) const {
     using Element = detail::Element<T>;
@@ -165,10 +167,12 @@ class CacheEntry {
     return {reinterpret_cast<const Number*>(at(row)), rows, columns};
   }
 
-  /// A checksum shows that an entry is as somebody wrote it. What it holds may still be anything: so readers check all
-  /// numbers that they use as indices and sizes. \throws InvalidInput unless it holds.
+  /// The checksum only proves that the file is as it was written; its numbers may still be
+  /// anything. Readers must therefore validate every number that they use as an index or a size.
+  /// \throws InvalidInput unless `holds`.
   void require(bool holds) const;
-  /// \throws InvalidInput if somebody cut the file since it was opened: then some of its numbers read as zeros.
+  /// \throws InvalidInput if the file was truncated since it was opened: the missing numbers read
+  ///         as zeros.
   void require_whole() const;
 
  private:
@@ -201,8 +205,8 @@ class CacheEntry {
   std::vector<Row> arrays_;
 };
 
-/// Fills in values from an entry: `arrays("name", value)` as of an ArrayWriter. A span then lies in the file.
-/// \throws InvalidInput as CacheEntry::get.
+/// Reads values from an entry: `arrays("name", value)` accepts the same types as ArrayWriter. A
+/// span will point into the mapped file. \throws InvalidInput like CacheEntry::get.
 class ArrayReader {
  public:
   explicit ArrayReader(const CacheEntry& entry) : entry_(entry) {}

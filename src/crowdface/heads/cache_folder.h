@@ -9,15 +9,15 @@
 
 namespace crowdface {
 
-/// Where heads are kept, as read and prepared, unless `--cache` says otherwise:
-/// $XDG_CACHE_HOME/crowdface, else ~/.cache/crowdface, else a folder for temporary files.
+/// The default cache folder, unless `--cache` names another: $XDG_CACHE_HOME/crowdface, else
+/// ~/.cache/crowdface, else a folder for temporary files.
 std::filesystem::path cache_directory();
 
-/// A cache and how its files are read.
+/// A cache folder, and how far its files are trusted.
 struct CacheFolder {
-  std::filesystem::path path;  ///< empty: nothing is kept
-  /// Whether heads' texts and entries of the cache are taken for what they were when they were last read whole, if
-  /// nobody has written to them since: see SeenFile.
+  std::filesystem::path path;  ///< empty: no cache
+  /// Whether head files and cache entries count as unchanged, without hashing them again, if nobody
+  /// has written to them since they were last read completely (see SeenFile).
   bool trusts_seen_files = false;
 
   CacheFolder() = default;
@@ -25,19 +25,19 @@ struct CacheFolder {
   operator const std::filesystem::path&() const { return path; }          // NOLINT(*-explicit-*)
 };
 
-/// The kinds of entries that `list_cache` counts, see CacheKey.
+/// The kinds of entries that `list_cache` counts (see CacheKey).
 inline constexpr std::string_view kPreparedKind = "prepared", kReadKind = "read";
 
-/// The entries of a cache and their sizes.
+/// The entries of a cache, their number and their total size.
 struct CacheContents {
   std::vector<std::filesystem::path> entries;
-  std::size_t prepared = 0;  ///< heads
-  std::size_t read = 0;      ///< heads
+  std::size_t prepared = 0;  ///< number of prepared heads
+  std::size_t read = 0;      ///< number of heads as read from their files
   std::uintmax_t bytes = 0;
 };
 CacheContents list_cache(const std::filesystem::path& cache);
 
-/// Removes all entries (and nothing else) of the cache. \return how many.
+/// Removes all entries of the cache and no other file. \return the number of removed entries.
 std::size_t clear_cache(const std::filesystem::path& cache);
 
 }  // namespace crowdface

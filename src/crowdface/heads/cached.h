@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that the cache holds: read from its entries, or made and stored. An entry that is damaged, of another version
-// or of other data costs a warning and the computation; a cache that cannot be written to costs a warning.
+// Values held in the cache: read from their entries, or computed and stored. If an entry is damaged
+// or has another version or other content, a warning is logged and the value is computed again. A
+// cache that cannot be written only causes a warning.
 //
-// One function tells which arrays a value is kept in, for reading and writing: `visit(arrays, value)` calls
-// `arrays("name", member)` for each, with an ArrayReader or an ArrayWriter.
+// One function lists the arrays of a value, for reading and for writing: `visit(arrays, value)`
+// calls `arrays("name", member)` for each array, with an ArrayReader or an ArrayWriter.
 #pragma once
 
 #include <optional>
@@ -17,17 +18,19 @@
 
 namespace crowdface {
 
-/// Opens an entry. If the cache trusts seen files, the bytes of an entry that nobody has written to are not hashed
-/// again. \return nothing if there is none, or no cache. \throws InvalidInput as CacheEntry::open.
+/// Opens an entry. If the cache trusts seen files, an entry that nobody has written to since its
+/// last reading is not hashed again. \return nothing if there is no such entry or no cache. \throws
+/// InvalidInput like CacheEntry::open.
 std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& key);
 
-/// Says that a value is made anew because its entry could not be used.
+/// Warns that a value is computed again because its entry cannot be used.
 void warn_of_entry(const RecoverableError& error);
 
-/// \param is_sound  of a value and its entry: whether the value is such as could have been stored. It may complete the
-///                  value.
-/// \param value     into which the arrays are read
-/// \return nothing if there is no entry or, with a warning, if it cannot be used.
+/// Reads a value from the cache.
+/// \param is_sound  called with the value and its entry: returns whether the value is valid. The
+///                  function may complete the value.
+/// \param value     initial value, into which the arrays are read
+/// \return nothing if the entry does not exist or, with a warning, cannot be used.
 template <class Value, class Visit, class IsSound>
 std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, const Visit& visit,
                                  const IsSound& is_sound, Value value = {}) {
@@ -45,7 +48,7 @@ std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, 
   }
 }
 
-/// The arrays of a value, which must live until they are written.
+/// The arrays of a value. The value must live until the arrays are written.
 template <class Value, class Visit>
 std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
   ArrayWriter arrays;
@@ -53,12 +56,13 @@ std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
   return std::move(arrays.arrays);
 }
 
-/// Writes an entry, if there is a cache. \param what  the warning says "WHAT cannot be kept".
-/// \return whether the entry is there.
+/// Writes an entry, if there is a cache. \param what  the subject of the warning "WHAT cannot be
+/// kept".
+/// \return whether the entry was written.
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
            std::string_view what = "what was found of the heads");
 
-/// What `make()` returns, from the cache if it is there.
+/// Returns the value from the cache; if it is not there, calls `make()` and stores the result.
 template <class Make, class Visit, class IsSound>
 auto cached(const CacheFolder& cache, const CacheKey& key, const Make& make, const Visit& visit,
             const IsSound& is_sound, decltype(make()) value = {}) {

@@ -9,11 +9,12 @@
 
 namespace crowdface {
 
-/// Warnings about heads that seem to grimace where the others are neutral: around mouth or eyes such a head differs from
-/// the middle of all heads in form, not only in place and size, far more than the others do. Of fewer than four heads
-/// nobody can tell which one is odd.
-/// \param skin  #V
-/// \param mm    of one unit
+/// Warns about heads whose expression does not seem neutral: around the mouth or the eyes, the
+/// shape of such a head, after a similarity fit, differs from the vertex-wise median of all heads far
+/// more than the other heads' shapes do. With fewer than four heads there are no warnings, because an
+/// outlier cannot be determined.
+/// \param skin  #V, whether each vertex is skin
+/// \param mm    millimetres per file unit
 std::vector<std::string> odd_expressions(const FaceSet& faces, const std::vector<bool>& skin,
                                          const HeadAxes& axes, double mm);
 

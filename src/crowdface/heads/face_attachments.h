@@ -13,43 +13,47 @@
 
 namespace crowdface {
 
-/// An attachment on a face.
+/// An attachment placed on a face.
 struct WornAttachment {
   const Attachment* item;
-  Positions positions;                    ///< of its own vertices
-  std::vector<Displacements> moves = {};  ///< of those, in each of the face's shapes
+  Positions positions;  ///< of the attachment's vertices
+  /// one per face shape: displacements of the attachment's vertices
+  std::vector<Displacements> moves = {};
 };
 
-/// The attachments of faces: what is bound to the fitted mesh is bound once, whatever colours one mesh comes in.
+/// Places attachments on faces. Each mesh is bound to the fitted head once, even if several
+/// attachments share it with different colours.
 class FaceAttachments {
  public:
-  /// For all items. \param inputs  must outlive this object.
+  /// Binds all attachments. \param inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs);
-  /// For no more than these faces wear.
+  /// Binds only the attachments that these faces wear. \param inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs, std::span<const CastFace> faces);
 
-  /// What a face wears, in the order of its recipe; refers to the inputs.
-  /// \param positions  of the face, #V by 3.
-  /// \param moves      of the face, in each of the inputs' shapes; none: it is at rest.
+  /// The attachments of a face, in the order of its recipe. The result refers to the inputs.
+  /// \param positions  of the face, #V by 3
+  /// \param moves      displacements of the face, one per shape of the inputs; empty: the face at
+  ///                   rest
   std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions,
                                       std::span<const Displacements> moves = {}) const;
 
-  /// What this object takes, and what the attachments of one face take at most.
+  /// Memory of this object, and the maximum memory of one face's attachments, in bytes.
   std::size_t memory_bytes() const;
   std::size_t worn_bytes() const;
 
  private:
-  /// A mesh bound to the fitted one.
+  /// An attachment mesh bound to the fitted head.
   struct Bound {
     std::unique_ptr<const AttachmentCarrier> carrier;
-    std::unique_ptr<const ShapeBend> bend;  ///< if it bends and there are shapes
+    /// null unless the attachment bends and there are shapes
+    std::unique_ptr<const ShapeBend> bend;
   };
   void bind(const Config& config, const std::vector<bool>& wanted);
 
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< none: there are no attachments
+  std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments
   std::vector<Bound> bound_;
-  std::vector<std::size_t> of_item_;  ///< #items rows of `bound_`
+  std::vector<std::size_t> of_item_;  ///< #items, index into `bound_`
 };
 
 }  // namespace crowdface

@@ -12,21 +12,22 @@
 
 namespace crowdface {
 
-/// Expressions of a crowd's faces: what the faces share is found once.
+/// Computes the shapes (expressions) of a crowd's faces. What all faces share is computed once.
 class FaceShapes {
  public:
   /// \param inputs  must outlive this object.
   FaceShapes(const Config& config, const Inputs& inputs);
 
-  /// Of a face built from a recipe, one for each of the inputs' shapes; none without shapes. Where the heads
-  /// have shapes of their own, those of the heads that the recipe takes, as it takes them at each region.
-  /// \param crossing  as ShapeTransfer::carry takes it
+  /// The shapes of a face built from a recipe: one per shape of the inputs, or none if there are no
+  /// shapes. If the heads have shapes of their own, each region blends those of the recipe's source
+  /// heads with the recipe's weights.
+  /// \param crossing  passed to ShapeTransfer::carry
   std::vector<Displacements> of_face(const Recipe& recipe, const Positions& face,
                                      std::vector<Index>* crossing = nullptr) const;
-  /// Of one of the heads.
+  /// The shapes of an input head.
   std::vector<Displacements> of_head(Index head) const;
 
-  /// The shape to which one is made to be added, see companions_of.
+  /// The shape that `shape` is made to be added to, if there is one (see companions_of).
   std::optional<std::size_t> companion(std::size_t shape) const;
   std::size_t memory_bytes() const;
 
@@ -35,8 +36,8 @@ class FaceShapes {
 
   const Inputs& inputs_;
   std::vector<double>
-      kept_;  ///< #shapes: how much of each is left after one iteration of smoothing
-  std::unique_ptr<const ShapeTransfer> transfer_;  ///< if there are shapes
+      kept_;  ///< #shapes: the fraction of each shape that remains after one smoothing iteration
+  std::unique_ptr<const ShapeTransfer> transfer_;  ///< null if there are no shapes
 };
 
 }  // namespace crowdface

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// The pictures that each face has of its own: those of its colours, then those of each other kind.
+/// Names of the images that each face has of its own: first the colour images, then those of each
+/// other kind.
 std::vector<PictureName> own_pictures(const Inputs& inputs);
 
 inline bool has_own_textures(const Inputs& inputs) {
@@ -21,15 +22,16 @@ class FaceTextures {
   /// \param inputs  must outlive this object.
   FaceTextures(const Config& config, const Inputs& inputs);
   bool any() const { return !pictures_.empty(); }
-  /// Of own_pictures.
+  /// Size of own_pictures.
   std::size_t picture_count() const { return pictures_.size(); }
-  /// \param picture  as own_pictures has them: no more than one need be in memory. Any thread may ask.
+  /// Blends one image of a face, so that callers need not hold several. Thread-safe.
+  /// \param picture  index into own_pictures
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// A face's colours at vertices; no rows where the heads have none. Any thread may ask.
+  /// Vertex colours of a face; no rows if the heads have none. Thread-safe.
   ColourRows vertex_colours(const Recipe& recipe) const;
 
-  /// What this object itself takes, and what the blending of the largest picture takes.
+  /// Memory of this object, and the memory needed to blend the largest image, in bytes.
   std::uint64_t memory_bytes() const;
   std::uint64_t blend_bytes() const;
 
@@ -37,16 +39,17 @@ class FaceTextures {
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
   struct Picture {
     const TextureBlender* blender;
-    std::size_t number;  ///< of the blender's
+    std::size_t number;  ///< index among the blender's images
   };
   std::vector<Picture> pictures_;
   const Inputs& inputs_;
-  bool are_blended_;                   ///< or the target's own
-  std::vector<double> region_shares_;  ///< of the face
+  /// whether vertex colours are blended; if not, a face has those of its target
+  bool are_blended_;
+  std::vector<double> region_shares_;  ///< share of each region in the face
   std::vector<bool> of_target_;        ///< #V, see blend_vertex_colours
 };
 
-/// What the heads' maps take that lie in memory.
+/// Memory of the heads' texture maps that lie in memory, in bytes.
 std::uint64_t texture_bytes(const Inputs& inputs);
 
 }  // namespace crowdface

@@ -7,12 +7,12 @@
 
 namespace crowdface {
 
-/// The levels of detail that the config asks for, into inputs whose heads and shapes are known; none
-/// where no mesh is written.
-/// \param cache  where they are kept; empty: nowhere
+/// Computes the levels of detail that the config asks for and stores them in `inputs`, whose heads
+/// and shapes must be known. Does nothing if no mesh is written.
+/// \param cache  keeps the levels; empty: no cache
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs);
 
-/// A line for each, for people to read; empty without.
+/// A readable line for each level; empty if there are none.
 std::string describe_levels(const Inputs& inputs);
 
 }  // namespace crowdface

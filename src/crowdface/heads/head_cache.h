@@ -16,37 +16,39 @@
 
 namespace crowdface {
 
-/// Fitted levels of one head, as they are kept. The fields may lie in a mapped file of the cache,
-/// so that they cost no memory of ours.
+/// Fitted levels of one head. The fields may lie in a memory-mapped cache file, so that they use no
+/// memory of the process.
 struct StoredLevels {
   LevelFields fields;
-  std::shared_ptr<const MappedFile> mapped;  ///< of the fields, if they lie in a file
-  Eigen::MatrixXd mixing;                    ///< `levels: basis`: #nodes by rank, see LevelBasis
-  BasisError error;                          ///< `levels: basis`
+  /// the file that holds the fields; null if they lie in memory
+  std::shared_ptr<const MappedFile> mapped;
+  Eigen::MatrixXd mixing;  ///< `levels: basis`: #nodes by rank, see LevelBasis
+  BasisError error;        ///< `levels: basis`
 };
 
-/// What is computed once per head and kept: how the samples move under smoothing and, unless the
-/// levels are exact, the fitted levels.
+/// What is computed once per head and kept: how the sample points move during smoothing and, unless
+/// `levels: exact`, the fitted levels.
 struct PreparedHead {
   Trajectory trajectory;
   StoredLevels levels;
 };
 
-/// What an entry must hold to be of use.
+/// The sizes that an entry must have to be used.
 struct HeadCacheShape {
   Index vertices = 0;
   Index samples = 0;
   Index trajectory_levels = 0;  ///< rows of the trajectory
-  Index nodes = 0;              ///< of `levels: basis`
+  Index nodes = 0;              ///< number of nodes, for `levels: basis`
   std::uint64_t max_level = 0;
   Levels levels = Levels::kBasis;
 };
 
-/// A prepared head from the cache, whose fields stay in the file, mapped; nothing if it is not there, or of another shape.
+/// Finds a prepared head in the cache. Its fields stay in the memory-mapped file. \return nothing
+/// if the entry does not exist or has other sizes.
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
                                           const HeadCacheShape& shape);
 
-/// For `write_entry` or `store`.
+/// Key and arrays for `write_entry` or `store`.
 CacheKey prepared_key(const Digest& digest);
 std::vector<EntryArray> arrays_of(const PreparedHead& head);
 

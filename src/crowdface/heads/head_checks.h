@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be wrong with heads: another mesh, another stance or unit, one person twice.
+// Checks for heads: differing meshes, wrong orientation or unit, the same person twice.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,20 @@
 
 namespace crowdface {
 
-/// A problem for each head that is not the first one's mesh: what is different, and what an export did.
+/// Adds a problem for each head whose mesh differs from that of the first head: the difference, and
+/// the export setting that probably caused it.
 void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
-/// \throws InvalidInput if the heads look another way than the config says, or are of a size that no
-/// heads have: then everything that is measured would be wrong.
+/// \throws InvalidInput if the heads face another direction than the config says, or have an
+///         impossible size: every measurement would then be wrong.
 void check_stance(const Config& config, const Inputs& inputs);
 
-/// A warning for each two heads that are one person's, as far as their shapes tell.
-/// \param mm  per unit
+/// Warns about each pair of heads whose shapes suggest that they belong to the same person.
+/// \param mm  millimetres per file unit
 std::vector<std::string> same_persons(const Inputs& inputs, double mm);
 
-/// A warning if single precision, in which meshes are written, keeps no hundredth of a millimetre where
-/// the heads stand.
+/// Warns if the heads are so far from the origin that single precision, in which meshes are
+/// written, cannot represent a hundredth of a millimetre there.
 std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

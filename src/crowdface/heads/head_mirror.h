@@ -9,19 +9,20 @@
 
 namespace crowdface {
 
-/// The config's key by which faces are mirrored, or differ more or less from left to right; empty: none.
+/// The first config key that mirrors faces or changes their left-right asymmetry; empty if there is
+/// none.
 std::string mirroring_key(const Config& config);
 
-/// The other side of each vertex of these heads.
+/// The mirror partner of each vertex of the heads.
 FoundMirror find_mirror(const Config& config, const Inputs& inputs);
 
-/// The map by which faces are mirrored: that of the inputs, or it is found now.
-/// \param key  what asks for it
-/// \throws InvalidInput where too few vertices have another side.
+/// The mirror map of the inputs; computed now if they have none.
+/// \param key  the config key that needs the map, for messages
+/// \throws InvalidInput if too few vertices have a mirror partner.
 std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& inputs,
                                             const std::string& key);
 
-/// How many vertices have another side, for people to read.
+/// A readable summary: how many vertices have a mirror partner.
 std::string describe_mirror(const Config& config, const FoundMirror& mirror);
 
 }  // namespace crowdface

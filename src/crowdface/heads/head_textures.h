@@ -16,83 +16,88 @@
 
 namespace crowdface {
 
-/// What a picture of the blended texture is called, beside the face's id.
+/// What identifies an image of a blended texture, besides the face's id.
 struct PictureName {
-  std::string part;  ///< the material that it is for, if there are several; else empty
-  int tile = 0;      ///< its UDIM number; 0: none
+  std::string part;  ///< name of the image's material; empty if there is only one
+  int tile = 0;      ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
-  /// Whether all heads' files hold bytes, and whether any holds floats.
+  /// Whether all heads' files hold 8-bit channels, and whether any holds floats.
   bool of_bytes = true, of_floats = false;
 };
 
-/// The textures of the heads of one kind, as far as anything needs them.
+/// The heads' textures of one kind, as far as they are needed.
 struct HeadTextures {
-  /// Each face gets a texture of its own, blended from these; no pictures: it does not.
+  /// The textures from which each face's own are blended; no images if faces have no own textures.
   CrowdTextures blended;
-  std::vector<PictureName> names;  ///< #pictures of the layout
+  std::vector<PictureName> names;  ///< one per image of the layout
 
-  std::vector<TextureCoat>
-      coats;      ///< #heads, for pictures; or empty: surfaces have their own colours
-  Digest digest;  ///< of the files read, and of which face of which head wears which
-  std::vector<std::string> warnings;  ///< about files that are missing
+  std::vector<TextureCoat> coats;  ///< #heads, for renders; empty if surfaces have plain colours
+  /// hash of the files read, and of the texture that each polygon of each head uses
+  Digest digest;
+  std::vector<std::string> warnings;  ///< about missing files
 
   bool blend() const { return !names.empty(); }
   bool any() const { return blend() || !coats.empty(); }
 };
 
-/// Pixels a side that textures keep in pictures, if they have them: more no sheet shows.
+/// Maximum side length, in texels, of textures for renders: contact sheets cannot show finer
+/// detail.
 int shown_texels(const Config::ContactSheet& sheet);
 
-/// Whether pictures show any of these kinds.
+/// Whether renders show any of these kinds.
 bool any_is_shown(const std::vector<HeadTextures>& maps);
 
-/// What pictures show of a face's own textures: colours in linear light, and how its normals and its
-/// roughness have it reflect.
+/// A face's own textures for renders: colours in linear light, and normals and roughness for
+/// shading.
 class OwnCoat {
  public:
-  /// \param maps     all kinds but colours.
-  /// \param target   whose colours the face bears if colours are not blended.
-  /// \param most_px  larger pictures are made smaller: more than this no picture shows.
+  /// \param maps     textures of all kinds except colour
+  /// \param target   head whose colours the face has if colours are not blended
+  /// \param most_px  maximum side length; larger images are downscaled
   OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
           int most_px);
 
-  /// \param picture  those of the colours come first, if these are blended, then those of one kind after the
-  /// other. All must come, from any thread, before the coat is used.
+  /// Adds an image. All images must be added before the coat is used. Thread-safe.
+  /// \param picture  index of the image: blended colour images come first, then the images of each
+  ///                 other kind
   void add(std::size_t picture, const BlendedPicture& blended);
   const TextureCoat& coat() const { return coat_; }
 
-  /// What a coat of these takes.
+  /// Memory of a coat made from these textures, in bytes.
   static std::uint64_t bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
                              int most_px);
 
  private:
   struct Place {
     TextureKind kind = TextureKind::kColour;
-    std::size_t number = 0;  ///< among the pictures of its kind
+    std::size_t number = 0;  ///< index among the images of its kind
   };
   TextureCoat coat_;
-  std::vector<Place> places_;  ///< of all pictures
+  std::vector<Place> places_;  ///< of all images
   int most_px_;
 };
 
-/// Has the coat of a head reflect as its own maps say.
+/// Adds a head's own normal and roughness maps to its coat.
 void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
                         TextureCoat& coat);
 
-/// What a head wears itself; nothing if it has no texture.
+/// The coat of an input head; nothing if the head has no texture.
 std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px);
 
-/// Textures to be shown as the heads have them, each file read once. PNG, TIFF and JPEG are taken for
-/// sRGB, floats for linear light.
-/// \param most_px  larger textures are made smaller.
-/// \throws InvalidInput if a file is damaged, naming it.
+/// Loads textures to be rendered as the heads have them. Reads each file once. PNG, TIFF and JPEG
+/// files count as sRGB, floats as linear light.
+/// \param most_px  maximum side length; larger textures are downscaled
+/// \throws InvalidInput that names the file if a file is damaged.
 HeadTextures load_coats(HeadsTextures found, int most_px);
 
-/// Textures of one kind to be blended, all brought to one layout, that of the first head that has any. Head by head the
-/// files of a picture are made one, of the size of the largest or of `size`.
-/// \param size     texels of the longer side; nothing: that of the largest, at most 4,096.
-/// \param scratch  a folder for maps of which all would take more than half of the memory that images have left.
-/// \throws InvalidInput as above, or if a file cannot be what it is named as, such as a grey one a normal map.
+/// Loads textures of one kind for blending and converts all to one layout: that of the first head
+/// with a texture. For each head, merges the files of an image into one, which has the size of the
+/// largest file or `size`.
+/// \param size     texels of the longer side; nothing: as the largest file, at most 4,096
+/// \param scratch  folder for the maps if they would together need more than half of the memory
+///                 left for images
+/// \throws InvalidInput if a file is damaged, or cannot be what its material says, such as a grey
+///         image as a normal map.
 HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
                                    HeadsTextures found, std::optional<std::uint64_t> size,
                                    const std::filesystem::path& scratch);

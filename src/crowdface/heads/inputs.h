@@ -25,82 +25,83 @@
 
 namespace crowdface {
 
-/// A mesh that may sit on heads, and the files that say what it is made of.
+/// A mesh that heads may wear, and its material files.
 struct Attachment {
   std::string name, kind;
   AttachmentMove moves = AttachmentMove::kBend;
   ObjFile file;
-  Digest text;  ///< of the file's bytes
+  Digest text;  ///< hash of the file's bytes
   MaterialFiles materials;
 };
 
-/// All that may sit on the heads of a crowd.
+/// All attachments of a crowd.
 struct AttachmentSet {
-  Positions fitted_to;  ///< #V by 3, the mesh beside which all stand; of no rows: there are none
+  /// #V by 3, the head that all attachments are fitted to; no rows if there are none
+  Positions fitted_to;
   std::vector<Attachment> items;
-  Digest digest;  ///< of all files' contents and of that mesh
+  Digest digest;  ///< hash of the contents of all files and of the fitted head
 
   bool empty() const { return items.empty(); }
-  /// The one of that name, which must be there.
+  /// The attachment with this name, which must exist.
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
   std::size_t index(const std::string& name) const;
 };
 
-/// A rig of the template: joints, what each vertex is bound to, and where the joints stand at rest.
+/// The template's rig: joints, skinning weights, and the joints' positions at rest.
 struct Rig {
   GlbSkin skin;     ///< in the heads' axes
-  PointSet points;  ///< of the joints, in their order, beside the template
+  PointSet points;  ///< positions of the joints, in their order, relative to the template
   Digest digest;
 
   bool empty() const { return skin.joints.empty(); }
 };
 
-/// A level of detail, and how far it is from the whole mesh.
+/// A level of detail, and its deviation from the whole mesh.
 struct MeasuredLevel {
   DetailLevel level;
   LevelError heads;   ///< over all heads, mm
-  LevelError shapes;  ///< over all shapes of the template, mm; 0 without
+  LevelError shapes;  ///< over all shapes of the template, mm; 0 if there are none
 };
 
-/// Everything a job reads, checked: heads, their topology, masks, and what follows from them.
+/// All inputs of a job, checked: heads, their topology, masks, and data computed from these.
 struct Inputs {
-  std::filesystem::path cache;  ///< where what is found of them is kept; empty: nowhere
+  std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
   FaceSet faces;
   Positions mean;              ///< the mean head
   std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
-  std::vector<Digest> texts;   ///< #heads, of the files' bytes
-  /// #heads colours of vertices, none of heads that have none; empty if no head has any.
+  std::vector<Digest> texts;   ///< #heads, hashes of the files' bytes
+  /// #heads, vertex colours; no rows for heads without colours. Empty if no head has any.
   std::vector<ColourRows> colours;
   Digest colours_digest;
-  FaceMaterials materials;  ///< of the first head's faces
+  FaceMaterials materials;  ///< of the first head's polygons
   Adjacency adjacency;
   Components components;
-  PartList parts;   ///< `parts: none`: empty
-  Components skin;  ///< the components with all skin joined into the largest
-  std::shared_ptr<const MirrorMap> mirror;  ///< if the config has faces mirrored
+  PartList parts;   ///< empty for `parts: none`
+  Components skin;  ///< the components, with all skin merged into the largest
+  std::shared_ptr<const MirrorMap> mirror;  ///< null unless the config has faces mirrored
   ShapeSet shapes;
-  Digest shapes_digest;  ///< if there are any
+  Digest shapes_digest;  ///< if there are shapes
   std::vector<MeasuredLevel> levels;
   PointSet points;
-  Digest points_digest;  ///< if there are any
+  Digest points_digest;  ///< if there are points
   Rig rig;
   AttachmentSet attachments;
   RegionWeights regions;
-  std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty without
+  std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty if that is not set
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads
   std::uint64_t max_level = 0;        ///< L_max
-  std::vector<Digest> head_digests;   ///< #heads, of the positions used
+  std::vector<Digest> head_digests;   ///< #heads, hashes of the positions in use
   Digest topology_digest;
-  Digest mask_digest;                 ///< of α
-  HeadTextures textures;              ///< of colours, if pictures are to show them
-  std::vector<HeadTextures> maps;     ///< of other kinds, if they are blended for faces
+  Digest mask_digest;                 ///< hash of α
+  HeadTextures textures;              ///< colour textures, if they are blended or rendered
+  std::vector<HeadTextures> maps;     ///< textures of other kinds, if faces get blended ones
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 
-  /// Adds one, and logs it.
+  /// Adds and logs a warning.
   void warn(std::string text);
 };
 
-/// The numbers of a matrix as they lie in memory.
+/// The numbers of a matrix in their storage order.
 template <class Rows>
 auto numbers_of(const Rows& rows) {
   return std::span(rows.data(), static_cast<std::size_t>(rows.size()));

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// As FaceSpace's constructor, with its tables from the cache if they are there.
+/// Makes a FaceSpace (see its constructor), with its tables from the cache if they are there.
 FaceSpace kept_face_space(const CacheFolder& cache, SampledHeads heads,
                           const std::vector<double>& weights, std::size_t bands);
 

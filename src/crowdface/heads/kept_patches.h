@@ -12,15 +12,16 @@
 
 namespace crowdface {
 
-/// Patches that may lie in a mapped file of the cache, so that they cost no memory of ours.
+/// Patches that may lie in a memory-mapped cache file, so that they use no memory of the process.
 struct KeptPatches {
   FieldPatches patches;
-  std::shared_ptr<const MappedFile> mapped;  ///< if they lie in a file
+  /// the file that holds the patches; null if they lie in memory
+  std::shared_ptr<const MappedFile> mapped;
 };
 
-/// What `make()` returns, from the cache if it is there.
-/// \param key    of all that the patches depend on
-/// \param ranks  #heads: how many fields each has
+/// Returns the patches from the cache; if they are not there, calls `make()` and stores the result.
+/// \param key    hash of everything that the patches depend on
+/// \param ranks  #heads, number of fields of each head
 KeptPatches kept_patches(const CacheFolder& cache, const Digest& key, Index vertex_count,
                          std::span<const Index> ranks, const std::function<FieldPatches()>& make);
 

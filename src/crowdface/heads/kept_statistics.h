@@ -10,13 +10,15 @@
 
 namespace crowdface {
 
-/// Of all that the statistics of heads' maps depend on.
-/// \param rows  digest of the topology's vertices and faces, and of the positions that give the filter its rows' order
+/// Hash of everything that the statistics of the heads' maps depend on.
+/// \param rows  hash of the topology's vertices and polygons, and of the positions that determine
+///              the filter's row order
 Digest statistics_key(const Digest& rows, const Topology& topology, const TextureCoordinates& uvs,
                       const CrowdTextures& textures, const StatisticsScale& scale);
 
-/// What `make()` returns, from the cache if it is there.
-/// \param vertices  of the mesh
+/// Returns the statistics from the cache; if they are not there, calls `make()` and stores the
+/// result.
+/// \param vertices  number of vertices of the mesh
 SurfaceStatistics kept_statistics(const CacheFolder& cache, const Digest& key, std::size_t vertices,
                                   std::size_t heads,
                                   const std::function<SurfaceStatistics()>& make);

@@ -6,14 +6,14 @@
 
 namespace crowdface {
 
-/// The image in linear light: integers are taken for sRGB, floats as they are; of grey ones all channels
-/// are the first, and alpha counts for nothing.
+/// The image in linear light. Integers count as sRGB, floats as linear. In grey images every
+/// channel is the first channel; alpha is ignored.
 /// \param image  must outlive the result.
 LightRows light_of(const Image& image);
 
-/// Tangent-space normals as files have them, 0 … 1, as slopes to the right and upwards.
+/// Converts tangent-space normals, stored in 0 … 1, to slopes to the right and upwards.
 LightRows slopes_of(const Image& image);
-/// The numbers of the first one or three channels, as they are.
+/// The unconverted values of the first one or three channels.
 LightRows values_of(const Image& image);
 
 }  // namespace crowdface

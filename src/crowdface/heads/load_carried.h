@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a config has carried to every face. Each is read into inputs whose faces and parts are known, and
-// adds every problem that it has.
+// Loads what the config transfers to every face: shapes, points, a rig, attachments. Each function
+// requires inputs whose heads and parts are known, and adds all problems that it finds.
 #pragma once
 
 #include "crowdface/config/config.h"
@@ -10,24 +10,24 @@
 
 namespace crowdface {
 
-/// The shapes, read in parallel. What a head lacks is carried to it from the template. A problem is a mesh
-/// that cannot be read, or is not in the heads' topology.
-/// \param cache  the folder that keeps what was read; empty: none
+/// Loads the shapes in parallel. Shapes that a head lacks are transferred from the template. A mesh
+/// that cannot be read or has another topology than the heads is a problem.
+/// \param cache  folder that keeps what was read; empty: no cache
 void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems);
 
-/// The points, after the shapes. Problems are told with their line: a value that is no position, a head
-/// that is missing, a template that is not in the heads' topology.
+/// Loads the points; requires the shapes. A value that is not a position, a missing head, or a
+/// template with another topology is a problem, reported with its line.
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
-/// The rig, after the shapes. Its vertices are found by `_VERTEX_ID`, or by where they lie on the shapes'
-/// template or on one of the heads. A problem is a vertex of the heads that has none, or a joint whose
-/// scale is not the same along its axes.
+/// Loads the rig; requires the shapes. Its vertices are matched to those of the heads by
+/// `_VERTEX_ID`, or by position on the shapes' template or on a head. A vertex of the heads without
+/// a match, or a joint with non-uniform scale, is a problem.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
-/// The attachments, read in parallel. A problem is a mesh that cannot be read, one that lies far from the
-/// head, a fitted head in another topology. What their materials lack is warned of.
-/// \param cache  as of load_shapes
+/// Loads the attachments in parallel. A mesh that cannot be read or lies far from the head, or a
+/// fitted head with another topology, is a problem. Faults in materials only cause warnings.
+/// \param cache  see load_shapes
 void load_attachments(const Config& config, const CacheFolder& cache, Inputs& inputs,
                       Problems& problems);
 

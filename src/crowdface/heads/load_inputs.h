@@ -10,20 +10,19 @@
 
 namespace crowdface {
 
-/// Reads heads (in parallel) and masks and checks them. Every problem is added; warnings are logged
-/// and kept.
-/// \param cache  the folder that keeps what was read, see cache_directory; empty: none.
+/// Reads (in parallel) and checks heads and masks. Adds every problem; logs and keeps warnings.
+/// \param cache  folder that keeps what was read (see cache_directory); empty: no cache
 /// \return nothing if there is any problem.
 std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache,
                                   Problems& problems);
 
-/// Heads alone, compared with each other but not aligned. Every problem is added.
+/// Reads only the heads and compares them with each other, without alignment. Adds every problem.
 /// \return nothing if there is any problem.
 std::optional<FaceSet> load_faces(const Config::Faces& faces, const CacheFolder& cache,
                                   Problems& problems);
 
-/// Only adds the problems of the heads and masks that a config names, as far as it is known: what a
-/// user should hear together with what is wrong in the config.
+/// Adds the problems of the heads and masks that a config names, even if the config itself has
+/// errors, so that users see all problems at once.
 void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Problems& problems);
 
 }  // namespace crowdface

@@ -10,14 +10,14 @@
 
 namespace crowdface {
 
-/// Opens the mask images as far as that goes without texture coordinates, which alone tell the UDIM
+/// Checks the mask images as far as possible without texture coordinates, which determine the UDIM
 /// tiles in use.
 void check_masks(const std::vector<std::string>& files, Problems& problems);
 
-/// A warning for each mask that is one image where the skin lies in several tiles.
+/// Warns about each mask that is one image although the skin lies in several UDIM tiles.
 std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs);
 
-/// Warnings of masks that do not do what masks are for.
+/// Warns about masks that have no useful effect.
 std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

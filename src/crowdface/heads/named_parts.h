@@ -10,18 +10,18 @@
 
 namespace crowdface {
 
-/// Sorts the components of the heads into parts as the config asks, into `inputs.parts` and
-/// `inputs.skin`. A name that no component bears is a problem.
+/// Sorts the components of the heads into the parts that the config names; fills `inputs.parts` and
+/// `inputs.skin`. A name without a matching component is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
-/// Whether each vertex is skin, #V; and those that are, ascending.
+/// `skin_of`: #V, whether each vertex is skin. `skin_vertices`: the skin vertices, ascending.
 std::vector<bool> skin_of(const Inputs& inputs);
 std::vector<std::uint32_t> skin_vertices(const Inputs& inputs);
 
-/// Which way the heads look, as the config says.
+/// The axes of the heads, as configured.
 HeadAxes head_axes(const Config& config);
 
-/// What was found, a line for the skin and one for each group of like parts, for people to read.
+/// A readable summary: a line for the skin and one for each group of similar parts.
 std::string describe_parts(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -23,40 +23,42 @@ namespace crowdface {
 /// All heads, ready for casting and blending.
 struct Prepared {
   FaceSamples samples;
-  FaceSamples traced;  ///< the samples, and after them what their mirror images are made of besides
-  std::vector<Trajectory> trajectories;     ///< #heads, of what is traced
-  std::vector<StoredLevels> levels;         ///< #heads; without fields with `levels: exact`
-  std::shared_ptr<const LevelNodes> nodes;  ///< that `mixing` refers to
+  /// the samples, followed by the other vertices that their mirror images depend on
+  FaceSamples traced;
+  std::vector<Trajectory> trajectories;     ///< #heads, of `traced`
+  std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
+  std::shared_ptr<const LevelNodes> nodes;  ///< the nodes that `mixing` refers to
   KeptPatches patches;                      ///< of all heads' fields, unless `levels: exact`
-  std::optional<ChebyshevFilter> filter;    ///< `levels: exact`
-  std::size_t from_cache = 0;               ///< how many heads the cache had
+  std::optional<ChebyshevFilter> filter;    ///< for `levels: exact`
+  std::size_t from_cache = 0;               ///< number of heads found in the cache
 };
 
-/// An entry of the cache was cut while its fields were in use: what was made of them is worth
-/// nothing, and what is prepared again is whole.
+/// A cache entry was truncated while its fields were in use. Results computed from it must be
+/// discarded; preparing the heads again repairs the entry.
 struct CutWhileInUse : IoError {
   using IoError::IoError;
 };
 
-/// To be asked after fields were used, before what came of it is. \throws CutWhileInUse.
+/// Call after the fields were used and before the results are. \throws CutWhileInUse.
 void require_whole(const Prepared& prepared);
 
-/// Prepares every head, one after the other, or takes it from the cache. A damaged cache entry is
-/// made anew with a warning; a cache that cannot be written costs a warning, not the run.
-/// \param cache  the cache's folder, see cache_directory.
+/// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
+/// warning; a cache that cannot be written only causes a warning.
+/// \param cache  see cache_directory
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const CacheFolder& cache);
 
-/// Into the cache only: heads that it has not. \param is_wanted  of a head's place, from 0.
-/// \throws CannotCreate, IoError if a head cannot be kept.
+/// Prepares heads that the cache lacks and stores them there.
+/// \param is_wanted  called with the index of a head: whether to prepare it
+/// \throws CannotCreate, IoError if a head cannot be stored.
 void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                   const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
 
-/// The fitted levels in the form that blending takes.
+/// The fitted levels in the form that blending needs.
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
 
-/// Does the work again, and says so, when an entry of the cache was cut while it was in use: prepared
-/// anew it is whole, and what was done before counts as done.
+/// Runs `work` again, at most three times in all and with a warning, if a cache entry was truncated
+/// while in use. `work` must prepare the heads anew and skip what it has finished before.
 template <class Work>
 void going_on_if_cut(const Work& work) {
   constexpr int kMostTimes = 3;

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// What heads of one mesh have in common.
+/// The data that heads with the same mesh share.
 struct HeadMesh {
   Topology topology;
   TextureCoordinates uvs;
@@ -21,14 +21,14 @@ struct HeadMesh {
   Digest digest() const;
 };
 
-/// Fills in positions, materials and groups, as the reader found them when this text was last read.
-/// \param text  digest of the whole file.
-/// \return the digest of its mesh, or nothing if the cache does not know the text.
+/// Fills in positions, materials and groups of a head, as they were read before.
+/// \param text  hash of the whole file
+/// \return the hash of the head's mesh, or nothing if the cache does not know the file.
 std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head);
-/// \param mesh  its digest
+/// \param mesh  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh);
 
-/// Write entries. \throws CannotCreate, IoError.
+/// Write cache entries. \throws CannotCreate, IoError.
 void keep_head(const std::filesystem::path& cache, const Digest& text, const Digest& mesh,
                const ObjFile& head);
 void keep_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);

@@ -16,40 +16,41 @@
 
 namespace crowdface {
 
-/// Smaller files are read as fast as what the cache says of them.
+/// Smaller files are not cached: reading them takes no longer than reading their cache entry.
 inline constexpr std::uint64_t kLeastKeptBytes = 1'000'000;
 
 /// A head's file. The topology, texture coordinates and corner normals of its ObjFile are empty.
 struct HeadFile {
   ObjFile file;
-  Digest text;  ///< of the file's bytes
+  Digest text;  ///< hash of the file's bytes
   Digest mesh_digest;
-  std::shared_ptr<HeadMesh> mesh;  ///< one for all heads that have the same
-  bool is_kept = false;            ///< the cache has it
+  std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
+  bool is_kept = false;            ///< whether the cache has the head
 };
 
-/// What becomes of meshes whose faces look inward.
+/// What to do with meshes whose polygons face inward.
 enum class Winding { kAsItIs, kOutward };
 
-/// Reads meshes side by side, those that the cache knows from there.
-/// \param what   they are, for the bar that shows how far it is
-/// \param cache  its folder; empty: none.
-/// \return #paths; those that could not be read are problems.
+/// Reads meshes in parallel, from the cache if it has them.
+/// \param what   noun for the meshes, shown in the progress bar
+/// \param cache  cache folder; empty: no cache
+/// \return #paths; empty for files that could not be read, which are added as problems.
 std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
     const CacheFolder& cache, Problems& problems, Winding winding = Winding::kOutward);
 
-/// The same of heads. \return those that could be read, in their order; the others are problems.
+/// Reads heads like read_mesh_files. \return those that could be read, in order; the others are
+/// added as problems.
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,
                                  const CacheFolder& cache, Problems& problems);
 
-/// The positions of a mesh. \throws Error, InvalidInput if it has another topology than `others`, which
-/// messages call so.
+/// The positions of a mesh.
+/// \param others  how messages call the meshes with the expected topology
+/// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view others);
 
-/// Writes into the cache what it lacks of large files. A cache that cannot be written to costs a
-/// warning.
+/// Stores large files that the cache lacks. A cache that cannot be written only causes a warning.
 void keep_heads(const std::vector<HeadFile>& heads, const std::filesystem::path& cache);
 
 }  // namespace crowdface

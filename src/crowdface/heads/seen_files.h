@@ -11,23 +11,25 @@
 
 namespace crowdface {
 
-/// A file that is about to be read whole: what is known of it from the last time, if the cache trusts seen files and
-/// nobody has written to the file since: as told by device, inode, size, and the times of the last change of the bytes
-/// and of the file (ctime, which no program can set). Then gigabytes need not be hashed before a page opens.
+/// Recalls the hash of a file that is about to be read, if the cache trusts seen files and the file
+/// has not changed since it was last read. A file counts as unchanged if device, inode, size, mtime
+/// and ctime (which no program can set) are the same. This saves hashing gigabytes before the
+/// program can show anything.
 class SeenFile {
  public:
-  /// \param cache  in whose folder it is kept what was seen.
+  /// \param cache  its folder keeps the records of seen files
   SeenFile(const CacheFolder& cache, const std::filesystem::path& file);
 
-  /// The hash of its bytes, if files are trusted and this one has not changed since.
+  /// Hash of the file's bytes, if seen files are trusted and this one has not changed.
   const std::optional<Digest>& digest() const { return digest_; }
-  /// Keeps the hash of the bytes that were read since this object was made, and found to be sound. Does
-  /// nothing unless files are trusted; nor where the file has changed meanwhile, or so lately that a further
-  /// change might not show.
+  /// Stores the hash of the bytes, after the caller has read them (since this object was made) and
+  /// found them valid. Does nothing if seen files are not trusted, if the file has changed
+  /// meanwhile, or if its last change is so recent that a further one might leave the times the
+  /// same.
   void remember(const Digest& digest) const;
 
  private:
-  /// Device, inode, size, and the times of both changes in nanoseconds.
+  /// Device, inode, size, and the times mtime and ctime in nanoseconds.
   using Stamp = std::array<std::int64_t, 5>;
   static std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 

@@ -7,12 +7,12 @@
 
 namespace crowdface {
 
-/// The hash of what a mesh depends on beside its recipe: topology, heads, masks, and the smoothing
-/// settings. Each recipe of a plan carries it.
+/// Hash of everything besides its recipe that a mesh depends on: topology, heads, masks, and
+/// smoothing settings. Each recipe of a plan contains it.
 Digest settings_digest(const Config& config, const Inputs& inputs);
 
-/// The hash of the material files that the heads name, and of the textures there that no other digest covers:
-/// what a surface looks like beside its colours. Zero if there are none.
+/// Hash of the heads' material files and of those of their textures that no other hash covers: what
+/// a surface looks like besides its colours. Zero if there are none.
 Digest materials_digest(const Inputs& inputs);
 
 }  // namespace crowdface

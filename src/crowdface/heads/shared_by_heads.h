@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What follows from all heads together and takes a second or so at a million vertices: looked up in the
-// cache before it is computed. Of small heads nothing is kept.
+// Data computed from all heads together, which takes about a second per million vertices: looked up
+// in the cache first. Nothing is cached for small heads.
 #pragma once
 
 #include <filesystem>
@@ -12,20 +12,21 @@
 
 namespace crowdface {
 
-/// Where it is kept, for heads of this mesh; empty: nowhere.
+/// The cache folder for heads with this topology; empty if they are too small to cache.
 std::filesystem::path folder_for(const std::filesystem::path& cache, const Topology& topology);
 
-/// As build_adjacency and find_components. \param inputs  with topology and its digest
+/// Cached build_adjacency and find_components. \param inputs  need the topology and its hash
 void find_neighbours(Inputs& inputs);
 
-/// As region_weights, of the config's masks; whole_head without regions. \param inputs  with parts
+/// Cached region_weights of the config's masks; whole_head if there are no regions. \param inputs
+/// need the parts
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
-/// As choose_face_samples and find_sample_cells, of the mean head.
+/// Cached choose_face_samples and find_sample_cells of the mean head.
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count);
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples);
 
-/// As find_mirror.
+/// Cached find_mirror.
 FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side);
 
 }  // namespace crowdface

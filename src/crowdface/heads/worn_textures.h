@@ -15,38 +15,40 @@
 
 namespace crowdface {
 
-/// The files of one kind that one head's materials name for its faces.
+/// The texture files of one kind that a head's materials name.
 struct WornTextures {
   struct File {
-    std::filesystem::path path;  ///< is there
-    std::filesystem::path name;  ///< as the material says; may hold <UDIM>
+    std::filesystem::path path;  ///< an existing file
+    std::filesystem::path name;  ///< as in the material file; may contain <UDIM>
   };
-  std::vector<File> files;  ///< each once, as faces first wear them
+  std::vector<File> files;  ///< without duplicates, in the order in which polygons first use them
   std::vector<std::uint32_t>
-      of_face;  ///< #F rows of `files`, or kNoIndex; empty where no head has any
+      of_face;  ///< #F, index into `files` or kNoIndex; empty if no head has any
 };
 
-/// Of all heads, and what is missing.
+/// The textures of one kind of all heads, and warnings about missing files.
 struct HeadsTextures {
   TextureKind kind = TextureKind::kColour;
-  std::vector<WornTextures> heads;                ///< #heads
-  std::vector<std::array<std::int32_t, 2>> tile;  ///< #F, column and row of each face's UDIM tile
-  std::vector<std::string> warnings;              ///< each once, with the heads it is about
+  std::vector<WornTextures> heads;  ///< #heads
+  /// #F, column and row of each polygon's UDIM tile
+  std::vector<std::array<std::int32_t, 2>> tile;
+  std::vector<std::string> warnings;  ///< without duplicates, each with the heads concerned
 
   bool any() const;
-  /// Whether two heads have different ones.
+  /// Whether two heads have different textures.
   bool differ() const;
 };
 
-/// Takes files away: those heads have no texture there.
+/// Removes these files; polygons that use them then have no texture.
 void leave_out(HeadsTextures& textures, const std::set<std::filesystem::path>& files);
-/// What is no image that we read. \return what to say of it.
+/// Removes files that are not readable images. \return a warning for each.
 std::vector<std::string> leave_out_unreadable(HeadsTextures& textures);
 
-/// Reads material files, and asks which textures are there; reads none of these. What is wrong with
-/// material files is told with the colours.
-/// \param faces  the topology and coordinates that all heads share. \param files  #heads.
-/// \return the colours, then the other kinds that any head has.
+/// Reads material files and checks which textures exist, without reading the textures. Problems in
+/// material files are listed with the colour textures.
+/// \param faces  topology and texture coordinates that all heads share
+/// \param files  #heads
+/// \return the colour textures, then each other kind that any head has.
 std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces, std::span<const ObjFile> files);
 
 }  // namespace crowdface
