@@ -13,36 +13,39 @@
 
 namespace crowdface {
 
-/// All the bytes of a file that is not written yet, in pieces. What a face shares with every other
-/// (texture coordinates, faces) is referred to where it lies; only the rest is memory of its own.
+/// The complete content of a file to be written, as a list of byte ranges. Data that all faces
+/// share (texture coordinates, polygons) is referenced in place; the object allocates memory only
+/// for the rest.
 class EncodedFile {
  public:
   EncodedFile() = default;
-  /// A file that holds just this.
+  /// A file with this content.
   EncodedFile(std::string text) { add(std::move(text)); }  // NOLINT(*-explicit-*)
-  /// Adds bytes that lie elsewhere and must stay there until this object is done with.
+  /// Appends bytes without copying them. The bytes must outlive this object.
   void refer_to(std::string_view bytes);
-  /// Adds these bytes.
+  /// Appends bytes that this object owns.
   void add(std::string text);
-  /// Keeps what it refers to for as long as it lives.
+  /// Keeps `owner` alive as long as this object.
   void keep(std::shared_ptr<const void> owner);
-  /// Takes `capacity` bytes of memory, not initialised, for pieces that refer_to is told of.
+  /// Allocates `capacity` bytes, uninitialised. The caller fills them and appends ranges of them
+  /// with `refer_to`.
   char* reserve(std::size_t capacity);
 
-  /// Puts a line in the place of the first that begins with this word and a blank, and leaves out further
-  /// ones. \return whether there was any.
+  /// Replaces the first line that begins with `word` and a space, and removes all later such lines.
+  /// \return whether the file had such a line.
   bool replace_line(std::string_view word, std::string_view line);
 
   std::uint64_t size() const { return size_; }
-  /// Of its own, beside what is referred to.
+  /// Bytes that this object owns, without the referenced ranges.
   std::size_t memory_bytes() const { return memory_bytes_; }
-  /// hash_bytes of the whole.
+  /// `hash_bytes` of the whole content.
   Digest digest() const;
-  /// All of it in order, for `write_files`.
+  /// All byte ranges in order, for `write_files`.
   const std::vector<std::string_view>& pieces() const { return pieces_; }
-  /// The whole as one text.
+  /// The whole content as one string.
   std::string text() const;
-  /// \throws CannotCreate, IoError; then there is no such file (see write_file).
+  /// Writes the file.
+  /// \throws CannotCreate, IoError; the file does not exist afterwards (see `write_file`).
   void write(const std::filesystem::path& path) const;
 
  private:

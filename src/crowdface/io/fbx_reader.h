@@ -10,15 +10,19 @@
 
 namespace crowdface {
 
-/// Reads FBX files. A function, and no types but ours: Assimp stands in a shared library (assimp_reader.cpp), which is
-/// opened when a file of this kind is met.
-/// \param beside  #textures: the file of each that lies beside, as another machine may have named it; else empty
+/// Signature of the FBX parser in the shared library that contains Assimp (assimp_reader.cpp). The
+/// program loads the library when it meets the first FBX file. The signature uses only types of
+/// this project.
+/// \param beside  #textures: path of each external texture file, as the exporting machine wrote it;
+/// empty for embedded textures
 using ReadFbx = bool(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& beside,
                      std::string& error);
 
-/// All meshes where their nodes stand, with polygons as they are. Assimp gives each corner a vertex of its own: their
-/// order is lost, and join_split_vertices joins them.
-/// \param path  beside which textures lie. \throws InvalidInput; IoError if the library cannot be loaded.
+/// Reads all meshes of an FBX file, transformed by their nodes; polygons are kept. Assimp creates
+/// one vertex per polygon corner, so the original vertex order is lost; `join_split_vertices`
+/// merges the copies.
+/// \param path  of the FBX file; external textures are searched beside it.
+/// \throws InvalidInput; IoError if the library cannot be loaded.
 FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace crowdface

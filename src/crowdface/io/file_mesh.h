@@ -13,35 +13,41 @@
 
 namespace crowdface {
 
-/// A texture that lies in a mesh's file, or beside it under a name that the file gives.
+/// A texture embedded in a mesh file or named by it.
 struct MeshTexture {
   std::string material;
   TextureKind kind;
-  std::string bytes;  ///< of an image file
+  std::string bytes;  ///< content of the image file
 };
 
-/// A mesh as a file of any format has it: vertices and polygons in the file's order, in its unit and axes.
+/// A mesh as read from a file of any format: vertices and polygons in the file's order, unit and
+/// axes.
 struct FileMesh : Mesh {
   Positions colours;                     ///< #V by 3, sRGB from 0 to 1; or no rows
-  std::vector<MaterialRange> materials;  ///< of the faces, ascending; may be empty
-  /// #V, of formats that split vertices at seams: which mesh of the file each is of. Empty: none is split.
+  std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
+  /// #V, for formats that split vertices at seams: index of the mesh in the file that contains each
+  /// vertex. Empty if the format does not split vertices.
   std::vector<std::uint32_t> pieces;
   std::vector<std::uint32_t>
-      vertex_ids;  ///< #V, the vertices before they were split, if the file tells them
-  std::vector<MeshTexture> textures;  ///< of its materials
-  std::vector<std::string> notes;     ///< what was mended or left out, a sentence each
+      vertex_ids;  ///< #V: vertex ids before the split; empty if the file does not store them
+  std::vector<MeshTexture> textures;  ///< textures of the materials
+  std::vector<std::string> notes;     ///< repairs and omissions, one sentence each
 };
 
-/// One vertex for all that a format split at seams: those of one id, or of one mesh at one place. Vertices keep the
-/// order of the first of each; their texture coordinates become those of corners.
+/// Merges vertices that a format has split at seams: vertices of the same mesh with the same id or,
+/// if the file has no ids, with the same position. Merged vertices are ordered by their first
+/// copies. Texture coordinates move from vertices to polygon corners.
 void join_split_vertices(FileMesh& mesh);
 
-/// The same from a file's bytes. \param name  of the file, for messages.
+/// Parses a PLY or STL file.
+/// \param name  of the file, for messages.
 FileMesh parse_ply(std::string_view bytes, const std::string& name);
 FileMesh parse_stl(std::string_view bytes, const std::string& name);
-/// glTF 2.0, as GLB or as JSON text: the triangles of all nodes of the scene, where the nodes stand.
+/// Parses glTF 2.0 (GLB or JSON text): the triangles of all nodes of the scene, transformed by
+/// their nodes.
 FileMesh parse_gltf(std::string_view bytes, const std::filesystem::path& path);
-/// USD as text: all Mesh prims that the layer defines itself, where they stand; no references, no variants, no frames.
+/// Parses USD text: all Mesh prims that the layer itself defines, transformed. Ignores references,
+/// variants and animation.
 FileMesh parse_usda(std::string_view text, const std::string& name);
 
 }  // namespace crowdface

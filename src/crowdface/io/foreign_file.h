@@ -6,9 +6,9 @@
 
 namespace crowdface {
 
-/// Refuses bytes that are plainly something else than a mesh: a web page that a browser saved, an archive, a picture,
-/// the scene of a modelling program.
-/// \throws InvalidInput that says what it is and how to come by the mesh.
+/// Rejects files that are clearly not meshes: web pages saved by a browser, archives, images,
+/// scenes of modelling programs.
+/// \throws InvalidInput with the kind of file found and how to obtain the mesh.
 void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace crowdface

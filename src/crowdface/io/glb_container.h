@@ -9,16 +9,16 @@
 
 namespace crowdface {
 
-/// The container of binary glTF 2.0: a header, a chunk of JSON, a chunk with the buffer.
+/// The binary glTF 2.0 container: a header, a JSON chunk and a chunk with the buffer.
 namespace glb {
 inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF"
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 inline constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
-/// What stands around the JSON text before the buffer.
+/// Number of bytes of headers around the JSON text and before the buffer.
 inline constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
 }  // namespace glb
 
-/// Codes of the glTF 2.0 specification.
+/// Constants of the glTF 2.0 specification.
 namespace gltf {
 inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
 inline constexpr int kUnsignedInt = 5125, kFloat = 5126;
@@ -29,7 +29,7 @@ struct GlbChunks {
   std::string_view json, binary;
 };
 
-/// None if the bytes are no such file, or cut off.
+/// The two chunks of a GLB file; nothing if the bytes are not GLB or are truncated.
 inline std::optional<GlbChunks> glb_chunks(std::string_view bytes) {
   using namespace glb;
   if (bytes.size() < kBinaryHeader || number_at<std::uint32_t>(bytes.data()) != kMagic ||

@@ -13,47 +13,54 @@
 
 namespace crowdface {
 
-/// How a surface looks where textures are not read.
+/// How a surface looks in viewers that do not read textures.
 struct GlbMaterial {
   std::string name;                            ///< may be empty
-  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity; each in [0, 1]
-  std::optional<std::size_t> image = {};  ///< its colours, times `colour`: one of the file's images
-  bool overlay = false;                   ///< its colours are the overlay's, opaque
-  std::optional<std::size_t> normal_image = {};     ///< its tangent-space normals, likewise
-  std::optional<std::size_t> roughness_image = {};  ///< how rough it is, in the green channel
+  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
+  /// Index of the base colour image, multiplied by `colour`.
+  std::optional<std::size_t> image = {};
+  bool overlay = false;  ///< base colour comes from the overlay image, opaque
+  std::optional<std::size_t> normal_image = {};  ///< index of the tangent-space normal map
+  /// Index of the roughness map; roughness is in the green channel.
+  std::optional<std::size_t> roughness_image = {};
 };
 
-/// A picture that all files have, such as an iris, and where on it each vertex lies. Files that bring no
-/// pictures along find it beside them.
+/// An image that all files share, such as an iris, with texture coordinates for each vertex. Files
+/// without embedded images refer to `kFile`.
 struct GlbOverlay {
   static constexpr const char* kFile = "topology/iris.png";
 
   std::string png;
-  std::vector<std::array<std::uint16_t, 2>> places;  ///< #V; 65535 is the right or lower edge
+  /// #V texture coordinates; 65535 is the right or lower edge
+  std::vector<std::array<std::uint16_t, 2>> places;
 };
 
-/// A morph target that every file has: its name, and the vertices that it moves, ascending.
+/// A morph target present in every file: its name and the vertices it moves, ascending.
 struct GlbTarget {
   std::string name;
   std::vector<std::uint32_t> vertices;
 };
 
 struct GlbOptions {
-  LengthUnit unit = LengthUnit::kMetre;  ///< of the positions; the file's node scales to metres
-  Axis up = {1, 1};                      ///< of the positions; the node turns them to +Y …
-  Axis front = {2, 1};                   ///< … and +Z, which is glTF's front
+  /// Length unit of the positions; the file's node scales to metres.
+  LengthUnit unit = LengthUnit::kMetre;
+  Axis up = {1, 1};  ///< up axis of the positions; the node rotates it to +Y
+  /// Front axis of the positions; the node rotates it to +Z, glTF's front.
+  Axis front = {2, 1};
   std::vector<GlbMaterial> materials;
-  bool colours = false;                       ///< each file has colours of its own at vertices
-  std::vector<std::uint32_t> face_materials;  ///< #F, rows of materials; empty: none has any
+  bool colours = false;  ///< each file has its own vertex colours
+  /// #F indices into `materials`; empty: no materials
+  std::vector<std::uint32_t> face_materials;
   std::vector<GlbTarget> targets;
-  std::vector<std::string> points;        ///< nodes below the face's, at places of its own
-  GlbSkin skin;                           ///< joints below the face's node, at places of its own
-  std::vector<std::uint32_t> vertex_ids;  ///< #V, what `_VERTEX_ID` says; empty: 0, 1, 2, …
-  /// "image/png" or "image/jpeg" of each image that every file brings along.
+  /// Names of child nodes of the face's node; positions differ per face.
+  std::vector<std::string> points;
+  GlbSkin skin;  ///< joints under the face's node; positions differ per face
+  std::vector<std::uint32_t> vertex_ids;  ///< #V values of `_VERTEX_ID`; empty: 0, 1, 2, …
+  /// MIME type of each image embedded in every file: "image/png" or "image/jpeg".
   std::vector<std::string> image_types;
   std::optional<GlbOverlay> overlay = {};
-  std::string shared =
-      ".";  ///< where GlbOverlay::kFile is found from files that do not bring it along
+  /// Folder relative to which files without embedded images refer to `GlbOverlay::kFile`.
+  std::string shared = ".";
 };
 
 }  // namespace crowdface

@@ -18,74 +18,77 @@
 
 namespace crowdface {
 
-/// What a further mesh of a GLB file is made of.
+/// Material of an additional mesh in a GLB file.
 struct GlbPartMaterial {
   enum class Alpha {
     kOpaque,
-    kMask,   ///< there or not, by the image's alpha
-    kBlend,  ///< seen through
+    kMask,   ///< visible or invisible, by the image's alpha
+    kBlend,  ///< blended by alpha
   };
   std::string name;
-  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear red green blue, opacity
-  std::optional<std::size_t> image = {};       ///< its colours: one of the part's images
+  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
+  /// Index of the base colour image among the part's images.
+  std::optional<std::size_t> image = {};
   Alpha alpha = Alpha::kOpaque;
 };
 
-/// A picture in a file's own bytes.
+/// An image embedded in the file.
 struct GlbImage {
   std::string bytes;
   std::string type;  ///< "image/png" or "image/jpeg"
 };
 
-/// A mesh of another topology that stands in the GLB files of faces, below the face's node, with materials
-/// and pictures of its own. Like GlbTemplate it is prepared once; of each face only positions and
-/// normals are written.
+/// An additional mesh with its own topology, materials and images in the GLB files of faces, as a
+/// child of the face's node. Like `GlbTemplate`, the object is prepared once; per face it writes
+/// only positions and normals.
 class GlbPart {
  public:
-  /// \param uvs             #T by 2, v upwards as in OBJ; may be empty.
-  /// \param materials       at least one.
-  /// \param face_materials  #F rows of `materials`.
-  /// \param influences      #V, of the joints of the faces' rig; of no groups: it has none.
-  /// \param targets         names of its morph targets.
+  /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
+  /// \param materials  at least one.
+  /// \param face_materials  #F indices into `materials`.
+  /// \param influences  #V, for the joints of the faces' rig; empty: the mesh is not skinned.
+  /// \param targets  names of the morph targets.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbPartMaterial>& materials,
           const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
           const Grouped<Influence>& influences = {}, std::vector<std::string> targets = {});
 
-  /// Adds node, mesh, materials and arrays to a scene.
-  /// \param size  of the buffer so far, a multiple of four. \return its size afterwards, likewise.
-  /// \param moves  #targets, in vertices of its own.
+  /// Adds node, mesh, materials and accessors to a scene.
+  /// \param size  bytes in the buffer so far, a multiple of four.
+  /// \param moves  #targets, indexed by vertices of this mesh.
+  /// \return the buffer size afterwards, a multiple of four.
   std::size_t describe(nlohmann::ordered_json& scene, const Positions& positions,
                        std::span<const Displacements> moves, std::size_t size) const;
-  /// Adds the bytes that describe() speaks of; the file refers to this object.
+  /// Appends the data that `describe` declares. The file references memory of this object.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   void append(EncodedFile& file, const Positions& positions,
               std::span<const Displacements> moves) const;
 
   std::size_t memory_bytes() const { return shared_.size(); }
-  /// What one encode takes: vectors, normals as they are found, and of each target as much as if all vertices moved.
+  /// Memory needed for one encode, in bytes: positions, normals with their double-precision
+  /// intermediate values, and morph targets as if every vertex moved.
   std::size_t encode_bytes() const;
 
  private:
   struct Primitive {
-    std::size_t material, indices;  ///< which material, and how many
+    std::size_t material, indices;  ///< index of the material; number of indices
   };
 
   std::string name_;
   Topology topology_;
   NormalFans fans_;
-  std::vector<std::uint32_t> split_;  ///< the original vertex of each of the file
+  std::vector<std::uint32_t> split_;  ///< original vertex of each split vertex
   bool has_uvs_;
   std::vector<Primitive> primitives_;
   std::vector<GlbPartMaterial> materials_;
   std::vector<std::size_t> image_sizes_;
   std::vector<std::string> image_types_;
-  std::vector<GlbSkinAttribute> skin_;  ///< without their bytes; empty: not bound to joints
+  std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
   std::vector<std::string> targets_;
   std::string shared_;  ///< texture coordinates, influences, triangles, images
 };
 
-/// One in the file of a face.
+/// A `GlbPart` with its positions in the file of one face.
 struct PlacedGlbPart {
   const GlbPart* part;
   const Positions* positions;

@@ -17,47 +17,53 @@
 
 namespace crowdface {
 
-/// In single precision.
+/// A JSON array of the components in single precision.
 nlohmann::ordered_json vector_json(const Eigen::RowVector3d& vector);
 
-/// \param overlay  which of the file's images that is.
+/// \param overlay  index of the overlay among the file's images.
 nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
 
-/// The node of a face, without a name: unit and axes. With a rig it is the joints', and the mesh has its own.
+/// The root node of a face, without a name: converts unit and axes. With a rig this node belongs to
+/// the joints, and the mesh has a node of its own.
 nlohmann::ordered_json node_json(const GlbOptions& options);
 
-/// Adds a picture and the texture that shows it. \param view  that holds it.
+/// Adds an image and a texture that uses it.
+/// \param view  index of the buffer view with the image.
 void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::string& type);
 
-/// Gives a mesh its morph targets. \param first  the accessor of the first one's moves; others follow.
+/// Adds morph targets to a mesh.
+/// \param first  accessor of the first target's displacements; the accessors of further targets
+/// follow.
 void set_targets(nlohmann::ordered_json& mesh, std::size_t first,
                  const std::vector<std::string>& names);
 
-/// Adds arrays to a glTF buffer, one view each, and describes them.
+/// Adds arrays to a glTF buffer, with one buffer view each, and describes them in the scene.
 class GlbBuffer {
  public:
-  /// \param size  of the buffer so far.
+  /// \param size  bytes in the buffer so far.
   GlbBuffer(nlohmann::ordered_json& scene, std::size_t size) : scene_(scene), size_(size) {}
 
   std::size_t size() const { return size_; }
 
-  /// \return which view it is.
+  /// \return index of the new buffer view.
   std::size_t add_view(std::size_t size, int target = 0);
 
-  /// Four divides where the next view begins. \return how many bytes that takes.
+  /// Aligns the start of the next view to four bytes.
+  /// \return number of padding bytes.
   std::size_t pad();
 
-  /// \param offset  bytes from where the last view begins.
-  /// \return which accessor it is.
+  /// \param offset  bytes from the start of the last view.
+  /// \return index of the new accessor.
   std::size_t add_accessor(int component, const char* type, std::size_t count,
                            std::size_t offset = 0);
 
-  /// Of vectors that are all zero.
+  /// Adds an accessor of `count` zero vectors.
   void add_zeros(std::size_t count);
-  /// In the last accessor some are not. \param indices, values  which views hold them.
+  /// Makes the last accessor sparse, with `some` non-zero elements.
+  /// \param indices, values  indices of the views that hold them.
   void make_sparse(std::size_t some, std::size_t indices, std::size_t values);
 
-  /// Says how long the buffer is.
+  /// Writes the buffer's length to the scene.
   void finish();
 
  private:
@@ -65,23 +71,24 @@ class GlbBuffer {
   std::size_t size_;
 };
 
-/// Two numbers a vertex of the file. \param uvs  v upwards as in OBJ.
+/// Two numbers for each split vertex.
+/// \param uvs  v upwards as in OBJ.
 std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
 /// A morph target in files whose vertices are split at seams.
 struct GlbTargetRows {
-  std::vector<std::uint32_t> rows;      ///< of the target's moves, one after the other
-  std::vector<std::uint32_t> vertices;  ///< #rows, of the file, ascending
-  bool whole = false;                   ///< it moves every vertex of the mesh
+  std::vector<std::uint32_t> rows;      ///< indices into the target's displacements
+  std::vector<std::uint32_t> vertices;  ///< #rows split vertices, ascending
+  bool whole = false;                   ///< the target moves every vertex of the mesh
 };
 
-/// \param vertices  that it moves
-/// \param split     the original vertex of each of the file
-/// \param count     of the original vertices
+/// \param vertices  original vertices that the target moves
+/// \param split  original vertex of each split vertex
+/// \param count  number of original vertices
 GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
                           std::span<const std::uint32_t> split, Index count);
 
-/// The least and largest moves of a target; zero is among them unless it is whole.
+/// Minimum and maximum of a target's displacements, including zero unless `whole`.
 std::pair<Eigen::RowVector3d, Eigen::RowVector3d> target_bounds(const Displacements& moves,
                                                                 bool whole);
 

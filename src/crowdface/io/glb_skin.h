@@ -14,45 +14,49 @@
 
 namespace crowdface {
 
-/// How much a joint moves a vertex.
+/// Weight of a joint for one vertex.
 struct Influence {
   std::uint32_t joint;
-  float weight;  ///< those of a vertex add up to one
+  float weight;  ///< the weights of a vertex add up to one
 };
 
-/// A joint of a rig that every file has; where it stands is each face's own.
+/// A joint of the rig that all files share. Its position differs per face.
 struct GlbJoint {
   std::string name;
-  std::uint32_t parent;      ///< kNoIndex: it has none
-  Eigen::Matrix3d rotation;  ///< of its axes, in the positions' axes
+  std::uint32_t parent;      ///< kNoIndex: no parent
+  Eigen::Matrix3d rotation;  ///< from the joint's axes to the axes of the positions
 };
 
-/// Joints below a face's node, and which of them move its vertices.
+/// Joints under a face's node, and their weights for the face's vertices.
 struct GlbSkin {
-  std::vector<GlbJoint> joints;        ///< none: there is no rig
+  std::vector<GlbJoint> joints;        ///< empty: no rig
   Grouped<Influence> influences = {};  ///< #V
 
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }
 };
 
-/// JOINTS_n or WEIGHTS_n of each vertex of a file: its type as an accessor, and its bytes.
+/// The attribute JOINTS_n or WEIGHTS_n: its component type and its data.
 struct GlbSkinAttribute {
   std::string name;
   int component;
   std::string bytes;
 };
-/// As many sets of four as the vertex that has most needs.
-/// \param vertices  of the file: which of the influences' groups each has
+/// Builds as many pairs of JOINTS_n and WEIGHTS_n (four influences each) as the vertex with the
+/// most influences needs.
+/// \param vertices  for each vertex of the file the row of `influences`
 std::vector<GlbSkinAttribute> skin_attributes(const Grouped<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);
 
-/// Adds the joints' nodes, below the first node, and the skin; where they stand is left to `place_joints`.
+/// Adds the nodes of the joints, as children of the first node, and the skin. `place_joints` sets
+/// their positions.
 void add_joints(const GlbSkin& skin, std::size_t matrices, nlohmann::ordered_json& scene);
-/// \param first   the node of the first joint
+/// Sets the positions of the joints.
+/// \param first  index of the first joint's node
 /// \param places  #joints by 3
 void place_joints(const GlbSkin& skin, std::size_t first, const Positions& places,
                   nlohmann::ordered_json& scene);
-/// Writes the inverse bind matrices. \return where they end.
+/// Writes the inverse bind matrices.
+/// \return the end of the output.
 char* put_bind_matrices(char* out, const GlbSkin& skin, const Positions& places);
 
 }  // namespace crowdface

@@ -17,36 +17,39 @@
 
 namespace crowdface {
 
-/// Binary glTF 2.0 files of one topology. What all faces share (texture coordinates, triangles,
-/// the split of vertices at seams; see SplitVertices) is made once and referred to by each file.
-/// Positions stay in their own unit and axes. The attribute `_VERTEX_ID` holds the original vertex
-/// of each, or what is given for it; the first #V vertices are the original ones in their order.
+/// Writes binary glTF 2.0 files of one topology. The data that all faces share (texture
+/// coordinates, triangles, the split of vertices at seams, see `SplitVertices`) is built once and
+/// referenced by each file. Positions keep their unit and axes. The attribute `_VERTEX_ID` holds
+/// the original vertex of each split vertex, or the value given in the options. The first #V
+/// vertices are the original vertices in order.
 class GlbTemplate {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
-  /// \throws InvalidInput if there are more vertices than `_VERTEX_ID` can tell apart: it is single
-  ///         precision, which counts to 2²⁴.
+  /// \throws InvalidInput if there are more vertices than `_VERTEX_ID` can distinguish: the
+  /// attribute is single precision, which is exact up to 2²⁴.
   GlbTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options);
 
-  /// The file with these positions; refers to this object.
-  /// \param normals  #V by 3, unit; always needed, because a viewer shades a mesh without them flat.
-  /// \param name     of the mesh, in the file and in messages.
-  /// \param points   #points by 3, in the positions' unit.
-  /// \param images   files, as many as the options say; must outlive the result.
-  /// \param parts    what stands beside the face; must outlive the result.
-  /// \param joints   #joints by 3, as points.
-  /// \param colours  #V, if the options say that files have some; written as linear light.
+  /// The file with these positions. The result references memory of this object.
+  /// \param normals  #V by 3, unit; always needed, because viewers shade a mesh without normals
+  /// flat.
+  /// \param name  of the mesh, in the file and in messages.
+  /// \param moves  #targets displacements from `positions`.
+  /// \param images  content of the image files, as many as the options declare; must outlive the
+  /// result.
+  /// \param points  #points by 3, in the positions' unit.
+  /// \param parts  additional meshes; must outlive the result.
+  /// \param joints  #joints by 3, in the positions' unit.
+  /// \param colours  #V, sRGB, if the options declare vertex colours; written as linear values.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
-  /// \param moves    #targets: of their vertices, from `positions`.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
                      std::span<const std::string_view> images = {}, const Positions& points = {},
                      std::span<const PlacedGlbPart> parts = {}, const Positions& joints = {},
                      const ColourRows& colours = {}) const;
 
-  /// What this object itself takes.
+  /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
-  /// What one encode takes.
+  /// Memory needed for one encode, in bytes.
   std::size_t encode_bytes() const {
     return (colours_ ? 3 : 2) * vector_bytes() + target_bytes_ + skin_.matrix_bytes();
   }
@@ -58,17 +61,20 @@ class GlbTemplate {
   bool colours_;
   std::size_t images_;
   Index points_;
-  std::vector<std::uint32_t> split_;    ///< original vertices of the split ones from #V on
+  /// Original vertices of the split vertices with index ≥ #V.
+  std::vector<std::uint32_t> split_;
   std::string shared_;                  ///< the part of the buffer that all faces share
-  std::vector<GlbTargetRows> targets_;  ///< without the vertices
-  std::size_t first_target_ = 0;        ///< the accessor of its moves; those of others follow
-  GlbSkin skin_;                        ///< without influences
-  std::size_t target_bytes_ = 0;        ///< of the values of all targets
-  std::string json_;                    ///< the scene of any face; bounds and names to be filled in
+  std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices
+  /// Accessor of the first target's displacements; those of further targets follow.
+  std::size_t first_target_ = 0;
+  GlbSkin skin_;                  ///< without influences
+  std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets
+  std::string json_;              ///< the scene without bounds and names, which differ per face
 };
 
-/// The positions of a file that GlbTemplate made. \throws InvalidInput if it is any other.
-/// \param vertices  #V of the topology it was made for.
+/// Reads the positions of a file that `GlbTemplate` wrote.
+/// \param vertices  number of vertices of the topology.
+/// \throws InvalidInput if another program wrote the file.
 Positions read_glb_positions(const std::filesystem::path& path, Index vertices);
 
 }  // namespace crowdface

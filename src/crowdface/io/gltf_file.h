@@ -14,32 +14,34 @@
 
 namespace crowdface {
 
-/// A glTF 2.0 scene and its buffers, with messages that name the file.
+/// A glTF 2.0 scene and its buffers. Error messages name the file.
 class GltfFile {
  public:
   using Json = nlohmann::ordered_json;
 
-  /// \param bytes  of a GLB file, or of JSON text; must outlive this object.
-  /// \param path   beside which further buffers lie.
+  /// \param bytes  a GLB file or JSON text; must outlive this object.
+  /// \param path  of the file; external buffers are searched beside it.
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
   const Json& scene() const { return scene_; }
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// The numbers of an accessor, row after row; those that are normalized as what they stand for, sparse ones filled in.
-  /// \throws InvalidInput if one is not finite.
+  /// The values of an accessor in row-major order. Normalized integers become the fractions they
+  /// encode; sparse values are filled in.
+  /// \throws InvalidInput if a value is not finite.
   std::vector<double> numbers(std::size_t accessor, std::size_t width);
-  /// The same where they count something.
+  /// The values of an accessor as unsigned integers.
   std::vector<std::uint32_t> whole_numbers(std::size_t accessor, std::size_t width);
-  /// What a URI stands for: data within it, or a file beside. \param what  for messages: "its buffer 2"
+  /// The data of a URI: embedded, or read from a file beside this one.
+  /// \param what  for messages: "its buffer 2"
   std::string resource(const std::string& uri, const std::string& what) const;
-  /// What a view of a buffer holds, uncompressed.
+  /// The uncompressed content of a buffer view.
   std::string_view view(std::size_t number);
 
-  /// #nodes, the node that each hangs on, or kNoIndex.
+  /// #nodes: parent of each node, or kNoIndex.
   std::vector<std::uint32_t> parents() const;
-  /// #nodes, from a node's axes to the file's.
+  /// #nodes: the transform from each node's axes to the file's axes.
   std::vector<Eigen::Matrix4d> worlds(const std::vector<std::uint32_t>& parents) const;
 
  private:
@@ -53,14 +55,15 @@ class GltfFile {
   Json scene_;
   std::string_view binary_;
   std::map<std::size_t, std::string> own_buffers_, own_views_;
-  std::size_t room_ = 0;  ///< numbers that may still be read
+  std::size_t room_ = 0;  ///< how many more numbers may be read
 };
 
-/// A matrix of 16 numbers, column by column.
+/// A matrix from 16 numbers in column-major order.
 Eigen::Matrix4d matrix_from(const std::vector<double>& columns);
-/// Written out: a library's product chooses its order by the machine.
+/// The product of two matrices with a fixed order of operations. Eigen chooses the order by
+/// machine, which changes the last bits.
 Eigen::Matrix4d times(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b);
-/// A point (three numbers) moved by a matrix, written out likewise.
+/// A point (three numbers) transformed by a matrix, with a fixed order of operations.
 Eigen::Vector3d moved(const Eigen::Matrix4d& by, const double* point);
 
 }  // namespace crowdface

@@ -12,22 +12,23 @@
 
 namespace crowdface {
 
-/// Joints and the meshes bound to them, as a glTF 2.0 file has them at rest: metres, +Y up, +Z front.
+/// The joints and skinned meshes of a glTF 2.0 file in the rest pose: metres, +Y up, +Z front.
 struct GltfRig {
   struct Joint {
     std::string name;
-    std::uint32_t parent;  ///< kNoIndex: it has none
-    Eigen::Matrix4d rest;  ///< to the file's axes
+    std::uint32_t parent;  ///< kNoIndex: no parent
+    Eigen::Matrix4d rest;  ///< from the joint's axes to the file's axes
   };
   std::vector<Joint> joints;
-  Positions points;                       ///< of all meshes' vertices, one after the other
-  std::vector<std::uint32_t> vertex_ids;  ///< #points, of the attribute `_VERTEX_ID`; empty without
-  Grouped<Influence> influences;          ///< #points
+  Positions points;  ///< vertices of all meshes, one mesh after the other
+  /// #points values of `_VERTEX_ID`; empty if the file has none
+  std::vector<std::uint32_t> vertex_ids;
+  Grouped<Influence> influences;  ///< #points
 };
 
-/// Reads a GLB file. A mesh that is not skinned counts as bound to the joint it hangs on.
-/// \throws InvalidInput if it is none, has no joints, a mesh that hangs on none, or accessors of kinds that
-///         JOINTS_n and WEIGHTS_n cannot be; MissingInput.
+/// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.
+/// \throws InvalidInput if the file is not GLB, has no joints, has a mesh without a joint above it,
+/// or stores JOINTS_n or WEIGHTS_n with a component type that glTF does not allow; MissingInput.
 GltfRig read_gltf_rig(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -13,30 +13,33 @@
 
 namespace crowdface {
 
-/// A share of the memory that all images together may take (input_limits().image_bytes): it is given
-/// back when nobody holds it any more.
+/// A reservation from the memory limit for all images together (`input_limits().image_bytes`). The
+/// last owner releases it.
 using ImageMemory = std::shared_ptr<const void>;
 
-/// Any thread may ask. \throws InvalidInput, naming the file, if all images would take too much.
+/// Reserves memory for an image. Thread-safe.
+/// \throws InvalidInput, naming the file, if all images together would exceed the limit.
 ImageMemory take_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
-/// What of it nobody holds at present.
+/// Number of bytes not reserved at present.
 std::uint64_t free_image_memory();
 
-/// The plain numbers of an image, no gamma, no alpha premultiplication, in the type of the file.
+/// An image with values exactly as in the file: same type, no gamma conversion, alpha not
+/// premultiplied.
 struct Image {
   int width = 0;
   int height = 0;
   int channels = 0;
-  int alpha_channel = -1;  ///< which channel is alpha; −1: none
-  /// Row by row, first row on top, channels of a pixel side by side.
+  int alpha_channel = -1;  ///< index of the alpha channel; −1: none
+  /// Row-major from the top row; the channels of a pixel are interleaved.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
   ImageMemory memory = {};
   std::vector<std::string> channel_names = {};  ///< #channels, if the format has any
 
   bool of_floats() const { return pixels.index() == 0; }
 
-  /// Integers as fractions of the largest: divided, not multiplied by a rounded 1/255.
+  /// A value; integers as fractions of their maximum. The code divides, because multiplication by a
+  /// rounded 1/255 gives other values.
   float at(int x, int y, int channel) const {
     const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                            static_cast<std::size_t>(x)) *
@@ -51,16 +54,16 @@ struct Image {
   }
 };
 
-/// What is still read; larger images are refused before memory is taken.
+/// The largest images accepted. Larger ones are rejected before any allocation.
 struct ImageLimits {
   int max_side = 16384;  ///< pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< width · height · channels
-  bool jpeg = false;                     ///< that too: for colours, never for masks
-  bool ours = false;                     ///< we wrote it: input_limits() are not asked
+  bool jpeg = false;                     ///< accept JPEG: for colours, never for masks
+  bool ours = false;  ///< this program wrote the file: `input_limits()` does not apply
 };
 
-/// What seemed an image turned out to be damaged when its pixels were read.
+/// Thrown if the pixels of a file with a valid header are damaged.
 class DamagedImage : public InvalidInput {
  public:
   DamagedImage(std::filesystem::path image, const std::string& what)
@@ -68,46 +71,47 @@ class DamagedImage : public InvalidInput {
   std::filesystem::path path;
 };
 
-/// The (first) picture of a PNG, TIFF or OpenEXR file, told by its content and not by its name.
-/// Palettes are resolved; alpha and colours stay as they stand in the file. Of an EXR the display window is read: outside
-/// the data window it is zero.
-/// \throws MissingInput if there is no such file; DamagedImage if its pixels cannot be read or one
-///         is not finite (the first is named); InvalidInput if it is of another format, cut, beyond
-///         the limits, of integers of more than 16 bits, a
-///         TIFF of another compression than none, LZW, Deflate and PackBits (with `jpeg`: JPEG
-///         too), or if all images together would take more memory than they may.
+/// Reads the (first) image of a PNG, TIFF or OpenEXR file. The content, not the name, determines
+/// the format. Palettes are resolved; alpha and colours keep the values of the file. For EXR the
+/// result is the display window; pixels outside the data window are zero.
+/// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or
+/// one is not finite (the message names the first); InvalidInput if the format is unsupported, the
+/// file is truncated or exceeds the limits, integers have more than 16 bits, a TIFF has a
+/// compression other than none, LZW, Deflate and PackBits (with `jpeg` also JPEG), or all images
+/// together would exceed the memory limit.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// What read_image would find, without decoding it. \throws as it does.
+/// Size and type of the image that `read_image` would return, without decoding.
 struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
-  bool of_bytes = false;   ///< 8 bits a value
-  bool of_floats = false;  ///< neither: 16 bits
+  bool of_bytes = false;   ///< 8 bits per value
+  bool of_floats = false;  ///< if neither is set: 16 bits per value
 };
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// An 8-bit PNG file in memory: the same bytes for the same pixels, no time stamp.
+/// Encodes an 8-bit PNG file in memory. Same pixels give the same bytes; there is no time stamp.
 /// \param channels  1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not premultiplied.
-/// \param pixels    height · width · channels.
-/// \throws BrokenPrecondition if sizes do not fit.
+/// \param pixels  height · width · channels values.
+/// \throws BrokenPrecondition if the sizes do not match.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-/// A PNG that is not packed: its bytes depend on the pixels alone, and not on the zlib of the machine.
+/// Encodes a PNG without compression, so that the bytes do not depend on the installed zlib.
 std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels);
 
-/// Of 16 bits.
+/// Encodes a PNG with 16 bits per value.
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels);
 
-/// A JPEG file in memory: 8-bit RGB, quality 92, colours not subsampled.
-/// \param pixels  height · width · 3. \throws BrokenPrecondition if sizes do not fit.
+/// Encodes a JPEG file in memory: 8-bit RGB, quality 92, no chroma subsampling.
+/// \param pixels  height · width · 3 values.
+/// \throws BrokenPrecondition if the sizes do not match.
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels);
 
-/// An OpenEXR file in memory: channels of 16-bit floats, linear, no time stamp.
-/// \param pixels  height · width · channels.
-/// \throws BrokenPrecondition if sizes do not fit.
+/// Encodes an OpenEXR file in memory: 16-bit floats, linear, no time stamp.
+/// \param pixels  height · width · channels values.
+/// \throws BrokenPrecondition if the sizes do not match.
 std::string encode_exr(int width, int height, int channels, std::span<const float> pixels);
 
 }  // namespace crowdface

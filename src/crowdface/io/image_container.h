@@ -6,16 +6,16 @@
 
 namespace crowdface {
 
-/// The format's name in OpenImageIO, told by the file's first bytes; empty if it is not one we
-/// read.
+/// OpenImageIO's name of the format, recognised by the file's first bytes; empty if the format is
+/// not supported.
 std::string image_format(std::string_view bytes);
 
-/// What keeps a file from its decoder, because that would take it for whole, or would take as much
-/// memory as the file claims to need: a PNG or JPEG without its end mark; an OpenEXR
-/// header with an attribute longer than the file, or a data window wider or higher than `max_side` pixels; a
-/// TIFF that tiff_defect objects to.
-/// \param jpeg  whether a TIFF may hold JPEGs.
-/// \return what is wrong; empty if nothing is.
+/// Finds defects that a decoder would miss, or that would make the decoder allocate as much memory
+/// as the file claims to need: a PNG or JPEG without end marker; an OpenEXR header with an
+/// attribute longer than the file, or a data window wider or higher than `max_side` pixels; a TIFF
+/// rejected by `tiff_defect`.
+/// \param jpeg  whether a TIFF may contain JPEG data.
+/// \return the defect; empty if there is none.
 std::string container_defect(std::string_view format, std::string_view bytes, int max_side,
                              bool jpeg);
 

@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// What bytes that are no UTF-8 may stand for: the text in UTF-8, if they are GBK (GB 18030), Shift-JIS or Latin-1
-/// (Windows-1252). Nothing for UTF-8.
+/// Possible readings, in UTF-8, of bytes that are not UTF-8: as GBK (GB 18030), Shift-JIS or
+/// Latin-1 (Windows-1252). Empty if the bytes are UTF-8.
 std::vector<std::string> legacy_readings(std::string_view bytes);
 
 }  // namespace crowdface

@@ -8,17 +8,18 @@
 
 namespace crowdface {
 
-// Binary formats are little endian, and numbers are copied as they lie in memory.
+// The binary formats are little endian; numbers are copied without conversion.
 static_assert(std::endian::native == std::endian::little);
 
-/// Writes the number's bytes to `out`. \return where they end.
+/// Writes the number's bytes to `out`.
+/// \return the end of the output.
 template <class Number>
 char* put_number(char* out, Number number) {
   std::memcpy(out, &number, sizeof number);
   return out + sizeof number;
 }
 
-/// The number whose bytes begin here.
+/// Reads a number in little-endian order.
 template <class Number>
 Number number_at(const char* bytes) {
   Number number;
@@ -26,7 +27,7 @@ Number number_at(const char* bytes) {
   return number;
 }
 
-/// The same of a format that is big endian.
+/// Reads a number in big-endian order.
 inline std::uint32_t big_endian_at(const char* bytes) {
   return __builtin_bswap32(number_at<std::uint32_t>(bytes));
 }

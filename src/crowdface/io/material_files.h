@@ -12,49 +12,54 @@
 
 namespace crowdface {
 
-/// One file to put beside a mesh so that its `mtllib` and the textures named there are found.
+/// A material file or texture to copy beside a mesh, so that the mesh's `mtllib` and its textures
+/// can be found.
 struct MaterialFile {
-  std::filesystem::path from;      ///< where it is
-  std::filesystem::path relative;  ///< where it goes, below the meshes' folder
-  bool is_library = false;         ///< not a texture
-  std::optional<TextureKind> kind =
-      {};  ///< the one that a texture is named as; none: several, others
+  std::filesystem::path from;      ///< source path
+  std::filesystem::path relative;  ///< destination path, relative to the meshes' folder
+  bool is_library = false;         ///< a material file, not a texture
+  /// Kind of the texture; nothing if it is named as several kinds or as an unknown one.
+  std::optional<TextureKind> kind = {};
 };
 
 struct MaterialFiles {
-  std::vector<MaterialFile> files;    ///< each destination once
-  std::vector<std::string> warnings;  ///< about names that have no file here or may have none there
+  std::vector<MaterialFile> files;  ///< each destination once
+  /// Names without a file at the source, or perhaps at the destination.
+  std::vector<std::string> warnings;
 };
 
-/// Beside meshes: what lies in this folder is ours alone.
+/// Folder beside the meshes that contains only files made by this program.
 inline constexpr std::string_view kBlendedFolder = "blended";
 
-/// The first word of a material file's line and all that stands behind it; nothing if it has no two words.
+/// The first word of a line in a material file, and the rest of the line; nothing if the line has
+/// fewer than two words.
 struct MaterialStatement {
   std::string_view word, rest;
 };
 MaterialStatement material_statement(std::string_view line);
-/// Whether a statement of this word names a texture.
+/// Whether a statement with this first word names a texture.
 bool is_texture_statement(std::string_view word);
 
-/// The material files that a mesh names and the textures that those name, with <UDIM> in their names
-/// all tiles that are there. A file that is missing or cannot be read is a warning, not an error; so
-/// is a path that leads out of the mesh's folder, which is not followed, a name that a mesh may have
-/// (see mesh_format_of) or that lies in `topology` or `blended`, and more names than
-/// input_limits().textures.
-/// \param mesh       path of the OBJ file.
-/// \param libraries  the arguments of its `mtllib` lines; each may name several files.
+/// Finds the material files that a mesh names, and the textures that those name; for names with
+/// <UDIM> all existing tiles. Problems become warnings, not errors: files that are missing or
+/// unreadable, paths that lead out of the mesh's folder (which are not followed), names that a mesh
+/// may have (see `mesh_format_of`), names in `topology` or `blended`, and more names than
+/// `input_limits().textures`.
+/// \param mesh  path of the OBJ file.
+/// \param libraries  arguments of the `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
                                   const std::vector<std::string>& libraries);
 
-/// The textures that a mesh's materials name.
+/// The textures that the materials of a mesh name.
 struct NamedTextures {
-  /// By kind and material, below the mesh's folder; may hold <UDIM>, which stands for a tile's number.
+  /// Texture paths by kind and material, relative to the mesh's folder; may contain <UDIM> in place
+  /// of a tile number.
   std::map<TextureKind, std::map<std::string, std::filesystem::path>> of_kind;
-  std::vector<std::string> warnings;  ///< about libraries and paths as above
+  /// Problems with libraries and paths, as in `MaterialFiles`.
+  std::vector<std::string> warnings;
 };
 
-/// The first of each kind that a material names; whether there is such a file is not asked.
+/// The first texture of each kind that each material names. Does not check whether the files exist.
 NamedTextures find_textures(const std::filesystem::path& mesh,
                             const std::vector<std::string>& libraries);
 

@@ -9,19 +9,21 @@
 
 namespace crowdface {
 
-/// Whether a head may lie in such a file, by its name's ending: a format that keeps the order of vertices, or in which
-/// they can be joined again. STL keeps none.
+/// Whether a head may be stored in a file with this extension: the format keeps the vertex order,
+/// or split vertices can be joined again. STL does neither.
 bool is_head_file(const std::filesystem::path& path);
 bool is_obj(const std::filesystem::path& path);
 
-/// A mesh as the OBJ file that would be written of it: its text is in memory.
-/// \param path     of the file that it comes from. \param library  the material file that it names; may be empty
-/// \throws InvalidInput if it has no faces, or positions are not finite.
+/// Converts a mesh to the OBJ file that would be written for it, in memory.
+/// \param path  of the source file.
+/// \param library  material file to name in the OBJ text; may be empty.
+/// \throws InvalidInput if the mesh has no faces or positions are not finite.
 ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::string& library = {});
 
-/// A mesh of any format; vertices that a format split are joined, and it is said.
+/// Reads a mesh of any format and joins vertices that the format split. `notes` reports the join.
 FileMesh read_joined_mesh(const std::filesystem::path& path);
-/// The same as an OBJ file, one that is OBJ as it is; a mesh that is inside out is turned.
+/// Reads a mesh of any format as an OBJ file; OBJ files keep their text. Reverses the faces of a
+/// mesh that is inside out.
 ObjFile read_mesh_as_obj(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -8,13 +8,14 @@
 
 namespace crowdface {
 
-/// Writes the textures of a mesh as image files into a folder, and beside them a material file that names them.
-/// \param name  how the files' names begin
-/// \return the name of the material file. \throws CannotCreate, IoError
+/// Writes the textures of a mesh as image files to a folder, and a material file that names them.
+/// \param name  prefix of the file names.
+/// \return the name of the material file.
+/// \throws CannotCreate, IoError
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
                                 const std::string& name);
 
-/// A material's name as OBJ and material files have it: on one line, not empty.
+/// A material name that is valid in OBJ and material files: one line, not empty.
 std::string material_name_of(std::string name);
 
 }  // namespace crowdface

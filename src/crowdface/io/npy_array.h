@@ -8,18 +8,20 @@
 
 namespace crowdface {
 
-/// An array of numbers as NumPy saves it.
+/// An array of numbers in NumPy's file format.
 struct NpyArray {
   std::vector<std::size_t> shape;
-  std::vector<double> values;  ///< row after row, the last index fastest
+  std::vector<double> values;  ///< in C order: the last index varies fastest
 
   std::size_t rows() const { return shape.empty() ? 1 : shape[0]; }
-  /// Values a row.
+  /// Number of values per row.
   std::size_t width() const { return rows() == 0 ? 0 : values.size() / rows(); }
 };
 
-/// Reads versions 1 to 3, either order of bytes and indices, all integers, booleans, and floats of 2 to 8 bytes.
-/// \param name  of the file, for messages. \throws InvalidInput.
+/// Parses versions 1 to 3, both byte orders, C and Fortran order, all integers, booleans, and
+/// floats of 2 to 8 bytes.
+/// \param name  of the file, for messages.
+/// \throws InvalidInput.
 NpyArray parse_npy(std::string_view bytes, const std::string& name);
 /// \throws MissingInput, InvalidInput.
 NpyArray read_npy_array(const std::filesystem::path& path);

@@ -11,18 +11,20 @@
 
 namespace crowdface {
 
-/// From and to shares, sRGB from 0 to 1.
+/// Converts colours between bytes and sRGB values from 0 to 1.
 ColourRows byte_colours(const Positions& shares);
 Positions colour_shares(const ColourRows& colours);
 
-/// The colours of the `v` lines; no rows if a line has none. Numbers up to 255 are taken for bytes.
-/// \param vertices  #V of the text
+/// The colours of the `v` lines; no rows if any line lacks a colour. Values up to 255 count as
+/// bytes.
+/// \param vertices  number of vertices in the text.
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 
-/// The text with these colours behind the coordinates of its `v` lines, and without `#MRGB`.
+/// The text with these colours after the coordinates of each `v` line, and without `#MRGB` lines.
 std::string with_colours(std::string_view text, const ColourRows& colours);
 
-/// The text with what `#MRGB` says at its `v` lines; nothing if it does not say a colour for each vertex.
+/// The text with the colours of `#MRGB` lines moved to the `v` lines; nothing unless `#MRGB` gives
+/// a colour for every vertex.
 std::optional<std::string> polypaint_at_vertices(std::string_view text);
 
 }  // namespace crowdface

@@ -11,50 +11,51 @@
 
 namespace crowdface {
 
-/// An OBJ file as read: its mesh, and its text, which stays mapped, so that it can be written again
-/// with other positions and nothing else changed.
+/// A parsed OBJ file: its mesh, and its text, which stays mapped so that it can be written again
+/// with other positions and no other change.
 struct ObjFile {
   std::filesystem::path path;
   MappedFile file;
   Topology topology;       ///< quads and n-gons kept, vertex order kept
   Positions positions;     ///< #V by 3, in file units
   TextureCoordinates uvs;  ///< #T by 2
-  /// #C rows of `vn` or kNoIndex; empty if no `vn`
+  /// #C indices of `vn`, or kNoIndex; empty if the file has no `vn`.
   std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;
-  std::vector<std::string> notes;     ///< what was mended or passed over, a sentence each
-  bool is_mended = false;             ///< the text is not the file's own
-  std::filesystem::path textures_at;  ///< what material files lie beside if it is not `path`
+  std::vector<std::string> notes;  ///< repairs and ignored statements, one sentence each
+  bool is_mended = false;          ///< the text differs from the file on disk
+  /// Path beside which the material files are, if different from `path`.
+  std::filesystem::path textures_at;
 
   const std::filesystem::path& material_path() const {
     return textures_at.empty() ? path : textures_at;
   }
 };
 
-/// Reads an OBJ file through tinyobjloader, behind a strict scan of its text (see scan_obj), which is mended where it
-/// does not pass (see mend_obj).
+/// Reads an OBJ file with tinyobjloader after a strict check of the text (see `scan_obj`). Repairs
+/// a text that fails the check (see `mend_obj`).
 /// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
 ObjFile read_obj(const std::filesystem::path& path);
-/// \param file     what is at the path, mapped.
-/// \param outline  of its text
+/// \param file  mapped content of the file at `path`.
+/// \param outline  of the text.
 ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline);
 
-/// The same without its mesh, which is that of a text that was read before: topology, texture coordinates and
-/// corner normals are left empty.
-/// \param outline  of the text; its `mesh` is that of the other, too.
+/// Reads an OBJ file whose polygons and texture coordinates equal those of a file read before.
+/// Topology, texture coordinates and corner normals stay empty.
+/// \param outline  of the text; its `mesh` equals that of the other file.
 ObjFile read_obj_beside(const std::filesystem::path& path, MappedFile file,
                         const ObjOutline& outline);
 
-/// Which face is of which material.
+/// The material of each polygon.
 struct FaceMaterials {
   std::vector<std::string>
-      names;  ///< each once, as faces first have them; empty where none is named
-  std::vector<std::uint32_t> of_face;  ///< #F, rows of `names`
+      names;  ///< unique, in order of first use by a face; empty where a face has no material
+  std::vector<std::uint32_t> of_face;  ///< #F indices into `names`
 };
 
-/// \param ranges  an OBJ file's materials
+/// \param ranges  materials of an OBJ file.
 FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
 
 }  // namespace crowdface

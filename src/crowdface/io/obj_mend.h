@@ -8,16 +8,17 @@
 
 namespace crowdface {
 
-/// An OBJ text that other programs read, as the strict scan wants it.
+/// A repaired OBJ text that passes the strict check.
 struct MendedObj {
   std::string text;
-  std::vector<std::string> notes;  ///< what the text lost, a sentence each
+  std::vector<std::string> notes;  ///< changes, one sentence each
 };
 
-/// Rewrites what exporters get wrong without harm to the mesh: a byte-order mark, lone CRs, NULs at the end, continued
-/// lines, comments behind statements, normals and texture coordinates that are missing or no numbers, colours that are
-/// no numbers, faces of fewer than three corners. Lines keep their numbers. Positions and faces are never guessed.
-/// \return nothing if there is nothing of the kind.
+/// Repairs common harmless exporter errors: a byte-order mark, lone CRs, NULs at the end, continued
+/// lines, comments after statements, missing or non-numeric normals and texture coordinates,
+/// non-numeric colours, faces with fewer than three corners. Line numbers do not change. The
+/// function never guesses positions or faces.
+/// \return nothing if the text has no such error.
 std::optional<MendedObj> mend_obj(std::string_view text);
 
 }  // namespace crowdface

@@ -11,47 +11,48 @@
 
 namespace crowdface {
 
-/// From which face on a material is in use.
+/// A range of faces with the same material; ends where the next range begins.
 struct MaterialRange {
   std::string name;
   Index first_face = 0;
 };
 
-/// What the strict scan of an OBJ text finds.
+/// Result of the strict check of an OBJ text.
 struct ObjScan {
   Positions positions;     ///< #V by 3
   TextureCoordinates uvs;  ///< #T by 2
   Index face_count = 0;
   Index corner_count = 0;
   std::vector<std::string> material_libraries;
-  std::vector<MaterialRange> materials;  ///< ascending first_face; empty if none is used
-  std::vector<MaterialRange> groups;     ///< the same of groups and objects (`g`, `o`)
-  std::vector<std::string> notes;        ///< what was passed over, a sentence each
+  /// Ascending first_face; empty if the text uses no material.
+  std::vector<MaterialRange> materials;
+  std::vector<MaterialRange> groups;  ///< groups and objects (`g`, `o`), ascending first_face
+  std::vector<std::string> notes;     ///< ignored statements, one sentence each
 };
 
-/// What a first look at an OBJ text finds.
+/// Counts and a hash of an OBJ text, from a first fast pass.
 struct ObjOutline {
   std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
-  /// Of all but the numbers of `v` and `vn`, comments and the names of groups, objects and materials: texts that
-  /// have it in common have the same faces and texture coordinates, line by line.
+  /// Hash of all but the numbers of `v` and `vn`, comments and the names of groups, objects and
+  /// materials. Texts with the same hash have the same faces and texture coordinates, line by line.
   Digest mesh;
 };
 ObjOutline outline_obj(std::string_view text);
 
-/// Which lines of a text are looked at.
+/// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  kAllButMesh,  ///< not `f` and `vt`, which are those of a text that was scanned before
+  kAllButMesh,  ///< all but `f` and `vt`, which equal those of a text checked before
 };
 
-/// Checks an OBJ text line by line, because the loader accepts what it should not: words where
-/// numbers belong, numbers that overflow, indices that point nowhere or wrap, polygons of more than
-/// 255 corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
-/// vertex colours are fine; statements of other programs are passed over.
-/// \param name  the file's name, for messages.
+/// Checks an OBJ text line by line, because the loader accepts errors: words in place of numbers,
+/// numbers that overflow, indices out of range or wrapping around, polygons with more than 255
+/// corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
+/// vertex colours are valid; statements of other programs are ignored.
+/// \param name  of the file, for messages.
+/// \param outline  of the text.
+/// \param lines  with kAllButMesh the result has no texture coordinates and no corners.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
-/// \param outline  of the text
-/// \param lines    without those of the mesh the result has no texture coordinates and no corners.
 ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
                  ObjLines lines);
 

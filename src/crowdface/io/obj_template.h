@@ -15,46 +15,47 @@
 
 namespace crowdface {
 
-/// An OBJ file as a form to be filled in with other positions, over and over. Every byte but the
-/// x y z of `v` lines (and of `vn` lines, if there are any) is the file's own, in whatever order
-/// its lines stand. Made once a file; keeps 16 bytes a line beside the text.
+/// Writes copies of an OBJ file with other positions. Every byte but the x y z of `v` lines (and of
+/// `vn` lines, if any) comes from the file, in whatever order its lines are. Built once per target;
+/// needs 16 bytes per line besides the text.
 class ObjTemplate {
  public:
-  /// \param target    its mapped text is referred to and must outlive this object and the files it
-  ///                  encodes; all else of it may go.
+  /// \param target  its mapped text must outlive this object and the files it encodes; the rest of
+  /// the target is not needed afterwards.
   /// \param topology  the faces, which all heads share; must outlive this object.
-  /// \param colours   whether each file has colours of its own behind the coordinates of its `v` lines
+  /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false);
 
-  /// The file with these positions. Numbers are the shortest that read back as the same
-  /// single-precision value. A normal is recomputed from the faces whose corners use it; one that
-  /// no face uses stays as it is. The same bytes for any number of threads.
+  /// The file with these positions. Each number is the shortest text that reads back as the same
+  /// single-precision value. A normal is recomputed from the faces whose corners use it; an unused
+  /// normal keeps its text. The bytes do not depend on the number of threads.
   /// \param positions  #V by 3, in the file's unit.
-  /// \param what       names the mesh in messages.
+  /// \param what  names the mesh in messages.
+  /// \param colours  #V if files have colours: red, green and blue from 0 to 1 with four digits.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
-  /// \param colours  #V if files have them: red, green and blue from 0 to 1 with four digits.
   EncodedFile encode(const Positions& positions, const std::string& what,
                      const ColourRows& colours = {}) const;
 
-  /// What this object itself takes.
+  /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
-  /// What one encode takes at most, the result included: numbers are seldom as long as they might
-  /// be, so that it touches about half of this.
+  /// Upper bound of the memory needed for one encode, with the result, in bytes. Numbers rarely
+  /// have their maximum length, so an encode touches about half of this memory.
   std::size_t encode_bytes() const;
 
  private:
-  /// The numbers of one `v` or `vn` line.
+  /// The location of the numbers of one `v` or `vn` line.
   struct Place {
     std::uint64_t begin = 0;
     std::uint32_t length = 0;
     std::uint32_t row : 31 = 0;
     std::uint32_t is_normal : 1 = 0;
   };
-  /// A run of places, formatted by one thread.
+  /// A range of places, formatted by one thread.
   struct Block {
-    std::uint64_t begin = 0;   ///< where in the text its share begins: after the place before it
-    std::uint64_t end = 0;     ///< after its last place
-    std::uint64_t buffer = 0;  ///< where its output goes
+    /// Start of the block's range of the text: the end of the preceding place.
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;     ///< end of the last place
+    std::uint64_t buffer = 0;  ///< offset of the output
     std::vector<Place> places;
   };
   struct Rows {
@@ -72,7 +73,7 @@ class ObjTemplate {
   Index vertices_ = 0;
   bool colours_;
   std::vector<Block> blocks_;
-  std::optional<NormalFans> fans_;  ///< of the `vn`, if faces use any
+  std::optional<NormalFans> fans_;  ///< for the `vn` lines, if faces use any
   std::size_t buffer_size_ = 0;
 };
 

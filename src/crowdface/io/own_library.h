@@ -3,17 +3,20 @@
 
 namespace crowdface {
 
-/// A function of one of our own shared libraries, which hold what some runs need and what takes long to load. Ours stand
-/// beside the program, in the build as where they are installed; programs of others are linked with them.
-/// \param library  "libcrowdface_images.so"; opened the first time, and never closed.
-/// \param needs    "images need (OpenImageIO)". \param without  "images cannot be read": for messages.
-/// \throws IoError if the library is not where it was installed, cannot be loaded, or lacks the function.
+/// Loads a function from one of the project's own shared libraries. These libraries contain what
+/// only some runs need and what is slow to load, and link the third-party libraries. They are
+/// beside the program, both in the build folder and after installation.
+/// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
+/// \param needs, without  for messages: "images need (OpenImageIO)", "images cannot be read".
+/// \throws IoError if the library is not where it was installed, cannot be loaded, or lacks the
+/// function.
 void* function_of_own_library(const char* library, const char* function, const char* needs,
                               const char* without);
 
-/// From now on, while such a library is loaded, handlers of signals and of exit end the process with code 74 and a
-/// message if a library aborts, calls exit, or waits longer than a minute: without memory or threads the libraries do
-/// so. For programs, at their start: handlers and the alarm belong to the whole process.
+/// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than
+/// a minute while it is being loaded, the handlers end the process with code 74 and a message;
+/// libraries do so when memory or threads run out. Only for programs, at their start: handlers and
+/// the alarm belong to the whole process.
 void guard_start_of_libraries();
 
 }  // namespace crowdface

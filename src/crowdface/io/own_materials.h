@@ -10,28 +10,30 @@
 
 namespace crowdface {
 
-/// The material files of a mesh as one, in which textures can be replaced.
+/// The material files of a mesh merged into one, in which textures can be replaced.
 class OwnMaterials {
  public:
-  /// \param mesh, libraries  as find_material_files takes them; what cannot be read is left out.
-  /// \param shared  the way from the new file to the textures that stay: ".."; empty: beside it.
+  /// \param mesh, libraries  as for `find_material_files`; unreadable files are left out.
+  /// \param shared  path from the new file to the textures that are not replaced: ".."; empty: the
+  /// same folder.
   OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
                const std::string& shared = {});
 
-  /// The files that take the place of others, by kind and by material; they may hold <UDIM>.
+  /// Replacement files by kind and by material; paths may contain <UDIM>.
   using Replacements = std::map<TextureKind, std::map<std::string, std::string>>;
 
-  /// The text for a file beside the mesh. What a material names as its `map_Kd`, wherever it names it, is
-  /// replaced; one that has none gets one, and white for its `Kd`. A texture of another kind is replaced where
-  /// it is named as that, its options kept, or added. All else stays.
+  /// The text of a material file to be written beside the mesh. Every `map_Kd` of a material with a
+  /// replacement is replaced; a material without `map_Kd` gets one and a white `Kd`. A texture of
+  /// another kind is replaced where the material names it, keeping its options, or added. All other
+  /// lines stay.
   std::string text(const Replacements& textures) const;
 
  private:
   struct Line {
-    std::string text;      ///< as it stands there
-    std::string word;      ///< the statement; empty: none
-    std::string rest;      ///< what stands behind it
-    std::string material;  ///< that it is about
+    std::string text;      ///< the whole line
+    std::string word;      ///< the first word; empty: no statement
+    std::string rest;      ///< the line after the first word
+    std::string material;  ///< material that the line belongs to
   };
   std::vector<Line> lines_;
 };

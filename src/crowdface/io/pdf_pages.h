@@ -6,10 +6,11 @@
 
 namespace crowdface {
 
-/// A PDF 1.4 document of pictures, one a page, at 150 pixels an inch; pages larger than PDF's 200
-/// inches are made smaller. The pictures keep every pixel: a PNG's data stand in it as they are.
-/// \param pngs  files as encode_png makes them with three channels.
-/// \throws BrokenPrecondition if there is none, or one is of another kind.
+/// Encodes images as a PDF 1.4 document, one image per page, at 150 pixels per inch; pages larger
+/// than PDF's limit of 200 inches are scaled down. Every pixel is kept: the PDF contains the
+/// compressed data of the PNGs unchanged.
+/// \param pngs  files made by `encode_png` with three channels.
+/// \throws BrokenPrecondition if there are no images or an image has another form.
 std::string encode_pdf(std::span<const std::string> pngs);
 
 }  // namespace crowdface

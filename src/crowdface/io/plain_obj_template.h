@@ -10,26 +10,26 @@
 
 namespace crowdface {
 
-/// OBJ files of our own making over one topology: after a head of lines the positions, normals if they
-/// are asked for, texture coordinates, and faces under the names of their materials.
+/// Writes new OBJ files of one topology: header lines, positions, optional normals, texture
+/// coordinates, and faces grouped by material.
 class PlainObjTemplate {
  public:
   enum class Normals { kNone, kVertex };
 
-  /// \param uvs        #T by 2, may be empty.
-  /// \param materials  of the faces, ascending; may be empty.
+  /// \param uvs  #T by 2; may be empty.
+  /// \param materials  of the faces, ascending first_face; may be empty.
   PlainObjTemplate(const Topology& topology, const TextureCoordinates& uvs,
                    const std::vector<MaterialRange>& materials, Normals normals);
 
-  /// The file with these positions; refers to this object.
-  /// \param head     whole lines, or nothing.
+  /// The file with these positions. The result references memory of this object.
+  /// \param head  whole lines for the start of the file, or empty.
   /// \param normals  #V by 3, only with Normals::kVertex.
-  /// \param what     names the mesh in messages.
+  /// \param what  names the mesh in messages.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   EncodedFile encode(const std::string& head, const Positions& positions, const Positions& normals,
                      const std::string& what) const;
 
-  /// What this object itself takes, and what one encode takes.
+  /// Memory used by this object, and needed for one encode, in bytes.
   std::size_t memory_bytes() const { return shared_.size(); }
   std::size_t encode_bytes() const;
 

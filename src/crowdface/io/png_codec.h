@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-/// PNGs, the images that nearly every run has: by libpng, which needs none of the libraries that image_codec()
-/// loads. Takes and makes no other format.
+/// The codec for PNG, the format that nearly every run uses. Based on libpng, without the libraries
+/// that `image_codec` loads.
 const ImageCodec& png_codec();
 
 }  // namespace crowdface

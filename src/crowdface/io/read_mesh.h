@@ -9,11 +9,13 @@
 
 namespace crowdface {
 
-/// The endings of the files that read_mesh takes, ".obj" first, in lower case.
+/// The file extensions that `read_mesh` accepts, in lower case, ".obj" first.
 const std::vector<std::string_view>& mesh_endings();
 
-/// Reads a mesh. (An array of NumPy may come without faces.) The format is told by how the file begins, or else by its name's ending.
-/// \throws MissingInput; InvalidInput naming the file, what was expected, what was found and what helps.
+/// Reads a mesh. The first bytes of the file, or else the extension, determine the format. (A NumPy
+/// array may lack faces.)
+/// \throws MissingInput; InvalidInput naming the file, what was expected, what was found and what
+/// helps.
 FileMesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes whose faces look inward, as they do after a mirroring or in a program that winds the other way.
+// Orientation of meshes whose faces point inwards, for example after mirroring or from a program
+// with the opposite winding.
 #pragma once
 
 #include "crowdface/io/file_mesh.h"
@@ -7,9 +8,9 @@
 
 namespace crowdface {
 
-/// Turns the faces round if the mesh is inside out, and notes that.
+/// Reverses the faces of a mesh that is inside out, and adds a note.
 void turn_right_side_out(FileMesh& mesh);
-/// The same of an OBJ file: its text then has the faces turned.
+/// Reverses the faces of an OBJ file that is inside out, also in its text.
 ObjFile right_side_out(ObjFile file);
 
 }  // namespace crowdface

@@ -8,15 +8,15 @@
 
 namespace crowdface {
 
-/// Reads JSON that others may have written. Values deeper than any of ours are left out: the library
-/// copies and prints values by recursion, and a hostile line would end on the stack's last page.
-/// \return what `is_discarded()` if the text is no JSON, or has an object of more keys than any of ours:
-/// the library compares each with all before it.
+/// Parses untrusted JSON. Drops values nested deeper than 64 levels: the library copies and prints
+/// values recursively, and hostile input would overflow the stack.
+/// \return a value for which `is_discarded()` holds if the text is not JSON, or if an object has
+/// more than 1024 keys: the library compares each key with all keys before it.
 inline nlohmann::ordered_json parse_shallow_json(std::string_view text) {
   using Value = nlohmann::ordered_json;
   constexpr int kDeepest = 64, kMostKeys = 1024;
   struct TooManyKeys {};
-  std::array<int, kDeepest + 1> keys{};  // of the object that is open at each depth
+  std::array<int, kDeepest + 1> keys{};  // number of keys of the open object at each depth
   const auto keep = [&](int depth, Value::parse_event_t event, Value&) {
     if (depth >= kDeepest) return false;
     const auto at = static_cast<std::size_t>(depth);

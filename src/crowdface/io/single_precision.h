@@ -10,44 +10,47 @@
 
 namespace crowdface {
 
-inline constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< of three numbers, bytes
-inline constexpr Index kRowsPerBlock = 1 << 15;                ///< that a thread encodes at a time
+inline constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< bytes of three numbers
+/// Number of rows that a thread encodes at a time.
+inline constexpr Index kRowsPerBlock = 1 << 15;
 
-/// The number as every mesh format holds it: single precision, like the scans, and no negative
-/// zero.
+/// Rounds a number as every mesh format stores it: to single precision, without negative zero.
 inline float to_single(double value) {
   const auto single = static_cast<float>(value);
   return single == 0 ? 0.0F : single;
 }
 
-/// No text of a single-precision number is longer: "-1.17549435e-38".
+/// Length of the longest text of a single-precision number: "-1.17549435e-38".
 inline constexpr std::size_t kLongestSingle = 15;
 
-/// Writes the shortest text that reads back as the same single-precision number to `out`, where there is room
-/// for kLongestSingle characters. \return where it ends.
+/// Writes the shortest text that reads back as the same single-precision number. `out` needs room
+/// for kLongestSingle characters.
+/// \return the end of the output.
 inline char* write_single(char* out, double value) {
   return std::to_chars(out, out + kLongestSingle, to_single(value)).ptr;
 }
 
-/// Positions as every mesh format holds them: what is made from these is the same from a file.
+/// Positions rounded as every mesh format stores them, so that results computed from them equal
+/// results computed from the file.
 Positions as_written(const Positions& positions);
 
-/// Writes a row's three numbers as binary formats hold them. \return where they end.
+/// Writes the three numbers of a row in binary.
+/// \return the end of the output.
 inline char* put_row(char* out, const Positions& rows, Index i) {
   for (Index c = 0; c < 3; ++c) out = put_number(out, to_single(rows(i, c)));
   return out;
 }
 
-/// Rows of three single-precision numbers each, as binary formats hold them.
-/// \param bytes   where the first row begins.
+/// Reads rows of three single-precision numbers.
+/// \param bytes  start of the first row.
 /// \param stride  bytes from row to row.
-/// \param what    names the mesh in messages.
-/// \throws InvalidInput if one is not finite.
+/// \param what  names the mesh in messages.
+/// \throws InvalidInput if a number is not finite.
 Positions read_singles(const char* bytes, Index rows, std::size_t stride, const std::string& what);
 
 /// \param what  names the mesh in messages.
-/// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all are finite in
-/// single precision.
+/// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all numbers are
+/// finite in single precision.
 void require_finite(const Positions& positions, Index vertices, const std::string& what);
 
 }  // namespace crowdface

@@ -9,16 +9,17 @@
 
 namespace crowdface {
 
-/// A topology for formats where a vertex has one texture coordinate and faces are triangles. The
-/// first #V split vertices are the original ones in their order, each with the texture coordinate
-/// that its first corner has; further ones that a vertex has at other corners follow, in the order
-/// of the corners. Depends on the topology alone.
+/// A topology for formats with one texture coordinate per vertex and only triangles. The first #V
+/// split vertices are the original vertices in order, each with the texture coordinate of its first
+/// corner. Copies for further texture coordinates follow, in order of corners. Depends only on the
+/// topology.
 struct SplitVertices {
-  std::vector<std::uint32_t> vertices;  ///< #S, the original vertex of each; i itself for i < #V
-  std::vector<std::uint32_t> uvs;       ///< #S, rows of the UVs or kNoIndex; empty if none has any
-  /// Face by face, corner by corner: polygons as fans from their first corner.
+  std::vector<std::uint32_t> vertices;  ///< #S: original vertex; i itself for i < #V
+  /// #S: row of the UVs or kNoIndex; empty if there are no UVs
+  std::vector<std::uint32_t> uvs;
+  /// Triangles of all polygons in order; each polygon is a fan around its first corner.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> triangle_faces;  ///< the face each triangle is from
+  std::vector<std::uint32_t> triangle_faces;  ///< polygon of each triangle
 };
 
 SplitVertices split_vertices(const Topology& topology);

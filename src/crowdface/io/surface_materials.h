@@ -11,20 +11,21 @@
 
 namespace crowdface {
 
-/// What a material file says of how a surface looks.
+/// The appearance of a material in a material file.
 struct SurfaceMaterial {
   std::string name;
   std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear
-  float opacity = 1;                                ///< `d`, or one less `Tr`
+  float opacity = 1;                                ///< `d`, or 1 − `Tr`
   std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
-  std::filesystem::path opacity_map = {};           ///< of `map_d`
+  std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none
 };
 
-/// The materials of a mesh, in the order of its files. Of textures only those among the files count.
-/// \param files  as find_material_files gives them.
+/// The materials of a mesh, in the order of its material files. Ignores textures that are not among
+/// the files.
+/// \param files  result of `find_material_files`.
 std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files);
 
-/// Of each of these names the first such material; one that no file describes has but its name.
+/// The first material with each name; a name that no file describes gets a default material.
 std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
                                                   const MaterialFiles& files);
 

@@ -7,17 +7,17 @@
 
 namespace crowdface {
 
-/// What a texture tells of a surface, as material files have it.
+/// What a texture stores, as named in material files.
 enum class TextureKind { kColour, kNormal, kRoughness, kSpecular, kDisplacement, kBump };
 
 struct TextureStatement {
   TextureKind kind;
-  std::string_view word;  ///< of a material file, as we write it
-  std::string_view name;  ///< in names of files
+  std::string_view word;  ///< statement in material files, as this program writes it
+  std::string_view name;  ///< in file names
 };
 
-/// In the order of TextureKind. `map_Bump`, which is also spelled `map_bump` and `bump`, names heights, or
-/// with many programs normals.
+/// In the order of TextureKind. `map_Bump`, also spelled `map_bump` and `bump`, names height maps;
+/// many programs use it for normal maps.
 inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kColour, "map_Kd", "colour"},
     TextureStatement{TextureKind::kNormal, "norm", "normal"},
@@ -26,7 +26,7 @@ inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kDisplacement, "disp", "displacement"},
     TextureStatement{TextureKind::kBump, "map_Bump", "bump"}};
 
-/// Whether pictures show it beside colours.
+/// Whether previews show a texture of this kind besides the colour map.
 constexpr bool is_shown(TextureKind kind) {
   return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
 }
@@ -35,7 +35,7 @@ constexpr const TextureStatement& statement_of(TextureKind kind) {
   return kTextureStatements[static_cast<std::size_t>(kind)];
 }
 
-/// The kind of a statement's texture; nothing for a word that names none of these.
+/// The kind of texture that a statement names; nothing if the word names no texture.
 constexpr std::optional<TextureKind> texture_kind_of(std::string_view word) {
   if (word == "map_bump" || word == "bump") return TextureKind::kBump;
   for (const TextureStatement& statement : kTextureStatements) {

@@ -7,21 +7,22 @@
 
 namespace crowdface {
 
-/// Textures beside each other, ten columns to a row, each of side 1 (UDIM): that at the origin, and the last one that
-/// has a number of four digits.
+/// Numbers of UDIM texture tiles: unit squares in rows of ten. kFirstTile is the tile at the
+/// origin, kLastTile the largest four-digit number.
 inline constexpr int kFirstTile = 1001, kLastTile = 9999;
 
-/// kFirstTile + column + 10 · row. \throws InvalidInput unless 0 ≤ column < 10, 0 ≤ row and that is at most kLastTile.
+/// kFirstTile + column + 10 · row.
+/// \throws InvalidInput unless 0 ≤ column < 10, row ≥ 0 and the number is at most kLastTile.
 int tile_number(double column, double row);
 
-/// Stands in a file's name for the number of a UDIM tile, four digits.
+/// Placeholder in a file name for the four digits of a UDIM tile.
 constexpr std::string_view kTileWord = "<UDIM>";
 
-/// The path with a tile's number in place of each kTileWord.
+/// The path with each kTileWord replaced by the tile's number.
 std::filesystem::path with_tile(const std::filesystem::path& path, int tile);
 
-/// The tiles that are there, sorted by name, of a path whose last part holds kTileWord; none of
-/// another path.
+/// The existing tile files, sorted by name, for a path whose file name contains kTileWord; empty
+/// for other paths.
 std::vector<std::filesystem::path> find_tiles(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -3,7 +3,7 @@
 
 namespace crowdface {
 
-/// How a USD mesh is to be subdivided when it is shown.
+/// The subdivision scheme of a USD mesh.
 enum class Subdivision { kNone, kCatmullClark };
 
 }  // namespace crowdface

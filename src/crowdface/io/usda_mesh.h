@@ -17,47 +17,51 @@
 
 namespace crowdface {
 
-/// How the points of a Mesh prim begin: the first that stands in a layer is the face's.
+/// Start of the points of a Mesh prim. The first match in a layer belongs to the face.
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
-/// A Mesh prim of one topology: faces as they are, texture coordinates as the primvar `st`, material subsets,
-/// and blend shapes of UsdSkel. All but its vectors is made once.
+/// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
+/// subsets, and UsdSkel blend shapes. Everything but positions, normals and displacements is
+/// formatted once.
 class UsdaMesh {
  public:
   struct Form {
     Subdivision subdivision = Subdivision::kNone;
-    std::vector<std::string> materials = {};         ///< names; may be empty
-    std::vector<std::uint32_t> face_materials = {};  ///< #F rows of materials; empty: all the first
-    /// Blend shapes, and the vertices that each face has moved there; none: each face's displacements say.
+    std::vector<std::string> materials = {};  ///< names; may be empty
+    /// #F indices into `materials`; empty: all faces use the first
+    std::vector<std::uint32_t> face_materials = {};
+    /// Blend shapes with the vertices that each moves; if a target lists no vertices, the
+    /// displacements of each face list them.
     std::vector<GlbTarget> targets = {};
-    std::string lines = {};  ///< further ones of the prim
+    std::string lines = {};  ///< additional lines of the prim
   };
 
   /// \param uvs  #T by 2; may be empty.
   UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form);
 
-  /// Where a prim and what belongs to it stand in one layer.
+  /// Paths and names of a prim and its related prims in one layer.
   struct Place {
-    std::string face;       ///< path of the prim above, which holds the skeleton
-    std::string name;       ///< the prim's
-    std::string materials;  ///< path of the prim that holds the materials
+    std::string face;       ///< path of the parent prim, which contains the skeleton
+    std::string name;       ///< name of the Mesh prim
+    std::string materials;  ///< path of the prim that contains the materials
   };
-  /// Adds the prim; the file refers to this object.
-  /// \param normals  #V by 3, unit; not written for meshes that are subdivided.
-  /// \param moves    #targets. \param what  for messages.
-  /// \param colours  #V, as the primvar displayColor, in linear light; or no rows.
+  /// Adds the prim. The file references memory of this object.
+  /// \param normals  #V by 3, unit; not written for meshes with subdivision.
+  /// \param moves  #targets displacements.
+  /// \param what  names the mesh in messages.
+  /// \param colours  #V, written as the primvar displayColor in linear light; or no rows.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   void add(EncodedFile& file, const Place& place, const Positions& positions,
            const Positions& normals, std::span<const Displacements> moves, const std::string& what,
            const ColourRows& colours = {}) const;
 
-  /// Prims' names of the materials; of those of no face: empty.
+  /// Prim names of the materials; empty for materials that no face uses.
   const std::vector<std::string>& materials() const { return materials_; }
-  /// The names of the targets, quoted.
+  /// Quoted names of the targets.
   const std::vector<std::string>& tokens() const { return tokens_; }
 
   std::size_t memory_bytes() const;
-  /// What one `add` takes.
+  /// Memory needed for one `add`, in bytes.
   std::size_t encode_bytes() const;
 
  private:
@@ -67,13 +71,13 @@ class UsdaMesh {
 
   Index vertices_;
   Subdivision subdivision_;
-  std::string faces_;  ///< what describes the mesh beside its vectors
+  std::string faces_;  ///< description of the mesh without positions, normals and colours
   std::vector<std::string> materials_;
-  std::vector<std::string> subsets_;  ///< their faces
-  std::vector<std::string> shapes_;   ///< prims' names of the targets …
+  std::vector<std::string> subsets_;  ///< polygons of each material
+  std::vector<std::string> shapes_;   ///< prim names of the targets
   std::vector<std::string> tokens_;
-  std::vector<std::string> indices_;  ///< … and their vertices
-  std::size_t target_rows_ = 0;       ///< of all targets, at most
+  std::vector<std::string> indices_;  ///< vertices of the targets
+  std::size_t target_rows_ = 0;       ///< upper bound of the number of displacements in all targets
 };
 
 }  // namespace crowdface

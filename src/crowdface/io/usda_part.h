@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// A mesh of another topology that stands in the USD layers of faces, beside the face's mesh and moved by the
-/// same targets, with materials of its own. Like UsdaTemplate it is made once.
+/// An additional mesh with its own topology and materials in the USD layers of faces, a sibling of
+/// the face's mesh, moved by the same targets. Like `UsdaTemplate`, it is built once.
 class UsdaPart {
  public:
   struct Material {
@@ -21,21 +21,23 @@ class UsdaPart {
     UsdaSurface surface;
   };
 
-  /// \param name            a prim's, no other part's.
-  /// \param uvs             #T by 2; may be empty.
-  /// \param materials       at least one.
-  /// \param face_materials  #F rows of `materials`.
-  /// \param targets         the names of the faces' targets.
+  /// \param name  prim name, unique among parts.
+  /// \param uvs  #T by 2; may be empty.
+  /// \param materials  at least one.
+  /// \param face_materials  #F indices into `materials`.
+  /// \param targets  names of the faces' targets.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
            const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
            const std::vector<std::string>& targets);
 
-  /// Adds the mesh below the prim `face`; the file refers to this object.
-  /// \param root  path of the face's root prim. \param moves  #targets. \param what  for messages.
+  /// Adds the mesh below the face's prim. The file references memory of this object.
+  /// \param root  path of the face's root prim.
+  /// \param moves  #targets displacements.
+  /// \param what  names the mesh in messages.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                 std::span<const Displacements> moves, const std::string& what) const;
-  /// Adds its materials, below the root prim.
+  /// Adds the part's materials below the root prim.
   void add_materials(EncodedFile& file, const std::string& root) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }
@@ -49,7 +51,7 @@ class UsdaPart {
   std::vector<UsdaSurface> surfaces_;
 };
 
-/// One in the layer of a face.
+/// A `UsdaPart` with its positions in the layer of one face.
 struct PlacedUsdaPart {
   const UsdaPart* part;
   const Positions* positions;

@@ -15,25 +15,28 @@
 
 namespace crowdface {
 
-/// USD layers (text, `.usda`) of one topology: a Mesh with its faces as they are, texture coordinates
-/// as the primvar `st`, places on an overlay as `st1`, material subsets bound to preview surfaces, and blend shapes of UsdSkel where
-/// there are targets. Positions stay in their own unit, which metersPerUnit tells; the stage's up axis
-/// is Y or Z, and a transform turns other heads to Y. All but the vectors and names is made once.
+/// Writes USD text layers (`.usda`) of one topology: a Mesh with its polygons, texture coordinates
+/// as the primvar `st`, overlay coordinates as `st1`, material subsets bound to preview surfaces,
+/// and UsdSkel blend shapes if there are targets. Positions keep their unit, given by
+/// metersPerUnit. The stage's up axis is Y or Z; a transform rotates heads with another up axis to
+/// Y. Everything but vectors and names is formatted once.
 class UsdaTemplate {
  public:
-  /// \param uvs      #T by 2; may be empty.
-  /// \param options  as of a GLB file, but that images are files beside; `vertex_ids` is not written.
+  /// \param uvs  #T by 2; may be empty.
+  /// \param options  as for GLB files, except that images are external files and `vertex_ids` is
+  /// ignored.
   UsdaTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options,
                Subdivision subdivision);
 
-  /// The layer with these positions; refers to this object.
-  /// \param normals  #V by 3, unit; not written for meshes that are subdivided.
-  /// \param name     of the face; the root prim is called so, as far as USD allows.
-  /// \param moves    #targets: of their vertices, from `positions`.
-  /// \param points   #points by 3, in the positions' unit: prims below the face's.
-  /// \param images   the options' images, relative to the layer.
-  /// \param parts    further meshes, with the same targets.
-  /// \param colours  #V, or no rows: see UsdaMesh.
+  /// The layer with these positions. The result references memory of this object.
+  /// \param normals  #V by 3, unit; not written for meshes with subdivision.
+  /// \param name  of the face and of the root prim, with characters replaced that USD does not
+  /// allow.
+  /// \param moves  #targets displacements from `positions`.
+  /// \param images  paths of the options' images, relative to the layer.
+  /// \param points  #points by 3, in the positions' unit: child prims of the face's prim.
+  /// \param parts  additional meshes with the same targets.
+  /// \param colours  #V, or no rows (see `UsdaMesh`).
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
@@ -41,7 +44,7 @@ class UsdaTemplate {
                      std::span<const PlacedUsdaPart> parts = {},
                      const ColourRows& colours = {}) const;
 
-  /// What this object itself takes, and what one encode takes.
+  /// Memory used by this object, and needed for one encode, in bytes.
   std::size_t memory_bytes() const { return mesh_.memory_bytes(); }
   std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
 
@@ -49,15 +52,16 @@ class UsdaTemplate {
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
 
   UsdaMesh mesh_;
-  std::string frame_;  ///< of the layer: unit and axis
-  std::string turn_;   ///< of the mesh, where the stage's axes are others
+  std::string frame_;  ///< the layer's unit and up axis
+  std::string turn_;   ///< transform of the mesh if the stage has other axes
   std::vector<GlbMaterial> surfaces_;
-  std::string shared_;               ///< see GlbOptions
-  std::vector<std::string> points_;  ///< prims' names of the points
+  std::string shared_;               ///< see `GlbOptions::shared`
+  std::vector<std::string> points_;  ///< prim names of the points
 };
 
-/// The positions of a file that UsdaTemplate made. \throws InvalidInput if it is any other.
-/// \param vertices  #V of the topology it was made for.
+/// Reads the positions of a file that `UsdaTemplate` wrote.
+/// \param vertices  number of vertices of the topology.
+/// \throws InvalidInput if another program wrote the file.
 Positions read_usda_positions(const std::filesystem::path& path, Index vertices);
 
 }  // namespace crowdface

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// A word, a quoted text or path, or a bracket or the like of a USD layer.
+/// A token of a USD text layer: a word, a quoted text or path, or a punctuation character.
 struct UsdaToken {
   enum class Kind { kEnd, kWord, kQuoted, kSign } kind = Kind::kEnd;
   std::string_view text;
@@ -15,25 +15,27 @@ struct UsdaToken {
   bool is_word(std::string_view word) const { return kind == Kind::kWord && text == word; }
 };
 
-/// Takes the text of a USD layer (usda) apart.
+/// Tokeniser for USD text layers (usda).
 class UsdaTokens {
  public:
-  /// \param name  of the file, for messages. \throws InvalidInput if the text does not begin as a layer does
+  /// \param name  of the file, for messages.
+  /// \throws InvalidInput if the text does not begin like a USD layer.
   UsdaTokens(std::string_view text, const std::string& name);
 
   UsdaToken next();
-  /// Passes this sign if it comes next.
+  /// Consumes this punctuation character if it comes next.
   bool pass(char sign);
-  /// Passes everything up to the end of brackets of which the first was passed. \return the interpolation that is named there
+  /// Consumes everything up to the closing bracket of an open group.
+  /// \return the interpolation named in the group.
   std::string skip_rest();
-  /// All numbers of a value, whatever the brackets.
+  /// All numbers of a value, ignoring brackets.
   std::vector<double> numbers();
   /// \throws InvalidInput
   [[noreturn]] void fail(std::string_view what) const;
 
  private:
   void skip_blanks();
-  /// What stands before an end, which is passed.
+  /// The text before `end`; consumes both.
   std::string_view up_to(std::string_view end, bool escapes);
 
   std::string_view text_;
