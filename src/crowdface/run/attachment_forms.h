@@ -13,13 +13,15 @@
 
 namespace crowdface {
 
-/// The attachments of a crowd in the form in which files on one level have them: all whole, or those that a face
-/// wears on a level of detail.
-/// \tparam Form  is made once for an attachment, and written with the positions on each face.
+/// The attachments of a crowd, each in the form that files of one format need, at one level of
+/// detail.
+/// \tparam Form  made once per attachment; combined with the attachment's positions on each face
+///               when a file is written
 template <class Form>
 class AttachmentForms {
  public:
-  /// \param make  the form of an attachment; its level of detail is null if the attachment is whole.
+  /// \param make  returns the form of an attachment; receives its level of detail, which is null if
+  ///              the attachment is not reduced.
   template <class Make>
   AttachmentForms(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
     for (const Attachment* item : level.items(set)) {
@@ -28,7 +30,8 @@ class AttachmentForms {
   }
 
   const Form& at(const Attachment& item) const { return forms_.at(&item); }
-  /// What a face wears; refers to both. \tparam Placed  a form, positions and moves.
+  /// The attachments of a face with their forms; refers to both. \tparam Placed  a form, positions
+  /// and moves
   template <class Placed>
   std::vector<Placed> placed(std::span<const WornAttachment> worn) const {
     std::vector<Placed> placed;
@@ -43,8 +46,8 @@ class AttachmentForms {
     for (const auto& [item, form] : forms_) bytes += std::invoke(&Form::memory_bytes, form);
     return bytes;
   }
-  /// What encoding takes of what one face wears at most: one attachment of each kind.
-  /// \param files  in how many files an attachment stands
+  /// Maximum memory for encoding the attachments of one face (one of each kind), in bytes.
+  /// \param files  returns the number of files that contain an attachment
   template <class Files>
   std::size_t encode_bytes(const Files& files) const {
     std::map<std::string, std::size_t> largest;
@@ -65,7 +68,7 @@ class AttachmentForms {
   std::map<const Attachment*, Form> forms_;
 };
 
-/// The form of the faces' mesh, and those of the attachments in the same file.
+/// The form of the faces' mesh, and the forms of the attachments in the same file.
 template <class Mesh, class Part>
 struct DressedForm {
   Mesh mesh;

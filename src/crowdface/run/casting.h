@@ -12,40 +12,43 @@
 
 namespace crowdface {
 
-/// Where faces are compared and judged.
+/// The space in which faces are compared, and the coarse skin on which they are judged.
 struct CastingSpace {
   FaceSpace space;
   ProxySkin skin;
 };
-/// \param cache  where the tables of the space are kept; empty: nowhere.
+/// \param cache  folder that keeps the tables of the space; empty: no cache
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache);
 
-/// What casting is to do, from the config.
+/// The options of casting, from the config.
 Casting casting_of(const Config& config, const Inputs& inputs,
                    const Eigen::MatrixXd& head_distances);
 
-/// The distances of a crowd beside those of its heads.
+/// Distances within a crowd, compared with those between its heads.
 struct CrowdDistances {
   Quartiles heads;                 ///< between input heads
   Quartiles crowd;                 ///< between faces of the crowd
-  std::vector<Quartiles> regions;  ///< the same over each region, if there are several
+  std::vector<Quartiles> regions;  ///< between faces, over each region; empty if there is only one
   Quartiles to_nearest_head, to_nearest_face;
-  double ratio = 0;  ///< of the medians, crowd to heads; 0 if there are none to compare
+  double ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
 };
 
-/// How alike a family is.
+/// How similar the members of a family are.
 struct FamilyReport {
   std::string name;
   std::uint64_t members = 0;
-  Quartiles within;             ///< between members
-  Quartiles to_founder;         ///< of each member
-  double nearest_other_mm = 0;  ///< from any member to anyone else; 0 if there is nobody
+  Quartiles within;      ///< between members
+  Quartiles to_founder;  ///< from each member to the founder
+  /// smallest distance from a member to a face outside; 0 if there is none
+  double nearest_other_mm = 0;
   double silhouette = 0;
-  std::optional<double> strangers_nearer;  ///< with parents: than one of them to a child, a share
+  /// if the family has parents: the largest share of strangers nearer to a child than one of its
+  /// parents
+  std::optional<double> strangers_nearer;
 };
 
-/// A crowd cast: where the heads stand on the plane, and its faces.
+/// A cast crowd: its faces, and the heads' positions on the plane.
 struct Cast {
   std::vector<PlanePoint> anchors;  ///< #heads
   std::vector<CastFace> crowd;      ///< with their nearest neighbours
@@ -53,20 +56,20 @@ struct Cast {
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
-  std::vector<CastFace> founders;  ///< hidden heads of families, who are not in the crowd
-  std::vector<CastFace> rejected;  ///< by reviews
+  std::vector<CastFace> founders;  ///< hidden heads of families, which are not part of the crowd
+  std::vector<CastFace> rejected;  ///< faces that reviews rejected
   std::vector<FaceSpace::Point>
-      points;  ///< of each face of the crowd; none if there are neither sheets nor groups
+      points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
 };
 
-/// What may sit on the faces of a config's crowd.
+/// Options for drawing the attachments of a crowd, from the config.
 AttachmentDraw attachment_draw(const Config& config);
 
 /// Casts the crowd.
-/// \param defects  what is wrong with a candidate's whole mesh; none: meshes are not judged.
-/// \param cache    as of casting_space.
-/// \throws Unsatisfiable if the constraints cannot be met: which one binds, how far it went, and what
-/// would help.
+/// \param defects  judges a candidate's whole mesh; empty: meshes are not judged
+/// \param cache    see casting_space
+/// \throws Unsatisfiable if the constraints cannot be met; the message tells the binding
+///         constraint, how many faces were cast, and which change would help.
 Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
           const MeshDefects& defects, const std::filesystem::path& cache);
 

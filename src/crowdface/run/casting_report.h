@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of a crowd that was cast, in the log and in the report.
+// Reports on a cast crowd, for the log and report.json.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace crowdface {
 
-/// A warning of faces that pass for one of the heads, if there are any that were drawn.
+/// Warns about drawn faces that look too much like one of the heads.
 std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads);
 
-/// Logs what the crowd is like: distances and candidates thrown away.
+/// Logs statistics of the crowd: distances and rejected candidates.
 void log_casting(const Cast& cast);
 
-/// What was asked, what was reached, what was thrown away.
+/// The constraints, the values reached, and the rejected candidates.
 nlohmann::ordered_json casting_to_json(const Config& config, const Cast& cast);
 
 }  // namespace crowdface

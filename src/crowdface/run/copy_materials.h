@@ -11,9 +11,10 @@
 
 namespace crowdface {
 
-/// Copies material files and textures beside the meshes: of all heads that are targets, if OBJ files name
-/// them, and of attachments, if files beside or USD layers do.
-/// \return warnings that the inputs do not have, each once with the heads it is about; also logged.
+/// Copies material files and textures to the meshes' folder: those of all target heads if OBJ files
+/// refer to them, and those of attachments if separate files or USD layers refer to them.
+/// \return warnings that the inputs do not have, without duplicates and with the heads concerned;
+///         also logged.
 std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
                                         const CrowdDirectory& directory,
                                         const std::vector<CastFace>& crowd, Ledger& ledger);

@@ -16,19 +16,19 @@
 
 namespace crowdface {
 
-/// Contact sheets, gallery and what they need, unless they are there: they follow from the faces'
-/// pictures and meshes, the config and the page.
-/// \param faces    what is known of each face of the crowd.
-/// \param builder  builds founders of families, who have no meshes.
-/// \return how many pages the faces take.
+/// Makes the contact sheets, the gallery and their data, unless they are up to date. They depend on
+/// the faces' images and meshes, the config and the page.
+/// \param faces    results, one per face of the crowd
+/// \param builder  builds the founders of families, which have no mesh files
+/// \return the number of pages that the faces fill.
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
                         const std::vector<FaceResult>& faces, Lazy<FaceBuilder>& builder,
                         Lazy<CrowdPictures>& pictures, Ledger& ledger);
 
-/// The contact sheets of a finished crowd again, from its meshes; only founders of families, who
-/// have none, are blended.
-/// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8".
-/// \param cache  folder of prepared heads, which founders are made of.
+/// Makes the contact sheets of a finished crowd again, from its mesh files; blends only the
+/// founders of families, which have no mesh files.
+/// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8"
+/// \param cache  folder of prepared heads, from which founders are blended
 void remake_sheets(const std::filesystem::path& crowd_directory,
                    const std::vector<std::string>& set,
                    const std::filesystem::path& cache = cache_directory());

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// A USD layer in a crowd's folder that references the layers of its faces, who stand in rows one
-/// behind the other; with levels of detail each has a variant set `LOD`.
+/// A USD layer in the crowd's folder that references the layers of its faces and arranges them in
+/// rows. With levels of detail, each face has a variant set `LOD`.
 std::string format_stage(const Config& config, const Inputs& inputs,
                          std::span<const CastFace> crowd);
 

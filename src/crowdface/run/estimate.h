@@ -8,9 +8,10 @@
 
 namespace crowdface {
 
-/// How many faces a job's heads hold at which distance, without casting a crowd: the table for
-/// people. Writes estimate.csv and estimate.svg into the crowd's folder, and nothing else.
-/// \param cache  folder of prepared heads.
+/// Estimates, without casting a crowd, how many faces the job's heads allow at which minimum
+/// distance. Writes estimate.csv and estimate.svg into the crowd's folder, and no other file.
+/// \param cache  folder of prepared heads
+/// \return a readable table.
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
                      const std::filesystem::path& cache);
 

@@ -15,8 +15,8 @@
 
 namespace crowdface {
 
-/// Builds the meshes of recipes with the levels the config asks for; several at once cost less than
-/// one by one and have the same bytes.
+/// Builds the meshes of recipes with the levels that the config asks for. Building several recipes
+/// at once is cheaper than one by one and gives the same bytes.
 class FaceBuilder {
  public:
   /// \param config, inputs, prepared  must outlive the builder.
@@ -24,41 +24,44 @@ class FaceBuilder {
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
 
-  /// \param results  one for each recipe, #V by 3 in file units; their memory is used again.
+  /// \param results  one per recipe, #V by 3, in file units; their memory is reused
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions build(const Recipe& recipe) const;
 
-  /// A face that the next one changes little of.
+  /// The previous face, from which `rebuild` starts.
   struct Kept {
     std::optional<Recipe> recipe;
     Positions blended;
   };
-  /// The same as `build` for one recipe, quicker where it differs from the last in few regions.
-  /// \param kept  what the last call left there; empty at first.
+  /// Gives the same result as `build` for one recipe, but is faster if the recipe differs from the
+  /// previous one in few regions only.
+  /// \param kept  the state that the previous call left; initially empty
   Positions rebuild(const Recipe& recipe, Kept& kept) const;
 
-  /// Faces are blended with these masks from now on, in place of the inputs'. What `rebuild` kept is of no
-  /// use afterwards.
+  /// Replaces the masks for blending, initially those of the inputs. Results that `rebuild` kept
+  /// become invalid.
   void use_masks(const Config& config, const RegionWeights& regions);
 
-  /// The masks that faces are blended with: zero at vertices that parts put elsewhere.
+  /// The masks for blending: zero at vertices of parts that get other positions anyway.
   const RegionWeights& regions() const { return regions_; }
 
-  /// What is wrong with the skin of a face that was built from a recipe, against that of its target.
+  /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// How much farther lips, or other skin that nearly touches, are apart in a face than in any head.
+  /// How much farther apart lips, or other skin surfaces that almost touch, are in the face than in
+  /// any head, in mm.
   double wider_mm(const Recipe& recipe, const Positions& face) const;
 
-  /// Memory that building `faces` at once takes, their positions included.
+  /// Memory for building this many faces at once, including their positions, in bytes.
   std::uint64_t bytes(std::size_t faces) const;
 
  private:
-  /// What is done to a face once it is blended.
+  /// The steps after blending: asymmetry, contacts, parts, mirroring.
   void finish(const Recipe& recipe, Positions& face) const;
-  /// By which faces are mirrored; found when the first is.
+  /// The map that mirrors faces; computed at the first call. Thread-safe.
   const MirrorMap& mirror() const;
-  /// Between the gap that a face's target has at each contact and that of its sources, by weight.
+  /// For each contact, the range between the target's gap and the weighted mean of the sources'
+  /// gaps.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   void allow_other_side(std::vector<SkinContacts::Range>& ranges) const;
 
@@ -67,14 +70,14 @@ class FaceBuilder {
   const Prepared& prepared_;
   mutable std::once_flag mirror_once_;
   mutable std::shared_ptr<const MirrorMap> mirror_;
-  /// The masks, without those vertices of parts that get other positions anyway.
+  /// The masks, zero at vertices of parts that get other positions anyway.
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;             ///< of fitted levels
-  std::optional<SkinContacts> contacts_;            ///< always there once the builder is made
-  std::vector<std::vector<double>> contact_masks_;  ///< #places by #regions, rows summing to one
+  std::optional<CrowdBlender> blender_;             ///< for fitted levels
+  std::optional<SkinContacts> contacts_;            ///< always set after construction
+  std::vector<std::vector<double>> contact_masks_;  ///< #contacts by #regions; rows sum to one
   bool keeps_contacts_;
   double mm_per_unit_;
-  std::optional<PartFollower> follower_;  ///< if there are parts beside the skin
+  std::optional<PartFollower> follower_;  ///< if there are parts besides the skin
 };
 
 }  // namespace crowdface

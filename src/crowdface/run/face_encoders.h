@@ -29,23 +29,23 @@ namespace crowdface {
 
 class FaceEncoders;
 
-/// A face that is blended, and all that its files hold.
+/// A blended face and everything that its files contain.
 struct FinishedFace {
   FinishedFace(const CastFace& planned, const Positions& blended)
       : face(planned), positions(blended) {}
 
   const CastFace& face;
   const Positions& positions;
-  std::vector<Displacements> moves;  ///< in each shape; none where nothing shows shapes
+  std::vector<Displacements> moves;  ///< one per shape; empty if no output shows shapes
   std::vector<Index> crossing;       ///< see FaceShapes::of_face
   std::vector<WornAttachment> worn;
-  ColourRows colours;  ///< #V; no rows: it has none at vertices
+  ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
-  std::optional<FacePictures> pictures;  ///< none: it is not shown
+  std::optional<FacePictures> pictures;  ///< empty if the face is not rendered
 
-  const FaceEncoders* encoders = nullptr;  ///< null: it has no files of meshes
-  /// What `encoders` have found for its files.
+  const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
+  /// Data that FaceEncoders::prepare computes for the files.
   Positions normals, points, joints;
   std::vector<std::string_view> images;
   std::vector<std::string> image_names;
@@ -55,33 +55,36 @@ struct FinishedFace {
     std::vector<Displacements> moves;
     std::vector<WornAttachment> worn;
   };
-  std::deque<Reduced> reduced;   ///< #levels of detail
-  std::vector<FaceMesh> meshes;  ///< the whole mesh, then those on levels; refer to the above
+  std::deque<Reduced> reduced;  ///< one per level of detail
+  /// the whole mesh, then the levels of detail; refer to the members above
+  std::vector<FaceMesh> meshes;
 };
 
-/// A shape of a face, by number; none: the face at rest.
+/// Index of a face's shape; nothing: the face at rest.
 using ShapeNumber = std::optional<std::size_t>;
 
-/// What all faces of a crowd share in their files, made once. Any thread may encode.
+/// Encodes the mesh files of a crowd's faces; holds what all faces share. Thread-safe.
 class FaceEncoders {
  public:
-  /// \param config, inputs  must outlive this object and all that it encodes.
-  /// \param formats  of the faces. \param crowd  all faces that may be written.
-  /// \param shared   as MeshSource has it
+  /// \param config, inputs  must outlive this object and everything that it encodes.
+  /// \param formats  mesh formats of the faces
+  /// \param crowd    all faces that may be written
+  /// \param shared   see MeshSource
   /// \throws InvalidInput if a format cannot hold such a mesh.
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
                std::span<const CastFace> crowd, const std::string& shared = {});
 
-  /// Whether files have shapes, and whether faces' own textures stand in files or beside them.
+  /// `holds_shapes`: whether files have shapes. `holds_textures`: whether faces' own textures are
+  /// written, in mesh files or next to them.
   bool holds_shapes() const;
   bool holds_textures() const { return own_ && !formats_.empty(); }
   const OwnTextures& textures() const { return *own_; }
 
-  /// Computes what all files of a face share: the face at each level of detail. The results refer to `face`, which must
-  /// not move in memory afterwards.
+  /// Computes what all files of a face share, such as the face at each level of detail. The results
+  /// refer to `face`, which must not move in memory afterwards.
   void prepare(FinishedFace& face) const;
 
-  // Of a prepared face:
+  // The following functions require a prepared face.
   EncodedFile mesh(const FinishedFace& face, MeshFormat format, std::size_t level,
                    ShapeNumber shape) const;
   /// An attachment in an OBJ file of its own.
@@ -90,12 +93,12 @@ class FaceEncoders {
   /// The points that follow the face, as JSON.
   EncodedFile points(const FinishedFace& face) const;
 
-  /// What this object itself takes, and what the files of one face take at most.
+  /// Memory of this object, and the maximum memory of one face's files, in bytes.
   std::size_t memory_bytes() const;
   std::size_t encode_bytes() const;
 
  private:
-  /// Whether files of the format have vertex normals on the level.
+  /// Whether files of this format have vertex normals at this level of detail.
   bool needs_normals(MeshFormat format, std::size_t level, Index target) const;
   FaceMesh mesh_on(std::size_t level, FinishedFace& face) const;
 
@@ -104,13 +107,15 @@ class FaceEncoders {
   std::vector<MeshFormat> formats_;
   std::vector<MeshLevel> levels_;
   std::map<MeshFormat, MeshEncoders> encoders_;
-  std::vector<AttachmentForms<MeshEncoder>> attachments_;  ///< #levels; none: they have no files
-  std::optional<OwnTextures> own_;               ///< none: faces have no textures of their own
-  std::optional<PointCarrier> points_, joints_;  ///< if there are any
-  std::optional<NormalFans> fans_;               ///< of the vertices, if a format needs normals
+  /// #levels; empty if attachments have no files
+  std::vector<AttachmentForms<MeshEncoder>> attachments_;
+  std::optional<OwnTextures> own_;               ///< empty if faces have no textures of their own
+  std::optional<PointCarrier> points_, joints_;  ///< if there are points or joints
+  std::optional<NormalFans> fans_;  ///< fans of the vertices, if a format needs normals
 };
 
-/// The shapes that an attachment has files of: those that the faces have files of, if the attachment bends.
+/// The shapes for which an attachment has files: those for which the faces have files, if the
+/// attachment bends; otherwise none.
 std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
                                        const Inputs& inputs);
 

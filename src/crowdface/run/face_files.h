@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a face: one list, which building, resuming, `sheet`, `blend` and the report walk.
+// The list of a face's files, used by building, resuming, `sheet`, `blend` and the report.
 #pragma once
 
 #include <filesystem>
@@ -21,41 +21,42 @@ namespace crowdface {
 
 struct FinishedFace;
 
-/// A file of a face. A new kind of file is one more entry of the lists below.
+/// A file of a face. To add a kind of file, add an entry to the lists below.
 struct FaceFile {
   std::filesystem::path path;
-  /// Where the face has the file's hash in report.json: "lods" and "LOD1.obj", or no section and "mesh"; no key:
-  /// nowhere.
+  /// Where report.json has the file's hash: section "lods" and key "LOD1.obj", or no section and
+  /// key "mesh". Without a key, the report omits the hash.
   std::string section, key;
-  /// What the file holds; the result refers to the face and to its encoders.
+  /// Encodes the file; the result refers to the face and to its encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;
 };
 
-/// Which files of meshes a face has.
+/// Which mesh files a face has.
 struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;
-  std::filesystem::path folder;  ///< where the meshes lie
-  std::string stem;              ///< what their names begin with
-  bool all = true;  ///< not only the whole mesh at rest: levels of detail, shapes and points
+  std::filesystem::path folder;  ///< folder of the meshes
+  std::string stem;              ///< first part of the file names
+  bool all = true;  ///< false: only the whole mesh at rest; no levels of detail, shapes or points
 };
-/// All mesh files of a face, with the files of its attachments, its textures and its material.
+/// All mesh files of a face, including its attachments, textures and material file.
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const CastFace& face,
                                  const MeshFileOptions& options);
 
-/// Makes all of these and writes them together.
+/// Encodes all these files and writes them together.
 void write_files_of(const FinishedFace& face, const std::vector<FaceFile>& files);
 
-/// The lists of a crowd's faces.
+/// Makes the file lists of a crowd's faces.
 class FaceFileLists {
  public:
-  /// All must outlive this object.
+  /// The arguments must outlive this object.
   FaceFileLists(const Config& config, const Inputs& inputs, const CrowdDirectory& directory);
 
   /// All files of a face.
   std::vector<FaceFile> of(const CastFace& face) const;
-  /// Only those that show the face: its picture and its mesh in the gallery, which `sheet` can make anew.
+  /// Only the files that show the face, which `sheet` can make again: its image and its mesh in the
+  /// gallery.
   std::vector<FaceFile> shown(const CastFace& face) const;
-  /// Makes the folders that the files of these faces go to.
+  /// Creates the folders for the files of these faces.
   void make_folders(std::span<const CastFace* const> faces) const;
   const CrowdDirectory& directory() const { return directory_; }
 
@@ -66,11 +67,11 @@ class FaceFileLists {
   bool has_gallery_;
 };
 
-/// What is known of a face whose files are there.
+/// The results for a face whose files have been written.
 struct FaceResult {
-  std::vector<FileDigest> files;    ///< one for each of face_files
-  std::optional<SkinDefects> skin;  ///< against the target's, if the mesh was judged
-  std::vector<Index> crossing;      ///< see FaceShapes::of_face; none if no shapes were carried
+  std::vector<FileDigest> files;    ///< one per file of FaceFileLists::of
+  std::optional<SkinDefects> skin;  ///< compared with the target, if the mesh was judged
+  std::vector<Index> crossing;  ///< see FaceShapes::of_face; empty if no shapes were transferred
 };
 
 }  // namespace crowdface

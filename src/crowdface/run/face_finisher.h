@@ -12,17 +12,17 @@
 
 namespace crowdface {
 
-/// What finishes the faces of a crowd.
+/// Computes everything beyond the blended positions that a face's files need.
 struct FaceFinisher {
   const FaceTextures& textures;
   const FaceAttachments& attachments;
   const FaceShapes& shapes;
   const FaceEncoders* encoders = nullptr;  ///< null: no meshes are written
-  const CrowdRenders* renders = nullptr;   ///< null: there are no pictures
+  const CrowdRenders* renders = nullptr;   ///< null: nothing is rendered
 
-  /// Makes of a blended face all that its files hold: its shapes, what it wears, its textures and its pictures. A
-  /// picture is the same whether the positions come from blending or from the face's mesh file. Any thread may ask.
-  /// \param face  must stay where it is.
+  /// Completes a blended face: shapes, attachments, textures and renders. The renders are the same
+  /// whether the positions come from blending or from the face's mesh file. Thread-safe.
+  /// \param face  must not move in memory afterwards
   void finish(FinishedFace& face, StageBusy& busy) const;
 
  private:

@@ -11,23 +11,25 @@
 
 namespace crowdface {
 
-/// A face and what its files are.
+/// A face and the results for its files.
 struct MadeFace {
   const CastFace* face = nullptr;
   FaceResult result;
 };
 
-/// The faces of a crowd in its ledger. A face is one item: the files of its list, and what was found about its skin
-/// and shapes, so that a run that goes on writes the same sheets and the same report.
+/// Records the faces of a crowd in its ledger. Each face is one item: its list of files, and the
+/// findings about its skin and shapes, so that a resumed run writes the same sheets and the same
+/// report.
 class FaceLedger {
  public:
-  /// All must outlive this object. \param recorded  called after each face that is, by any thread.
+  /// The references must outlive this object. \param recorded  called from any thread after each
+  /// recorded face
   FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& lists,
              std::function<void()> recorded);
 
-  /// What is known of a face if all of its files are there as an earlier run wrote them.
+  /// The results for a face; nothing unless all of its files exist as an earlier run wrote them.
   std::optional<FaceResult> done(const CastFace& face) const;
-  /// Once all files of these faces are there.
+  /// Records faces whose files have all been written.
   void record(std::span<const MadeFace> faces) const;
 
  private:
@@ -38,8 +40,8 @@ class FaceLedger {
   const FaceFileLists& lists_;
   std::function<void()> recorded_;
   bool judges_skin_;
-  std::size_t shapes_;  ///< how many are carried to each face
-  Digest common_;       ///< of what the files of all faces depend on
+  std::size_t shapes_;  ///< number of shapes transferred to each face
+  Digest common_;       ///< hash of everything that the files of all faces depend on
 };
 
 }  // namespace crowdface

@@ -21,29 +21,30 @@
 
 namespace crowdface {
 
-/// What is known before heads are prepared and faces cast: a job that cannot fit need not begin.
-/// \throws UsageError if inputs and pictures alone take more than `memory` bytes.
+/// Early check, before heads are prepared and faces are cast: rejects a job that cannot fit into
+/// memory.
+/// \throws UsageError if inputs and renders alone need more than `memory` bytes.
 void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::uint64_t memory);
 
-/// Makes faces: blends them, judges them, writes and renders them.
+/// Makes faces: blends, judges, renders and writes them.
 class FaceStages {
  public:
-  /// \param builder  must outlive this object, as inputs and prepared heads must.
-  /// \param textures  of faces' own; likewise.
-  /// \param attachments  what faces wear; likewise.
-  /// \param shapes   of faces; likewise.
-  /// \param crowd    recipes of all faces that may be made.
-  /// \param memory  bytes that the whole process may take; sets how many faces are blended together.
-  /// \throws UsageError if one face at a time does not fit.
+  /// The references must outlive this object, except `crowd`.
+  /// \param crowd   all faces that may be made
+  /// \param memory  maximum memory of the whole process, in bytes; determines how many faces are
+  ///                blended together
+  /// \throws UsageError if not even one face at a time fits.
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
              const FaceBuilder& builder, const FaceTextures& textures,
              const FaceAttachments& attachments, const FaceShapes& shapes,
              const std::vector<CastFace>& crowd, std::uint64_t memory);
 
-  /// Each face is recorded when all its files are there. All threads blend a group of faces, then each makes
-  /// the files of one after the other. The next group begins when there is no face left that nobody is at.
-  /// \param renders  may be null: no pictures. \param busy  how long threads are at it
-  /// \param results  one for each face: what is known of it
+  /// Makes faces. All threads blend a group of faces together; then each thread finishes and
+  /// encodes one face after the other. The next group starts when every face has been claimed by a
+  /// thread. A face is recorded when all its files are written.
+  /// \param renders  null: nothing is rendered
+  /// \param results  one per face, output
+  /// \param busy     accumulates the threads' time per stage
   void build(const FaceFileLists& lists, const CrowdRenders* renders, const FaceLedger& ledger,
              std::span<const CastFace* const> faces, std::span<FaceResult* const> results,
              StageBusy& busy) const;
@@ -56,9 +57,9 @@ class FaceStages {
   const FaceTextures& textures_;
   const FaceAttachments& attachments_;
   const FaceShapes& shapes_;
-  std::optional<SkinCheck> check_;  ///< none: no mesh is judged
+  std::optional<SkinCheck> check_;  ///< empty if no mesh is judged
   std::size_t at_once_;
-  std::uint64_t waiting_bytes_;  ///< of files that are ready, at most
+  std::uint64_t waiting_bytes_;  ///< maximum size of encoded files that wait to be written
 };
 
 }  // namespace crowdface

@@ -15,35 +15,37 @@
 
 namespace crowdface {
 
-/// What a file of a face holds, and where it goes.
+/// An encoded file of a face and its path.
 struct ReadyFile {
   std::filesystem::path path;
   EncodedFile bytes;
 };
 
-/// Writes faces on a thread of its own, so that those that compute wait for no disk. What became ready while it was at
-/// work is written together, synced once, and then recorded.
+/// Writes faces on its own thread, so that computing threads need not wait for the disk. Faces that
+/// become ready during a write are written together, synced once, and then recorded.
 class FaceWriter {
  public:
-  /// \param ledger    must outlive this object.
-  /// \param waiting_bytes  what waits to be written takes at most, if it is more than one face.
-  /// \param recorded  called after each face that is.
+  /// \param ledger         must outlive this object.
+  /// \param waiting_bytes  maximum size of the files that wait to be written; a single face may
+  ///                       exceed it
+  /// \param recorded       called after each recorded face
   FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes, std::function<void()> recorded);
-  ~FaceWriter();  ///< what was not begun is dropped
+  ~FaceWriter();  ///< drops files whose writing has not begun
   FaceWriter(const FaceWriter&) = delete;
   FaceWriter& operator=(const FaceWriter&) = delete;
 
-  /// From any thread; waits while much waits to be written.
-  /// \throws what writing threw; then nothing more is written.
+  /// Queues a face; waits while the queue is full. Thread-safe.
+  /// \throws the exception of a failed write; then nothing more is written.
   void add(MadeFace face, std::vector<ReadyFile> files);
-  /// Returns when all faces are written and recorded. \throws what writing threw.
+  /// Waits until all faces are written and recorded. \throws the exception of a failed write.
   void finish();
 
-  /// How long the thread was at work.
+  /// Time that the thread spent writing.
   double busy_seconds() const { return busy_seconds_; }
-  /// What should be allowed to wait, so that threads do not wait for the disk.
+  /// Lower bound for a useful queue: with less, threads wait for the disk.
   static constexpr std::uint64_t kLeastWaitingBytes = std::uint64_t{64} << 20U;
-  /// So much keeps the disk busy while a group of faces is blended.
+  /// Upper bound for a useful queue: enough to keep the disk busy while a group of faces is
+  /// blended.
   static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{256} << 20U;
 
  private:
@@ -65,7 +67,7 @@ class FaceWriter {
   bool is_at_work_ = false, is_closing_ = false;
   std::exception_ptr error_;
   double busy_seconds_ = 0;
-  std::thread thread_;  // after all that it uses
+  std::thread thread_;  // last, because the thread uses the other members
 };
 
 }  // namespace crowdface

@@ -11,38 +11,38 @@
 
 namespace crowdface {
 
-/// Where a shard has its faces from.
+/// Where a shard gets its faces from.
 enum class PlanFrom {
-  kFolderOrCasting,  ///< the folder's plan if it is this very job's, else the crowd is cast
-  kFolder,           ///< the folder's plan, or the shard is refused
+  kFolderOrCasting,  ///< the folder's plan if it belongs to this job; otherwise the crowd is cast
+  kFolder,           ///< only the folder's plan; without one, the shard is rejected
 };
 
 struct GenerateOptions {
   std::filesystem::path cache;         ///< folder of prepared heads
-  Replace replace = Replace::kRefuse;  ///< what to do about another config's crowd in the folder
-  bool dry_run = false;                ///< say what would be written, and write nothing
-  /// Bytes the process may take, which sets how many faces are in flight; 0: three quarters of what
-  /// the machine, or its control group, has.
+  Replace replace = Replace::kRefuse;  ///< what to do if the folder has another config's crowd
+  bool dry_run = false;                ///< report what would be written, and write nothing
+  /// Maximum memory of the process in bytes, which determines how many faces are in flight; 0:
+  /// three quarters of the memory of the machine or its control group.
   std::uint64_t memory = 0;
-  Shard shard = {};  ///< only these faces, and neither sheets nor report: `gather` makes those
+  Shard shard = {};  ///< make only these faces, without sheets or report, which `gather` makes
   PlanFrom plan_from = PlanFrom::kFolderOrCasting;
 };
 
-/// The whole job: read, prepare, cast, blend, write, render, report. Nothing is written before all
-/// inputs are checked. What the folder's ledger proves to be done is not done again: a run that was
-/// stopped goes on, and a finished crowd is repaired. \throws Error.
+/// Runs the whole job: read, prepare, cast, blend, write, render, report. Writes nothing until all
+/// inputs are checked. Skips work that the folder's ledger proves to be done, so that it resumes a
+/// stopped run and repairs a finished crowd. \throws Error.
 void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options);
-/// The same of a config at hand, whose values are checked as those of a file are.
+/// Runs the job of a config object, whose values are validated like those of a file.
 void generate(const Config& config, const GenerateOptions& options);
 
-/// Checks the faces that shards have made, and makes what one run over the whole crowd would have
-/// left beside them: sheets, report, one ledger.
-/// \param cache  folder of prepared heads.
-/// \throws MissingInput if faces are missing or altered, naming them.
+/// Checks the faces that shards have made, and adds the files that a run over the whole crowd would
+/// have made: sheets, report, one ledger.
+/// \param cache  folder of prepared heads
+/// \throws MissingInput that names missing or altered faces.
 void gather(const std::filesystem::path& crowd_directory, const std::filesystem::path& cache);
 
-/// Casting only: writes config.yaml, plan.jsonl and crowd.csv into the crowd's folder.
+/// Only casts the crowd: writes config.yaml, plan.jsonl and crowd.csv into its folder.
 void plan(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options);
 void plan(const Config& config, const GenerateOptions& options);

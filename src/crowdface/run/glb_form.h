@@ -10,11 +10,11 @@
 
 namespace crowdface {
 
-/// How GLB files of this crowd are written: frame, materials, textures, shapes.
-/// \param shared  as MeshSource has it
+/// Options for this crowd's GLB files: axes and units, materials, textures, shapes.
+/// \param shared  see MeshSource
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared = {});
 
-/// The same on a level.
+/// Options for GLB files at a level of detail.
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared,
                        const MeshLevel& level);
 

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// What takes a while to make, from when it is first asked for.
+/// A value that is expensive to make: made when `get` is first called. Not thread-safe.
 template <class T>
 class Lazy {
  public:
@@ -17,7 +17,7 @@ class Lazy {
     if (!made_) made_ = make_();
     return *made_;
   }
-  /// Frees it; the next call of get makes it anew.
+  /// Frees the value; the next call of `get` makes it again.
   void release() { made_.reset(); }
 
  private:

@@ -12,19 +12,20 @@
 
 namespace crowdface {
 
-/// Whether whole meshes are judged once they are built, as the config asks.
+/// Whether the config has whole meshes judged after they are built.
 bool skin_is_judged(const Config& config, const Inputs& inputs);
 
-/// Judges whole meshes against those of the targets.
+/// Compares whole meshes with their target heads.
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
 
-/// Whether candidates are built and their meshes judged while casting.
+/// Whether casting builds candidates and judges their whole meshes.
 bool candidates_are_built(const Config& config);
 
-/// Builds candidates and judges their meshes. \param builder  must outlive it.
+/// A function that builds candidates and judges their meshes. \param builder  must outlive the
+/// result.
 MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceBuilder& builder);
 
-/// Warns of faces whose whole mesh goes beyond a limit that their samples kept. \return the warning.
+/// Warns about faces whose whole mesh exceeds a limit that their samples met. \return the warning.
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
                                       const std::vector<CastFace>& crowd,
                                       const std::vector<FaceResult>& files);

@@ -17,12 +17,14 @@
 
 namespace crowdface {
 
-/// The mesh of all faces, and of what they wear, whole or on a level of detail. Of each attachment a level has the
-/// share of triangles that faces keep there, but no fewer than 300, so that what is small stays whole.
+/// The mesh of all faces and their attachments, whole or at a level of detail. A level of detail
+/// reduces attachments by the same share of triangles as faces, but to no fewer than 300 triangles,
+/// so that small attachments stay whole.
 struct MeshLevel {
-  std::size_t number = 0;                                ///< 0: whole
-  const DetailLevel* face = nullptr;                     ///< null: whole
-  std::map<const Attachment*, DetailLevel> attachments;  ///< that a face wears; none: whole
+  std::size_t number = 0;             ///< 0: the whole mesh
+  const DetailLevel* face = nullptr;  ///< null: the whole mesh
+  /// reduced attachments that a face wears; empty for the whole mesh
+  std::map<const Attachment*, DetailLevel> attachments;
 
   bool whole() const { return face == nullptr; }
   const Topology& topology(const Inputs& inputs) const {
@@ -31,27 +33,29 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return whole() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files on this level may have: all, or those that a face wears.
+  /// The attachments that files at this level may contain: for the whole mesh all, otherwise those
+  /// that a face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
-  /// How an attachment looks on this level; null: whole.
+  /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
-  /// What a face wears, reduced.
+  /// A face's attachments, reduced to this level.
   std::vector<WornAttachment> of(std::span<const WornAttachment> worn) const;
 };
 
-/// "LOD2" after this, or nothing of the whole mesh.
+/// The text `before`, then "LOD2"; empty for the whole mesh.
 inline std::string suffix_of(std::size_t level, std::string_view before) {
   return level == 0 ? std::string() : concat(before, "LOD", level);
 }
 
-/// What the faces or the vertices of a level are in the whole mesh. \param rows  of that.
+/// Selects the values of a level's polygons or vertices from those of the whole mesh.
+/// \param rows  index into `whole` for each polygon or vertex of the level
 template <class T>
 std::vector<T> at_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {
   std::vector<T> some;
   for (const std::uint32_t row : rows) some.push_back(whole[row]);
   return some;
 }
-/// The same in groups; of none: none.
+/// Selects rows of grouped values; empty if `whole` is.
 template <class T>
 Grouped<T> at_rows(const Grouped<T>& whole, std::span<const std::uint32_t> rows) {
   Grouped<T> some;
@@ -60,8 +64,9 @@ Grouped<T> at_rows(const Grouped<T>& whole, std::span<const std::uint32_t> rows)
   return some;
 }
 
-/// The whole mesh, then the inputs' levels of detail.
-/// \param inputs  must outlive the result. \param crowd  who wears something.
+/// The whole mesh, then the levels of detail of the inputs.
+/// \param inputs  must outlive the result.
+/// \param crowd   faces, whose attachments the levels include
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const CastFace> crowd);
 
 }  // namespace crowdface

@@ -6,20 +6,21 @@
 
 namespace crowdface {
 
-/// Refuses a folder that the crowd cannot be written to, or where it would destroy what it reads or
-/// what could not be made again. \throws UsageError, CannotCreate.
+/// Rejects an output folder that cannot be written, or where the crowd would overwrite its own
+/// inputs or files that could not be made again. \throws UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
-/// Makes the folder ready for the job's crowd, once nobody else writes there. Looks again at what another run may have
-/// changed since check_output. \throws UsageError, CannotCreate, IoError.
+/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
+/// checks of check_output whose result another run may have changed. \throws UsageError,
+/// CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 
 /// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
-/// \param settings  of the heads as they are now, see settings_digest.
+/// \param settings  hash of the present heads, see settings_digest
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 
-/// \throws UsageError if the report says that the folder's faces have other textures, attachments, shapes,
-/// points or another rig than these.
+/// \throws UsageError if, according to its report, the folder's faces have other textures,
+///         attachments, shapes, points or another rig than these inputs.
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory);
 
 }  // namespace crowdface

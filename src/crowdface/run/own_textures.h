@@ -19,51 +19,54 @@ namespace crowdface {
 
 /// A file of a face's own textures.
 struct OwnTextureFile {
-  std::string name;                     ///< below the folder of the face's meshes
-  std::size_t picture = 0, format = 0;  ///< of OwnTextures::Encoded
+  std::string name;                     ///< path relative to the folder of the face's meshes
+  std::size_t picture = 0, format = 0;  ///< indices into OwnTextures::Encoded
 };
-/// None if faces get no textures of their own.
+/// Empty if faces have no textures of their own.
 std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
                                               const std::string& id);
 
-/// A picture that a GLB file holds. It knows no EXR, and nothing but colours, normals and roughness.
+/// An image in a GLB file. GLB supports no EXR, and only colour, normal and roughness maps.
 struct GlbPicture {
-  std::size_t picture = 0;  ///< of own_pictures
+  std::size_t picture = 0;  ///< index into own_pictures
   TextureFormat format = TextureFormat::kPng;
 };
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
-/// Where the pictures of glb_pictures lie for a face's mesh, in the first of their formats:
-/// "./blended/ID.png". None if faces get no textures of their own.
+/// Paths of the images of glb_pictures relative to a face's mesh, in the first of their formats:
+/// "./blended/ID.png". Empty if faces have no textures of their own.
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 
 /// "ID.mtl".
 std::string material_file_name(const std::string& id);
 
-/// Encodes the textures of faces, and writes their material files.
+/// Encodes the textures of faces and makes their material files.
 class OwnTextures {
  public:
-  /// \param config, inputs  must outlive this object. \param crowd  all faces that may be written.
-  /// \param shared  as MeshSource has it
+  /// \param config, inputs  must outlive this object.
+  /// \param crowd   all faces that may be written
+  /// \param shared  see MeshSource
   OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd,
               const std::string& shared = {});
 
-  /// The bytes of all pictures as own_pictures has them, each in all of its formats.
+  /// #own_pictures by #formats: the bytes of each image in each of its formats.
   using Encoded = std::vector<std::vector<std::string>>;
 
-  /// \param number  of own_pictures. \return  it in each of its formats. Any thread may ask.
+  /// Encodes an image in each of its formats. Thread-safe. \param number  index into own_pictures
   std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
-  /// The ones that a GLB file holds: see glb_pictures.
+  /// The images that a GLB file contains (see glb_pictures).
   std::vector<std::string_view> of_mesh(const Encoded& encoded) const;
-  /// The target's material file with the face's textures in place of the target's.
+  /// The target's material file, with the face's textures in place of the target's.
   EncodedFile material_file(const CastFace& face) const;
 
-  /// About what the encoded pictures of one face take, and the encoding of the largest.
+  /// Approximate memory of one face's encoded images plus the memory for encoding the largest, in
+  /// bytes.
   std::uint64_t encode_bytes() const;
 
  private:
-  /// The materials of a target, and which picture each of them shows: of own_pictures.
+  /// The materials of a target head, and the image (index into own_pictures) of each by kind and
+  /// material name.
   struct Materials {
     OwnMaterials file;
     std::map<TextureKind, std::map<std::string, std::size_t>> pictures;

@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// A config with everything it names, read and checked.
+/// A config and all the inputs that it names, read and checked.
 struct Job {
   Config config;
   Inputs inputs;
@@ -23,8 +23,8 @@ struct Job {
   Digest settings;  ///< see settings_digest
 };
 
-/// Reads config, heads and masks. Every problem is added.
-/// \param cache  the folder that keeps heads as they were read, see cache_directory; empty: none.
+/// Reads the config, heads and masks. Adds every problem.
+/// \param cache  folder that keeps heads as they were read (see cache_directory); empty: no cache
 /// \return nothing if there is any problem.
 std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, const CacheFolder& cache,
@@ -33,21 +33,21 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
              const CacheFolder& cache = {});
 
-/// The same of a config at hand. What it says is checked as the text of a file is, of which its paths are: it is
-/// written out and read again.
+/// Loads the job of a config object. The config is written as text and read again, so that its
+/// values and paths are validated like those of a file.
 Job load_job(const Config& config, const CacheFolder& cache = {});
 
-/// How many faces the config asks for.
+/// The number of faces that the config asks for.
 std::uint64_t face_count(const Config& config);
 
-/// Where its crowd lies.
+/// The folder of the config's crowd.
 CrowdDirectory directory_of(const Config& config);
 
-/// The config as it will stand in that folder, which keeps the reviews.
+/// The config as written into the crowd's folder, which keeps the reviews.
 std::string config_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
-/// What turns a smoothness into iterations on these heads.
+/// Converts a smoothness into a number of iterations on these heads.
 LevelScale level_scale(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan in a crowd's folder: written once, then taken by shards and by whoever goes on.
+// The plan in a crowd's folder: written once, then read by shards and by resumed runs.
 #pragma once
 
 #include <functional>
@@ -16,33 +16,33 @@
 
 namespace crowdface {
 
-/// Writes a file of the crowd's folder. \return its bytes' digest.
+/// Writes a file of the crowd's folder. \return the hash of its bytes.
 using WriteFile = std::function<FileDigest(const std::filesystem::path& path, const TextPieces&)>;
 
-/// Writes the plan, the table and what else is known once a crowd is cast; at last a file that says that the plan is
-/// whole, and which job's it is.
-/// \param casting  what stands in casting.json
+/// Writes the plan of a cast crowd, the table, and the files that go with them; then a marker file,
+/// which shows that the plan is complete and to which job it belongs.
+/// \param casting  content of casting.json
 void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
                 const nlohmann::ordered_json& casting, const WriteFile& write);
 
-/// A shard's part of the folder's plan, or the whole of it.
+/// A shard's part of the folder's plan, or the whole plan.
 struct PlannedFaces {
-  std::vector<CastFace> faces;           ///< the shard's, in the plan's order
-  std::vector<LedgerEntry::File> files;  ///< the plan and those written with it
+  std::vector<CastFace> faces;           ///< the shard's faces, in the plan's order
+  std::vector<LedgerEntry::File> files;  ///< the plan and the files written with it
 };
 
-/// \return nothing if the plan is not there, not as `write_plan` left it, or another job's; for the
-/// whole crowd also if one of the other files is not as it was.
-/// \throws InvalidInput if a line is none of ours.
+/// \return nothing if there is no plan, if it changed since `write_plan`, or if it belongs to
+///         another job; for the whole crowd also if one of the other files changed.
+/// \throws InvalidInput if a line is not a valid plan entry.
 std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
                                           const Shard& shard);
 
-/// The founders of families that stand in the folder; none if it has no such file.
+/// The founders of families recorded in the folder; empty if it has no such file.
 std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& directory);
 
-/// What `cast` says of a crowd, as far as it is needed once its plan is written: nothing of distances,
-/// rejections and how families came out, which casting.json tells.
-/// \param cache  as of casting_space.
+/// Restores the result of `cast` from a plan, as far as later stages need it: without distances,
+/// rejections and family reports, which casting.json has.
+/// \param cache  see casting_space
 Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
                      std::vector<CastFace> crowd, const std::filesystem::path& cache);
 

@@ -17,32 +17,35 @@
 
 namespace crowdface {
 
-/// report.json: what was asked and what was reached, versions and hashes of all inputs. Holds no
-/// time and no machine: the same inputs give the same bytes. All must outlive the text.
-/// \param casting  what stands in casting.json
-/// \param faces    what is known of each, and the lists of their files
+/// report.json: constraints and results, versions, and hashes of all inputs. It contains no times
+/// and no machine names, so that the same inputs give the same bytes. The arguments must outlive
+/// the text.
+/// \param casting  content of casting.json
+/// \param faces    results, one per face of the crowd
+/// \param lists    make the faces' lists of files
 TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
                        const nlohmann::ordered_json& casting, const FaceFileLists& lists,
                        const std::vector<FaceResult>& faces, std::size_t sheets,
                        const std::vector<std::string>& warnings);
 
-/// A report.json without its faces, which may be a million.
-/// \return what `is_discarded()` if it is no report of ours.
+/// Reads a report.json without its faces, of which there may be a million.
+/// \return a value for which `is_discarded()` is true if the file is not a valid report.
 nlohmann::ordered_json read_report_summary(const std::filesystem::path& file);
 
-/// Hashes of what faces have from elsewhere than heads and masks, each by the name that report.json has.
+/// Hashes of the inputs besides heads and masks that faces depend on, with their keys in
+/// report.json.
 std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs);
 
-/// How long each stage took, in the order it ran.
+/// Duration of each stage in seconds, in execution order.
 using StageSeconds = std::vector<std::pair<std::string, double>>;
 
-/// How long threads were busy with each stage of making faces, in seconds; together more than the
-/// time it took, as stages overlap and several threads work.
+/// Time that threads spent on each stage of making faces, in seconds. The sum exceeds the elapsed
+/// time, because stages overlap and several threads work.
 struct StageBusy {
   std::atomic<double> blend = 0, encode = 0, write = 0, render = 0, check = 0;
 };
 
-/// Adds the time until its end to a stage.
+/// Adds its lifetime to a stage's time.
 class Busy {
  public:
   explicit Busy(std::atomic<double>& stage) : stage_(stage) {}
@@ -58,7 +61,7 @@ class Busy {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// timings.json: times and machine, which may differ from run to run.
+/// timings.json: times and machine, which may differ between runs.
 std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
                            std::size_t heads_from_cache);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run does so that it can go on where another stopped.
+// The steps that let a run resume where another one stopped.
 #pragma once
 
 #include <cstddef>
@@ -11,35 +11,36 @@
 
 namespace crowdface {
 
-/// The crowd's faces as far as they are done, and which are not.
+/// The finished and the missing faces of a crowd.
 struct FacesSoFar {
-  std::vector<FaceResult> faces;  ///< #crowd; of a face that is missing: nothing
-  std::vector<std::size_t> todo;  ///< of this shard, ascending
-  std::size_t owned = 0;          ///< by this shard
+  std::vector<FaceResult> faces;  ///< #crowd; default value for missing faces
+  std::vector<std::size_t> todo;  ///< this shard's missing faces, ascending
+  std::size_t owned = 0;          ///< number of faces of this shard
 };
 
-/// Asks the ledger, in parallel: every file is read once. \throws Interrupted.
-/// \param asked  called after each face of the shard, by any thread; may be empty
+/// Looks up the faces in the ledger, in parallel; reads every file once. \throws Interrupted.
+/// \param asked  called from any thread after each face of the shard; may be empty
 FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
                            const Shard& shard, const std::function<void()>& asked = {});
 
-/// \throws MissingInput if there are faces to do, naming the first few.
+/// \throws MissingInput that names the first few missing faces, if there are any.
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
                           const std::vector<std::size_t>& todo);
 
-/// Writes the files that all faces share, if a format needs some and they are not there.
+/// Writes the files that all faces share, if a format needs any and they do not exist yet.
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger);
 
-/// Of the folder's ledgers those that may hold what a shard looks for: none of another shard that shares
-/// the crowd with it, whose faces are others.
+/// The folder's ledgers that may record faces of this shard. Excludes ledgers of the other shards
+/// of the same division, because their faces are different.
 std::vector<std::filesystem::path> ledgers_that_matter(const CrowdDirectory& directory,
                                                        const Shard& shard);
 
-/// What shards left for each other and for those who watch them, once the crowd is whole.
+/// Removes the files that shards leave for each other and for `crowdface status`, once the crowd is
+/// complete.
 void remove_notes_of_shards(const CrowdDirectory& directory);
 
-/// What the shards said becomes part of the crowd's log.
+/// Appends the logs of the shards to the crowd's log.
 void gather_logs(const CrowdDirectory& directory);
 
 }  // namespace crowdface

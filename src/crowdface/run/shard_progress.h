@@ -12,17 +12,17 @@
 
 namespace crowdface {
 
-/// Tells in the crowd's folder how far a shard is, for `crowdface status`: when it begins, at most
-/// every five seconds while faces are made, and at its end. A file that cannot be written stops
-/// nothing: whoever watches sees that nothing more comes. Any thread may step it.
+/// Writes a shard's progress into the crowd's folder for `crowdface status`: at the start, at most
+/// every five seconds while faces are made, and at the end. Failing to write does not stop the run:
+/// the observer sees that updates stop. Thread-safe.
 class ShardProgress {
  public:
-  /// \param done  of the shard's `faces`, what is done when it begins.
+  /// \param done  number of the shard's `faces` that are finished at the start
   ShardProgress(std::filesystem::path file, std::size_t faces, std::size_t done);
 
-  /// One more face is done.
+  /// Counts one more finished face.
   void step();
-  /// \param reason  why it ended, if it is not done.
+  /// \param reason  why the shard ended without finishing
   void end(ShardState state, std::string_view reason = {});
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told where a crowd cannot be cast, or may not.
+// Messages for users if a crowd cannot be cast, or may not be.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace crowdface {
 
-/// Warns early, and once, that a crowd may not get full.
+/// Warns early, and only once, that a crowd may not reach its full size.
 class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const Casting& casting) : casting_(casting) {}
-  /// \param thrown  the candidates that were thrown away for the face that joined.
+  /// \param thrown  candidates rejected before this face was accepted
   void face_joined(const Rejections& thrown);
 
  private:
@@ -26,7 +26,8 @@ class ScarcityWarning {
   bool scarce_ = false;
 };
 
-/// \throws Unsatisfiable with what binds, how far casting went, and what would help.
+/// \throws Unsatisfiable with the binding constraint, the number of faces cast, and the change that
+///         would help.
 [[noreturn]] void tell_shortfall(const Config& config, const Remedy& remedy,
                                  const Shortfall& shortfall);
 

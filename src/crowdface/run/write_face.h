@@ -9,11 +9,11 @@
 
 namespace crowdface {
 
-/// Writes one face by itself: the mesh, and beside it what a crowd's folder has beside it, textures and
-/// materials of its own, and its attachments.
-/// \param textures   blends those, or null: it has none
+/// Writes one face by itself: the mesh and, next to it, the files that a crowd's folder would have:
+/// the face's own textures and materials, and its attachments.
+/// \param textures   blends the face's own textures; has none if faces have no own textures
 /// \param positions  #V by 3
-/// \throws CannotCreate, IoError
+/// \throws CannotCreate, IoError.
 void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file);
 
