@@ -25,13 +25,13 @@ namespace fs = std::filesystem;
 
 void remove_file(const fs::path& path) {
   std::error_code error;
-  fs::remove(path, error);  // a file that is not there is no error; a folder goes only if empty
+  fs::remove(path, error);  // a missing file is no error; only empty folders are removed
   if (error && error != std::errc::directory_not_empty) {
     throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
   }
 }
 
-/// Those that a crowd may have, parents first.
+/// The folders that a crowd may have, parents before their children.
 std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
   const fs::path data = directory.gallery() / "data";
   std::vector<fs::path> folders;
@@ -58,7 +58,7 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
           directory.rejected(), directory.planned(),  directory.stage()};
 }
 
-/// The names that the folder's ledgers have for files of items whose names begin so.
+/// Names of all files in the folder's ledgers whose items begin with `items`.
 std::set<std::string> recorded_files(const CrowdDirectory& directory, std::string_view items) {
   std::set<std::string> names;
   for (const fs::path& ledger : directory.ledgers()) {
@@ -69,7 +69,8 @@ std::set<std::string> recorded_files(const CrowdDirectory& directory, std::strin
   return names;
 }
 
-/// The files of faces: those in the ledgers, and those of the plan's faces that a killed run did not record.
+/// The files of faces: the recorded files, and files of the plan's faces that a killed run did not
+/// record.
 std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   const std::set<std::string> recorded = recorded_files(directory, "faces/");
   std::set<std::string> ids;
@@ -94,7 +95,7 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
              path.filename().string().ends_with(concat('+', kFollowingPoints));
     });
     for (fs::path& file : list_files(folder / kBlendedFolder, is_file)) {
-      files.push_back(std::move(file));  // nothing else lies there
+      files.push_back(std::move(file));  // this folder holds no other files
     }
   }
   for (const fs::path& folder : with_numbered_folders(directory.renders())) {
@@ -106,8 +107,8 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   return files;
 }
 
-/// What a crowd's run wrote, by name, and what its ledgers name and nobody has altered: other files in the folder are none
-/// of ours.
+/// Removes the files that a run over the crowd writes, identified by name, and the unaltered files
+/// that its ledgers list. Other files in the folder belong to the user.
 void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
@@ -133,8 +134,8 @@ void remove_crowd(const CrowdDirectory& directory) {
   remove_file(directory.config());
 }
 
-/// \throws CannotCreate if something stands in the way of a folder or file of the crowd. It looks at each once: another
-/// run may remove its lock between two looks.
+/// Checks each path only once, because another run may remove its lock between two checks.
+/// \throws CannotCreate if an obstacle is in the place of one of the crowd's folders or files.
 void refuse_obstacles(const CrowdDirectory& directory) {
   const auto stands_at = [](const fs::path& path) {
     std::error_code error;
@@ -163,7 +164,8 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a folder that has no config has files that a crowd of ours would replace. A crowd that only lost its config is known by its ledger.
+/// Whether a folder without a config has files that a crowd would overwrite. A ledger identifies a
+/// crowd that lost only its config.
 bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
   if (is_there(directory.config())) return false;
   const std::string name = directory.relative(directory.config());
@@ -176,12 +178,12 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
                          std::ranges::any_of(crowd_folders(directory), [](const fs::path& folder) {
                            return !list_folder(folder).empty();
                          });
-  // Another shard may have begun meanwhile: the config is the first that it writes.
+  // Another shard may have begun in the meantime; it writes its config first.
   return holds_any && !is_there(directory.config());
 }
 
-/// Nothing that a run writes, appends to or removes is reached by a link that leads elsewhere.
-/// \throws CannotCreate if it would be.
+/// Refuses links that would lead a run to write, append or remove outside the crowd's folder.
+/// \throws CannotCreate if there is such a link.
 void refuse_links(const CrowdDirectory& directory) {
   for (const fs::path& folder : crowd_folders(directory))
     refuse_folder_elsewhere(directory, folder);
@@ -197,7 +199,7 @@ void refuse_links(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a file in the folder of contact sheets is one that we write, by its name alone.
+/// Whether the name of a file in the sheets folder is one that crowdface writes.
 bool is_numbered_sheet(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();
@@ -220,7 +222,7 @@ std::vector<fs::path> CrowdDirectory::ledgers() const {
 void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& folder) {
   std::error_code error;
   const fs::path root = fs::weakly_canonical(directory.root, error);
-  if (error) return;  // not there, and cannot be made: told elsewhere
+  if (error) return;  // the folder neither exists nor can be created; other code reports this
   const fs::path real = fs::weakly_canonical(folder, error);
   if (error) {
     throw CannotCreate(concat(folder.string(), ": cannot be reached: ", error.message()));
@@ -328,7 +330,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
   }
   fs::path existing = fs::absolute(directory.root);
   std::error_code error;
-  if (!fs::status_known(fs::status(existing, error))) {  // too long, or links in a circle
+  if (!fs::status_known(fs::status(existing, error))) {  // name too long, or a cycle of links
     throw CannotCreate(concat(directory.root.string(), ": cannot be made: ", error.message()));
   }
   while (!is_there(existing) && existing.has_relative_path()) {

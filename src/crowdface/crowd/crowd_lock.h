@@ -10,16 +10,18 @@
 
 namespace crowdface {
 
-/// The right to write into a crowd's folder, for as long as it lives. A run over the whole crowd has
-/// it alone; shards have it together, but each shard once.
+/// Holds the write lock of a crowd's folder during its lifetime. A run over the whole crowd holds
+/// the lock exclusively; different shards share the lock, but two runs of the same shard exclude
+/// each other.
 class CrowdLock {
  public:
-  /// Creates the folder if need be and waits for its turn, saying so. Then removes what killed runs
-  /// left half written. \throws CannotCreate, IoError, Interrupted.
+  /// Creates the folder if necessary, waits for the lock and reports the wait. Then removes files
+  /// that killed runs left half written.
+  /// \throws CannotCreate, IoError, Interrupted.
   CrowdLock(const CrowdDirectory& directory, const Shard& shard);
 
-  /// To be asked before a run says that it is done. \throws IoError if the folder was removed or
-  /// replaced since.
+  /// Call this before a run reports success.
+  /// \throws IoError if the folder was removed or replaced since the lock was taken.
   void require_still_there() const { root_->require_same(); }
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that others are replacing or removing meanwhile may be gone: then it says nothing.
+/// Returns the content of a file, or an empty text if another process has just removed the file.
 std::string text_of(const fs::path& path) {
   try {
     return read_file(path);
@@ -28,14 +28,15 @@ std::string text_of(const fs::path& path) {
   }
 }
 
-/// What stands between `start` and the next quote, if the line begins with `start`.
+/// The text between `start` and the next quote if the line begins with `start`; otherwise empty.
 std::string_view quoted_after(std::string_view line, std::string_view start) {
   if (!line.starts_with(start)) return {};
   line.remove_prefix(start.size());
   return line.substr(0, line.find('"'));
 }
 
-/// Calls `use` with each line of a file that has its end; others may be replacing or removing the file.
+/// Calls `use` with each complete line of a file. Other processes may replace or remove the file
+/// meanwhile.
 template <class Use>
 void for_each_line_of(const fs::path& path, const Use& use) {
   try {
@@ -47,7 +48,8 @@ void for_each_line_of(const fs::path& path, const Use& use) {
   }
 }
 
-/// Faces that have a line in some ledger. Lines are not checked: whoever goes on or gathers does that.
+/// Ids of faces that have a line in any ledger. Does not check the lines; runs that continue or
+/// gather the crowd do.
 std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory) {
   std::unordered_set<std::string> ids;
   for (const fs::path& path : directory.ledgers()) {
@@ -59,7 +61,7 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// How many shards the crowd was last shared among; 1 if it was not.
+/// Number of shards of the last submission; 1 if the crowd was not sharded.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.submitted() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {
@@ -76,7 +78,7 @@ std::uint64_t shard_count(const CrowdDirectory& directory) {
   return count;
 }
 
-/// Since any of the files was written.
+/// Seconds since the latest write to any of the files.
 std::optional<double> seconds_since(const std::vector<fs::path>& files) {
   std::optional<double> least;
   for (const fs::path& file : files) {
@@ -101,7 +103,7 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
   }
 }
 
-/// What a task says that died without a word to the folder, or before it got there.
+/// Adds the error from the log of a task that died without a report in the crowd's folder.
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
   const TaskEnd end = end_of_task(
       text_of(directory.submitted() / "log" / concat("blend-", status.shard.index, ".log")));
@@ -121,7 +123,7 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
   return status;
 }
 
-/// Once it is known how many of its faces are done.
+/// Completes the status once `done` is known.
 void finish(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.faces > 0 && status.done == status.faces) {
     status.state = ShardState::kDone;
@@ -151,7 +153,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
 
 TaskEnd end_of_task(std::string_view log) {
   TaskEnd end;
-  // A last line without its end is being written.
+  // An incomplete last line is still being written.
   for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
     if (line.starts_with("=== ended with code ")) {
       end.code = parse_unsigned(line.substr(line.rfind(' ') + 1));

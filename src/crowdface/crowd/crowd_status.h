@@ -17,35 +17,35 @@ struct ShardStatus {
   Shard shard;
   ShardState state = ShardState::kWaiting;
   std::uint64_t faces = 0;
-  std::uint64_t done = 0;                ///< by the lines of all ledgers
-  std::optional<double> faces_a_second;  ///< of its last run
-  std::optional<double> seconds_left;    ///< while it is at work and its pace is known
+  std::uint64_t done = 0;                ///< number of finished faces according to all ledgers
+  std::optional<double> faces_a_second;  ///< speed of the last run
+  std::optional<double> seconds_left;    ///< set while the shard is working and its speed is known
   std::optional<double>
-      silent_seconds;  ///< while it is at work: since it last wrote, by this clock
+      silent_seconds;  ///< set while working: time since its last write, by this clock
   std::string machine;
-  std::string reason;  ///< why its last run ended before it was done
+  std::string reason;  ///< why the last run ended early
 };
 
 struct CrowdStatus {
-  bool planned = false;                  ///< the plan is there
-  bool gathered = false;                 ///< the report is there: all is done
-  std::uint64_t faces = 0;               ///< in the plan
-  std::uint64_t done = 0;                ///< by the lines of all ledgers
-  std::vector<ShardStatus> shards;       ///< none: one run over all, or none yet
-  std::optional<double> faces_a_second;  ///< of all shards that are at work
-  std::optional<double> seconds_left;    ///< until the last of them is done
-  std::vector<std::string> failures;     ///< of tasks that are no shards, the last words of each
+  bool planned = false;             ///< whether the plan exists
+  bool gathered = false;            ///< whether the report exists, so that all work is done
+  std::uint64_t faces = 0;          ///< number of faces in the plan
+  std::uint64_t done = 0;           ///< number of finished faces according to all ledgers
+  std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
+  std::optional<double> faces_a_second;  ///< total speed of all working shards
+  std::optional<double> seconds_left;    ///< until the last working shard finishes
+  std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
 };
 
-/// What a task's log says of its last attempt.
+/// The end of the last attempt in a task's log.
 struct TaskEnd {
-  std::optional<std::uint64_t> code;  ///< none: it has not ended
-  std::string reason;                 ///< the last error it told of
+  std::optional<std::uint64_t> code;  ///< exit code; nothing if the task has not ended
+  std::string reason;                 ///< last error in the log
 };
 TaskEnd end_of_task(std::string_view log);
 
-/// Reads the folder and changes nothing; needs neither heads nor locks.
-/// \throws MissingInput if it is no crowd's folder; IoError.
+/// Reads the status from the folder and changes nothing. Needs neither the heads nor locks.
+/// \throws MissingInput if the folder is not a crowd's folder; IoError.
 CrowdStatus crowd_status(const std::filesystem::path& crowd_directory);
 
 }  // namespace crowdface

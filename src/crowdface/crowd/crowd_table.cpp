@@ -16,7 +16,7 @@ namespace {
 struct TableColumn {
   std::string name;
   std::function<std::string(const CastFace& face)> value;
-  /// A crowd has the column if it applies to a face; none: every crowd has it.
+  /// The table has the column if it applies to any face. Empty: the table always has the column.
   std::function<bool(const CastFace& face)> applies = {};
 };
 using TableColumns = std::vector<TableColumn>;
@@ -32,7 +32,7 @@ std::string csv_field(const std::string& text) {
   return out + '"';
 }
 
-/// "ann:0.4;bob:0.6".
+/// Formats weights as "ann:0.4;bob:0.6".
 std::string weights_text(const std::vector<SourceWeight>& weights, const PlanNames& names) {
   std::vector<std::string> parts;
   for (const SourceWeight& source : weights) {
@@ -41,7 +41,7 @@ std::string weights_text(const std::vector<SourceWeight>& weights, const PlanNam
   return join(parts, ";");
 }
 
-/// The columns of a region's band; empty where the face has no such band.
+/// Adds the columns of one band of a region; their fields are empty for faces without this band.
 void add_band(const std::string& start, std::size_t region, std::size_t band,
               const PlanNames& names, TableColumns& columns) {
   const auto add = [&](const char* name, const auto& value) {
@@ -63,7 +63,8 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
   add("extrapolation", [](const BandRecipe& own) { return format_number(own.extrapolation); });
 }
 
-/// A new column is a row here. \param names  must outlive the columns.
+/// To add a column, add a row here.
+/// \param names  must outlive the columns.
 TableColumns table_columns(const PlanNames& names) {
   using Face = const CastFace&;
   const auto is_mirrored = [](Face face) { return !is_unmirrored(face.recipe); };

@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line a face. The table follows from the plan
-/// alone, so every run over a whole crowd writes it. Both must outlive the text.
+/// The text of crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line for each
+/// face. The table depends on the plan only, so every run over a whole crowd writes it. Both
+/// arguments must outlive the text.
 TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names);
 
 }  // namespace crowdface

@@ -26,7 +26,7 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   return json;
 }
 
-/// The values of the first band, and the others by their names.
+/// The values of the first band directly, and those of the other bands under their names.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
   for (std::size_t b = 1; b < band_count(region); ++b) {
@@ -35,7 +35,7 @@ Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   return json;
 }
 
-/// From whom a region is, or each of its bands.
+/// The parent from whom the face inherits a region, or the parent of each band.
 Json inherits_to_json(const std::vector<std::string>& inherits, std::size_t region,
                       const PlanNames& names) {
   if (names.bands.empty()) return inherits[region];

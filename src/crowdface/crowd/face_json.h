@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// A line of the plan as a value.
+/// One line of the plan as a JSON value.
 nlohmann::ordered_json face_to_json(const CastFace& face, const PlanNames& names,
                                     const Digest& settings);
 

@@ -10,9 +10,10 @@
 
 namespace crowdface {
 
-/// Reads the vertex positions of a face from the first of the crowd's mesh formats that can be read back.
-/// \throws MissingInput if there is no such format or the file is not there; InvalidInput if it is not
-///         one of this crowd.
+/// Reads the vertex positions of a face from the first of the crowd's mesh formats that crowdface
+/// can read.
+/// \throws MissingInput if there is no such format or the file does not exist; InvalidInput if the
+///         file does not belong to this crowd.
 Positions read_face(const CrowdDirectory& directory, const std::string& id,
                     const std::vector<MeshFormat>& formats, Index vertices);
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The last line of a finished crowd: its key is all the others.
+/// Item of the last line in a finished crowd's ledger; its key is the hash of all other lines.
 constexpr const char* kEndItem = "end";
 constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
 
@@ -35,7 +35,7 @@ std::optional<Digest> digest_at(const Json& json, const char* key) {
   return text ? parse_digest(*text) : std::nullopt;
 }
 
-/// How many files stand in each folder of the crowd; "." are those in none.
+/// Number of files in each top-level folder of the crowd; "." counts the files outside all folders.
 using FileCounts = std::map<std::string, std::size_t>;
 
 void add_counts(const LedgerEntry& entry, FileCounts& counts) {
@@ -45,7 +45,7 @@ void add_counts(const LedgerEntry& entry, FileCounts& counts) {
   }
 }
 
-/// The same as JSON.
+/// The counts of files as JSON.
 std::string count_files(const std::vector<LedgerEntry>& entries) {
   FileCounts counts;
   for (const LedgerEntry& entry : entries) add_counts(entry, counts);
@@ -56,11 +56,12 @@ std::string line_with_end(const LedgerEntry& entry) {
   return format_ledger_line(entry) + '\n';
 }
 
-/// Takes a ledger line by line.
+/// Reads a ledger line by line.
 class LedgerReader {
  public:
   void read(std::string_view line, bool ended) {
-    // A line without its end was being written when the run died, even if all else is there.
+    // A line without a line end was being written when the run died; do not trust it, even if it
+    // looks complete.
     std::optional<LedgerEntry> entry;
     if (ended) entry = parse_ledger_line(line);
     if (entry && entry->item == kEndItem) {
@@ -77,7 +78,7 @@ class LedgerReader {
   LedgerLines lines;
 
  private:
-  Hasher before_;  ///< of the lines so far
+  Hasher before_;  ///< hash of the lines so far
 };
 
 }  // namespace
@@ -144,7 +145,7 @@ LedgerLines parse_ledger(std::string_view text) {
 LedgerLines read_ledger(const fs::path& path, std::string_view item) {
   if (!is_there(path)) return {};
   std::string start = item.empty() ? "" : concat(R"({"item":)", Json(item).dump());
-  if (!start.empty()) start.pop_back();  // the quote behind the name
+  if (!start.empty()) start.pop_back();  // drop the quote after the name
   LedgerReader reader;
   read_lines(path, [&](std::string_view line, bool ended) {
     if (line.starts_with(start)) reader.read(line, ended);
@@ -160,7 +161,7 @@ void remove_recorded(const fs::path& root, const LedgerEntry::File& file) {
   if (error) throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
   do {
     path = path.parent_path();
-  } while (path != root && fs::remove(path, error));  // only empty folders go
+  } while (path != root && fs::remove(path, error));  // removes only empty folders
 }
 
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
@@ -251,7 +252,8 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
   std::vector<LedgerEntry::File> files;
   try {
     for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
-  } catch (const MissingInput& error) {  // no input of a user's, but written just now
+    // This run has just written the file, so a missing file is not the user's error.
+  } catch (const MissingInput& error) {
     throw IoError(error.what());
   }
   return files;
@@ -294,7 +296,8 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
   const auto known = items_.find(item);
   adopt_entry(known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
               files_now(names));
-  // Of several lines the last that the files elsewhere agree with, else the last.
+  // If an item has several lines, take the last one that agrees with the files elsewhere, or else
+  // the last one.
   const auto line_of = [&](const std::vector<LedgerEntry>& lines) {
     if (lines.size() == 1) return lines.back();
     const auto agreed = std::find_if(lines.rbegin(), lines.rend(), [&](const LedgerEntry& line) {

@@ -19,95 +19,102 @@
 
 namespace crowdface {
 
-/// One thing that is done: all its files were written, and on the disk, before its line was.
+/// One finished item. All its files are written and synced to disk before the ledger gets its line.
 struct LedgerEntry {
   struct File {
-    std::string name;  ///< relative to the crowd's folder, '/' between its parts
+    std::string name;  ///< path relative to the crowd's folder, with '/' separators
     FileDigest content;
     bool operator==(const File&) const = default;
   };
-  std::string item;         ///< "faces/market_0001", "report.json"
-  Digest key;               ///< of everything that determines the files
+  std::string item;         ///< such as "faces/market_0001" or "report.json"
+  Digest key;               ///< hash of everything that determines the files
   std::vector<File> files;  ///< may be empty
   std::string note;         ///< JSON that a later run needs, or empty
 };
 
-/// {"file": …, "bytes": …, "hash": …}
+/// Formats a file as {"file": …, "bytes": …, "hash": …}.
 nlohmann::ordered_json file_to_json(const LedgerEntry::File& file);
-/// \return nothing if it is no such list.
+/// \return nothing if `list` is not a list of files.
 std::optional<std::vector<LedgerEntry::File>> files_from_json(const nlohmann::ordered_json& list);
 
-/// One line, without line end, and its checksum (docs/crowd-directory.md).
+/// One line with its checksum, without a line end (docs/crowd-directory.md).
 std::string format_ledger_line(const LedgerEntry& entry);
-/// \return nothing if the line is cut, altered or no such line.
+/// \return nothing if the line is truncated, altered or not a ledger line.
 std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 
-/// A ledger's whole lines, in their order.
+/// The valid lines of a ledger, in their order.
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
-  std::size_t damaged = 0;  ///< lines that are not whole
-  /// A run came to its end, and all lines that it left are there, with as many files of each kind as
-  /// it counted.
+  std::size_t damaged = 0;  ///< number of invalid lines
+  /// Whether a run finished, and all its lines exist and list as many files of each kind as the run
+  /// counted.
   bool complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
-/// \param item  what the items begin with whose lines are read; empty: all.
-/// \return no lines if there is no such file. \throws IoError.
+/// \param item  reads only items whose names start with this text; empty: all items.
+/// \return no lines if the file does not exist.
+/// \throws IoError.
 LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item = {});
 
-/// Whether all files of an entry stand in the folder as they were written.
+/// Whether all files of an entry exist in the folder with the recorded content.
 bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
 
-/// Removes a file of a crowd that still has the bytes that were recorded, and folders that are empty then. Others, and
-/// what lies outside the crowd's folder, stay. \throws IoError.
+/// Removes a file of a crowd if its content is still as recorded, and then its parent folders that
+/// are empty. Keeps altered files and files outside the crowd's folder.
+/// \throws IoError.
 void remove_recorded(const std::filesystem::path& root, const LedgerEntry::File& file);
 
-/// What is done in a crowd's folder, so that another run can go on. Lines are appended while the
-/// run lasts; in the end the ledger is put in order, and then the same crowd has the same ledger.
-/// Any thread may ask and record.
+/// Records finished work in a crowd's folder, so that another run can continue. A run appends lines
+/// to the ledger; at the end it sorts the ledger, so that equal crowds have equal ledgers. Any
+/// thread may query and record.
 class Ledger {
  public:
-  /// Reads all ledgers of the folder. Lines that are not whole are dropped with a warning: what they
-  /// stood for counts as not done.
-  /// \param own     the ledger to append to, made if it is not there.
-  /// \param others  those of other runs, only read. No line outdoes another: which of them is newer
-  ///                cannot be told, and any may prove what it stands for.
+  /// Reads all ledgers of the folder. Drops damaged lines with a warning; their items count as
+  /// unfinished.
+  /// \param own     the ledger to append to; created if it does not exist.
+  /// \param others  ledgers of other runs, which are only read. If several ledgers list an item, no
+  ///         line takes precedence, because their order in time is unknown; any of the lines may
+  ///         prove that the item is finished.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 
-  /// An entry of the item that has this key and whose files match: nothing needs to be done.
+  /// Returns an entry of the item that has this key and whose files match. With such an entry the
+  /// item is finished.
   std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
 
-  /// Appends a line for each. Their files must have been written by `write_file` or `write_files`. \throws IoError.
+  /// Appends one line for each entry. `write_file` or `write_files` must have written the files.
+  /// \throws IoError.
   void record_all(std::vector<LedgerEntry> entries);
   void record(LedgerEntry entry);
-  /// The same for files whose hashes are not known yet. \param names  relative to the folder.
+  /// Computes the hashes of the files, then records them.
+  /// \param names  paths relative to the folder.
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 
-  /// Writes a file determined by nothing but its bytes, unless it is there, and records it.
+  /// Writes a file that depends on nothing but its content, unless the file exists with this
+  /// content, and records it.
   FileDigest write(const std::string& name, const TextPieces& text);
   FileDigest write(const std::string& name, std::string_view bytes);
-  /// Records a file determined by nothing but its bytes that is there as it should be.
+  /// Records an existing, correct file that depends on nothing but its content.
   void keep(const LedgerEntry::File& file);
 
-  /// Takes over files that were made anew, maybe in another form than the config's. What has other
-  /// bytes now is recorded under another key, so that the next run makes it as the config says;
-  /// what is as it was keeps its line.
-  /// \param item, names  an item and the files that it has now
-  /// \param folders      files of other items are looked at if they lie in one of these
+  /// Takes over files that were made again, possibly in another format than the config's. Records
+  /// files whose content has changed under another key, so that the next run makes them again as
+  /// the config says; unchanged files keep their lines.
+  /// \param item, names  an item and its present files
+  /// \param folders      files of other items are checked if they are in one of these folders
   void adopt(const std::string& item, const std::vector<std::string>& names,
              const std::vector<std::string>& folders);
 
-  /// Puts the ledger in order: what this run found proven or recorded, sorted by item, and nothing
-  /// else; the other ledgers are removed, and the files that only older lines name.
+  /// Sorts the ledger by item and keeps only the entries that this run proved or recorded. Removes
+  /// the other ledgers, and the files that only outdated lines name.
   void settle();
 
-  /// To be asked before a run says that it is done. \throws IoError if a file that this run found
-  /// proven or recorded, or the ledger itself, is not there any more.
+  /// Call this before a run reports success.
+  /// \throws IoError if the ledger or a file that this run proved or recorded no longer exists.
   void require_files() const;
 
  private:
-  /// An item's lines as they were when this run began, or the one that it found proven or recorded.
+  /// The lines of an item when this run began, or the one line that this run proved or recorded.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool done = false;
@@ -122,8 +129,8 @@ class Ledger {
   std::filesystem::path root_, own_;
   std::vector<std::filesystem::path> others_;
   std::map<std::string, Item> items_;
-  std::vector<LedgerEntry::File> replaced_;  ///< of lines that others took the place of
-  bool grown_ = false;                       ///< whether lines were appended
+  std::vector<LedgerEntry::File> replaced_;  ///< files of lines that newer lines replaced
+  bool grown_ = false;                       ///< whether this run has appended lines
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;
 };

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Takes the file's values as they come; stops at the first that does not belong there.
+/// Processes the file's values one by one; stops at the first unexpected value.
 class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit LikenessReader(const std::vector<std::string>& ids) {
@@ -28,7 +28,7 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
 
   std::map<std::string, std::vector<double>> anchors;
   Likeness likeness;
-  std::size_t named = 0;  ///< faces whose neighbours stand there
+  std::size_t named = 0;  ///< number of faces whose neighbours are in the file
 
   bool start_object(std::size_t) override { return ++depth_ <= kDeepest; }
   bool start_array(std::size_t) override { return ++depth_ <= kDeepest; }
@@ -76,14 +76,14 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
 
   std::unordered_map<std::string, std::size_t> rows_;
   std::size_t depth_ = 0;
-  std::array<std::string, kDeepest> keys_;  ///< of the objects around a value
+  std::array<std::string, kDeepest> keys_;  ///< keys of the objects around the current value
 };
 
 }  // namespace
 
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points) {
-  constexpr std::size_t kNeighbours = 6;  // of each face: two rows on its page of the gallery
+  constexpr std::size_t kNeighbours = 6;  // for each face: two rows on its gallery page
   CrowdLikeness likeness{anchors, find_likeness(points, kNeighbours)};
   for (std::vector<Neighbour>& near : likeness.likeness.near) {
     for (Neighbour& other : near) other.mm = rounded(other.mm);

@@ -11,23 +11,26 @@
 
 namespace crowdface {
 
-/// What sheets and gallery show of a crowd beside its plan and its meshes.
+/// The data that the sheets and the gallery show in addition to the plan and the meshes.
 struct CrowdLikeness {
-  std::vector<PlanePoint> anchors;  ///< #heads, where they stand on the plane
+  std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the plane
   Likeness likeness;
 };
 
-/// Of a crowd that was just cast. Distances have four decimals, as in the file, so that pictures made
-/// from that are the same. \param points  #faces.
+/// Computes the data of a crowd that was just cast. Rounds distances to four decimals, as the file
+/// does, so that pictures made from the file are the same.
+/// \param points  #faces.
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points);
 
-/// likeness.json (docs/crowd-directory.md). All must outlive the text. \param ids  of the faces.
+/// The text of likeness.json (docs/crowd-directory.md). All arguments must outlive the text.
+/// \param ids  ids of the faces.
 TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
                          const std::vector<std::string>& ids);
 
-/// Reads it back. \param ids  of the plan, in its order.
-/// \throws MissingInput if it is not there, InvalidInput if it is of another crowd.
+/// Reads likeness.json.
+/// \param ids  ids of the plan's faces, in its order.
+/// \throws MissingInput if the file does not exist; InvalidInput if it belongs to another crowd.
 CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& names,
                             const std::vector<std::string>& ids);
 

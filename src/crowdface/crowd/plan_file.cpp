@@ -18,9 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kRounding = 1e-6;  ///< of shares written by hand
+constexpr double kRounding = 1e-6;  ///< tolerance for the sum of shares written by hand
 
-/// Reads the fields of one line and says where they are wrong.
+/// Reads the fields of one line and reports errors with their position.
 class LineReader {
  public:
   LineReader(const PlanNames& names, const std::string& place) : names_(names), place_(place) {}
@@ -89,7 +89,7 @@ class LineReader {
         concat(place_, ": ", field, ": expected ", expected, ", found ", found.substr(0, 80)));
   }
 
-  /// Null if there is none.
+  /// Returns null if the key does not exist.
   static const Json* found(const Json& json, const std::string& key) {
     const auto at = json.find(key);
     return at == json.end() ? nullptr : &*at;
@@ -107,7 +107,7 @@ class LineReader {
     return value.get<std::string>();
   }
 
-  /// Pictures and meshes are called by it.
+  /// Reads a name that becomes part of the names of pictures and meshes.
   std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
     std::string name = text(json, key);
     if (!is_name(name, longest)) {
@@ -167,7 +167,7 @@ class LineReader {
     return number(value, "position", -kMaxPlaneCoordinate, kMaxPlaneCoordinate);
   }
 
-  /// What a target or colours are mixed of.
+  /// Reads the heads and shares of a mixture, for a target or for colours.
   std::vector<SourceWeight> shares(const Json& json, const std::string& field) const {
     if (!json.is_object() || json.empty()) fail(field, "heads and their shares", json.dump());
     std::vector<SourceWeight> parts;
@@ -231,7 +231,7 @@ class LineReader {
     return result;
   }
 
-  /// No mesh depends on it, so lines that were written by hand may leave it out or get it wrong.
+  /// No mesh depends on this field, so lines written by hand may omit it or hold a wrong value.
   std::optional<Nearest> nearest(const Json& json) const {
     if (!json.is_object()) return std::nullopt;
     const std::string face = json.value("face", Json()).is_string() ? text(json, "face") : "";

@@ -13,24 +13,25 @@
 
 namespace crowdface {
 
-/// One line of plan.jsonl, without line end (docs/crowd-directory.md has the fields). Numbers have
-/// full precision, distances four decimals.
+/// One line of plan.jsonl without a line end (docs/crowd-directory.md lists the fields). Numbers
+/// have full precision, distances four decimals.
 std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings);
 
-/// A face as read, with the hash of the settings it was cast under.
+/// A face read from a plan, and the hash of the settings under which it was cast.
 struct PlanLine {
   CastFace face;
   std::string settings;
 };
 
-/// Reads one line. \param place  "file:line", for messages.
-/// \throws InvalidInput naming the place, the field, what was expected and what was found.
+/// Reads one line.
+/// \param place  "file:line", for messages.
+/// \throws InvalidInput with the place, the field, the expected and the actual value.
 PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place);
 
-/// All lines of a plan file.
+/// Reads all lines of a plan file.
 std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names);
 
-/// The lines of a plan. All must outlive the text.
+/// The text of a plan. All arguments must outlive the text.
 TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
                      const Digest& settings);
 

@@ -11,51 +11,51 @@
 
 namespace crowdface {
 
-/// A machine's part of a crowd: every `count`-th face, beginning with the `index`-th.
+/// One machine's part of a crowd: every `count`-th face, starting with face number `index`.
 struct Shard {
-  std::uint64_t index = 1;  ///< from 1
-  std::uint64_t count = 1;  ///< 1: the whole crowd
+  std::uint64_t index = 1;  ///< counted from 1
+  std::uint64_t count = 1;  ///< number of shards; 1: the shard is the whole crowd
 
   bool whole() const { return count == 1; }
-  /// Whether the face at this place of the plan, from 0, is this shard's.
+  /// Whether the shard owns the face at this position of the plan, counted from 0.
   bool owns(std::size_t face) const { return face % count == index - 1; }
-  /// "2of7", as in the names of its files.
+  /// Name such as "2of7", as in the shard's file names.
   std::string name() const;
 };
 
-/// "2/7"; nothing if it is no shard, or one of more than 9999.
+/// Parses text such as "2/7"; nothing if the text is not a shard or names more than 9999 shards.
 std::optional<Shard> parse_shard(std::string_view text);
-/// "2of7", likewise.
+/// Parses a name such as "2of7", with the same limits.
 std::optional<Shard> shard_of_name(std::string name);
 
-/// A shard's own file beside one of the crowd's, which it is if the shard is the whole crowd:
-/// "ledger-2of7.jsonl" beside "ledger.jsonl".
+/// The shard's version of a crowd's file: "ledger-2of7.jsonl" for "ledger.jsonl". Returns `path`
+/// itself if the shard is the whole crowd.
 std::filesystem::path of_shard(const std::filesystem::path& path, const Shard& shard);
-/// Those of all shards that are there, by name.
+/// The existing files of all shards that belong to `path`, sorted by name.
 std::vector<std::filesystem::path> of_all_shards(const std::filesystem::path& path);
 
 enum class ShardState {
-  kWaiting,      ///< no run of it has begun
-  kWorking,      ///< or killed without a word: how long it has been silent tells
-  kDone,         ///< all its faces are done
-  kInterrupted,  ///< ended by a signal; goes on when it is run again
+  kWaiting,      ///< no run has begun
+  kWorking,      ///< at work, or killed without notice; the time since its last write tells which
+  kDone,         ///< all faces of the shard are done
+  kInterrupted,  ///< stopped by a signal; the next run continues
   kFailed
 };
 std::string_view name_of(ShardState state);
 
-/// What a shard says of its last run, while it is at work and at its end.
+/// What a shard reports about its latest run, both during the run and at its end.
 struct ShardNotes {
   ShardState state = ShardState::kWorking;
-  std::uint64_t faces = 0;  ///< of the shard
-  std::uint64_t done = 0;   ///< of them
-  std::uint64_t made = 0;   ///< by this run, in so many seconds
+  std::uint64_t faces = 0;  ///< number of faces in the shard
+  std::uint64_t done = 0;   ///< number of finished faces in the shard
+  std::uint64_t made = 0;   ///< number of faces that this run has made in `seconds`
   double seconds = 0;
   std::string machine;
-  std::string reason;  ///< why it is interrupted or failed
+  std::string reason;  ///< why the run was interrupted or failed
 };
-/// One line of JSON, with its end.
+/// One line of JSON, with a line end.
 std::string format_shard_notes(const ShardNotes& notes);
-/// \return nothing if the text is none of ours.
+/// \return nothing if the text is not a shard's notes.
 std::optional<ShardNotes> parse_shard_notes(std::string_view text);
 
 }  // namespace crowdface

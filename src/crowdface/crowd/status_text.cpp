@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A shard that says nothing for longer may have been killed.
+/// A shard without any write for longer than this may have been killed.
 constexpr double kSilentSeconds = 60;
 
 std::string percent(std::uint64_t done, std::uint64_t faces) {
@@ -46,7 +46,7 @@ StatusRow row_of(const ShardStatus& shard) {
           remark};
 }
 
-/// Columns as wide as their widest.
+/// Pads each column to the width of its widest field.
 std::string aligned(const std::vector<StatusRow>& rows) {
   std::array<std::size_t, std::tuple_size_v<StatusRow>> widths = {};
   for (const StatusRow& row : rows) {
@@ -109,7 +109,7 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }
-  // As ASCII, lest what is not printable be escaped by other rules than JSON's.
+  // Writes ASCII only, so that JSON's rules alone decide how special characters are escaped.
   return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,9 +7,9 @@
 
 namespace crowdface {
 
-/// As a table for people.
+/// The status as a table for people.
 std::string format_status_table(const CrowdStatus& status);
-/// As one JSON object on one line.
+/// The status as one JSON object on one line.
 std::string format_status_json(const CrowdStatus& status);
 
 }  // namespace crowdface

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A line of each item in all ledgers of the folder: of several, one that the files agree with, else
-/// the last.
+/// One line for each item in the folder's ledgers. If an item has several lines, the last one that
+/// agrees with the files counts, or else the last one.
 std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
                                                 CrowdCheck& check) {
   std::map<std::string, std::vector<LedgerEntry>> all;

@@ -8,13 +8,14 @@
 
 namespace crowdface {
 
-/// A crowd's folder against its ledger. Empty lists: all is as it was written.
+/// Result of comparing a crowd's folder with its ledger. All lists are empty if the folder is as it
+/// was written.
 struct CrowdCheck {
-  std::size_t files = 0;                ///< that the ledger knows
-  std::vector<std::string> missing;     ///< files that are gone, relative to the folder
-  std::vector<std::string> altered;     ///< files with other bytes
-  std::vector<std::string> unfinished;  ///< what the plan names and no line of the ledger proves
-  std::vector<std::string> remarks;     ///< what is wrong with the ledger itself, or left over
+  std::size_t files = 0;                ///< number of files in the ledger
+  std::vector<std::string> missing;     ///< missing files, relative to the folder
+  std::vector<std::string> altered;     ///< files with other content
+  std::vector<std::string> unfinished;  ///< items of the plan that no ledger line proves
+  std::vector<std::string> remarks;     ///< problems of the ledger itself, and leftovers
 
   bool good() const {
     return missing.empty() && altered.empty() && unfinished.empty() && remarks.empty();
