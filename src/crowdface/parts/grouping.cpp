@@ -38,7 +38,8 @@ void GroupingTree::join_near(const Eigen::Vector3d& place, double reach, std::ui
 
 void GroupingTree::join_near(std::size_t n, const Eigen::Vector3d& place, double reach,
                              std::uint32_t component) {
-  // Computed as a point's distance is below, so that rounding cannot make a box the farther one.
+  // Uses the same arithmetic as the distance of a point below, so that rounding cannot put a box
+  // farther away than its points.
   if (boxes_[n].exteriorDistance(place) > reach) return;
   std::uint32_t& only = only_groups_[n];
   if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;
@@ -54,8 +55,8 @@ void GroupingTree::join_near(std::size_t n, const Eigen::Vector3d& place, double
   if (only == kNoIndex) only = only_group(n);
 }
 
-/// A component of the group that all points of a box belong to, as far as its children know;
-/// kNoIndex if there are several.
+/// A component of the group to which all points in a node belong, as far as its children know;
+/// kNoIndex if there are several groups.
 std::uint32_t GroupingTree::only_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {

@@ -13,19 +13,21 @@
 
 namespace crowdface {
 
-/// Points of components in a tree of boxes, to join components whose points lie near each other.
-/// A box all of whose points are of the asking group is not looked into: so the time grows little
-/// faster than the number of points, also where very many lie in one place.
+/// A bounding volume hierarchy of the points of components, for joining components with nearby
+/// points. A query skips each box whose points all belong to the group of the query, so that the
+/// time grows little faster than the number of points, even if many points coincide.
 class GroupingTree {
  public:
-  /// \param points      rows that are not named may hold anything; the others are finite.
-  /// \param rows        of the points in the tree, may be none.
-  /// \param components  #points: the component of each.
-  /// The points, components and groups must outlive the tree; groups may be joined elsewhere too.
+  /// The points, the components and the groups must outlive the tree. Other code may join groups,
+  /// too.
+  /// \param points      rows outside `rows` may hold anything; the others must be finite.
+  /// \param rows        rows of the points in the tree; may be empty.
+  /// \param components  #points: the component of each point.
   GroupingTree(const Positions& points, std::vector<std::uint32_t> rows,
                const std::vector<std::uint32_t>& components, Grouping& groups);
 
-  /// Joins a component with those of all points that are at most `reach` away from a place.
+  /// Joins `component` with the component of each point at a distance of at most `reach` from
+  /// `place`.
   void join_near(const Eigen::Vector3d& place, double reach, std::uint32_t component);
 
  private:
@@ -38,9 +40,10 @@ class GroupingTree {
   const std::vector<std::uint32_t>& components_;
   Grouping& groups_;
   MedianSplitTree tree_;
-  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of each node
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
   std::vector<std::uint32_t>
-      only_groups_;  ///< of each node a component of its only group; kNoIndex: several were seen
+      /// For each node, a component of its only group; kNoIndex: not known to have one group only.
+      only_groups_;
 };
 
 }  // namespace crowdface

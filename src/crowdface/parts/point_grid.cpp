@@ -18,7 +18,7 @@ PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> 
   Eigen::AlignedBox3d box;
   for (const std::uint32_t vertex : vertices) box.extend(positions.row(vertex).transpose());
   low_ = box.min();
-  // Points of a surface: about two to a cell that has any.
+  // The vertices lie on a surface, so about two of them fall into each cell that is not empty.
   const Eigen::Vector3d size = box.sizes();
   const double longest = std::max({size.x(), size.y(), size.z(), 1e-12});
   width_ = longest / std::max(1.0, std::sqrt(static_cast<double>(vertices.size()) / 8));
@@ -65,9 +65,9 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   best.distance = reach;
   if (!in_reach(point, reach)) return best;
   const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
-  // Shells of cells around the point's own; a cell of shell s is at least (s − 1) cells away from a
-  // point inside the grid, and no nearer to one outside.
-  const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {  // neighbouring cells
+  // Searches shells of cells around the point's cell. A cell of shell s is at least s − 1 cell
+  // widths away from a point, whether the point is inside or outside the grid.
+  const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {
     for (const std::uint32_t v : between(number_of({low_x, y, z}), number_of({high_x, y, z}))) {
       const double dx = positions_(v, 0) - point.x();
       const double dy = positions_(v, 1) - point.y();
@@ -78,7 +78,7 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
       }
     }
   };
-  // How far a layer of cells is, not more than it is by rounding.
+  // A lower bound of the distance to a layer of cells, safe against rounding.
   const auto gap_to = [&](Index axis, Index cell) {
     constexpr double kRounding = 1e-9;
     const double low = low_(axis) + static_cast<double>(cell) * width_;

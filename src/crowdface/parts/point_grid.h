@@ -11,23 +11,24 @@
 
 namespace crowdface {
 
-/// Some vertices of a mesh in a grid of cells, to be asked for the one nearest to a place.
+/// Some vertices of a mesh in a uniform grid, for nearest-vertex queries.
 class PointGrid {
  public:
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// False if a point is farther than `reach` from all of them for certain.
+  /// Returns false only if no vertex lies within `reach` of the point; may return true in that
+  /// case, too.
   bool in_reach(const Eigen::Vector3d& point, double reach) const;
 
   struct Nearest {
-    std::uint32_t vertex = kNoIndex;  ///< kNoIndex: none within the reach
+    std::uint32_t vertex = kNoIndex;  ///< kNoIndex: no vertex is in reach
     double distance = 0;
   };
-  /// The nearest vertex within `reach` of a point; of equals the first.
+  /// The nearest vertex within `reach` of a point; the lowest index if several are equally near.
   Nearest nearest(const Eigen::Vector3d& point, double reach = 1e300) const;
 
-  /// All vertices that may lie within `reach` of a point, some of them farther off.
+  /// All vertices within `reach` of a point, and possibly some vertices that are farther away.
   std::vector<std::uint32_t> about(const Eigen::Vector3d& point, double reach) const;
 
  private:
@@ -35,16 +36,16 @@ class PointGrid {
 
   Cell cell_of(const Eigen::Vector3d& point) const;
   std::size_t number_of(const Cell& cell) const;
-  /// The vertices of some cells in a row, first and last included.
+  /// The vertices in the consecutive cells `first` to `last`, both included.
   std::span<const std::uint32_t> between(std::size_t first, std::size_t last) const {
     return {by_cell_.of(first).data(), by_cell_.of(last).data() + by_cell_.of(last).size()};
   }
 
   const Positions& positions_;
   Eigen::Vector3d low_;
-  double width_ = 1;                ///< of a cell
-  Cell cells_ = {1, 1, 1};          ///< along x, y, z
-  Grouped<std::uint32_t> by_cell_;  ///< vertices, ascending in each cell
+  double width_ = 1;                ///< edge length of a cell
+  Cell cells_ = {1, 1, 1};          ///< number of cells along x, y, z
+  Grouped<std::uint32_t> by_cell_;  ///< vertices, ascending within each cell
 };
 
 }  // namespace crowdface

@@ -22,7 +22,7 @@ struct Lanes3 {
   Lanes x[3];
 };
 
-/// A corner of triangles from `begin` on.
+/// Corner `k` of the triangles from `begin` on.
 Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
                  const float* points) {
   const hn::RebindToSigned<decltype(kLanes)> integers;
@@ -37,7 +37,7 @@ Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
 
 void measure_boxes(const LeafCorners& corners, const float* points, float margin,
                    LeafBoxes& boxes) {
-  // More than what single precision takes off a coordinate or a margin.
+  // A bound for the rounding of coordinates and margins to single precision.
   const auto rounding = hn::Set(kLanes, 1e-6F), grown = hn::Set(kLanes, margin);
   for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
     const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
@@ -101,7 +101,8 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
   return all;
 }
 
-/// Bit 8 i + j: what `compare` says of i of one leaf and some j of another.
+/// Bit 8 i + j of the result is what `compare` returns for triangle i of one leaf and j of the
+/// other.
 template <class Compare>
 std::uint64_t compared(const Compare& compare) {
   std::uint64_t all = 0;
@@ -176,7 +177,8 @@ HWY_EXPORT(met_boxes);
 HWY_EXPORT(overlapping_boxes);
 
 BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
-  constexpr double kHuge = 1e300;  // so that a ray along a slab is never a number times infinity
+  // Large but finite, so that no product with a distance of zero becomes NaN.
+  constexpr double kHuge = 1e300;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto axis = static_cast<Index>(c);
     origin[c] = from[axis];
@@ -211,7 +213,7 @@ std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float lea
   return HWY_DYNAMIC_DISPATCH(alike_normals)(a, b, least);
 }
 
-/// Without branches, which no processor foresees here.
+/// Branch-free, because branch prediction fails here.
 bool overlap(const Box& a, const Box& b) {
   unsigned apart = 0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -11,38 +11,40 @@
 
 namespace crowdface {
 
-/// In single precision, and never smaller than in double.
+/// An axis-aligned box in single precision. It is rounded outwards, so that it contains the box in
+/// double precision.
 struct Box {
   std::array<float, 3> low, high;
 };
 
 bool overlap(const Box& a, const Box& b);
 
-/// Up to eight triangles that lie near each other, side by side for the processor; where there are fewer, the first
-/// stands again.
+/// Up to eight neighbouring triangles in a layout for SIMD instructions. If there are fewer, copies
+/// of the first triangle fill the rest.
 struct LeafCorners {
   static constexpr std::size_t kCount = 8;
   std::array<std::array<std::int32_t, kCount>, 3> vertex;
   std::size_t count;
 
-  /// \param numbers  of the triangles, one to kCount
+  /// \param numbers  indices of the triangles, one to kCount
   LeafCorners(std::span<const std::uint32_t> numbers, std::span<const Triangle> triangles);
 };
 
-/// Boxes of the triangles of a leaf; where there are fewer than eight, boxes that overlap nothing.
+/// Boxes of the triangles in a leaf. If there are fewer than eight triangles, the remaining boxes
+/// overlap nothing.
 struct LeafBoxes {
   static constexpr std::size_t kCount = LeafCorners::kCount;
   std::array<std::array<float, kCount>, 3> low, high;
 
   LeafBoxes() = default;
   /// \param points  #V by 3
-  /// \param margin  by which boxes are grown on all sides
+  /// \param margin  distance by which the boxes grow on all sides
   LeafBoxes(const LeafCorners& corners, const SingleRows& points, double margin);
-  /// Around all of them.
+  /// The box around all triangles of the leaf.
   Box whole() const;
 };
 
-/// Unit normals of the triangles of a leaf.
+/// Unit normals of the triangles in a leaf.
 struct LeafNormals {
   std::array<std::array<float, LeafCorners::kCount>, 3> along;
 
@@ -50,27 +52,29 @@ struct LeafNormals {
   LeafNormals(const LeafCorners& corners, const SingleRows& points);
 };
 
-/// A ray as boxes are asked about it.
+/// A ray prepared for intersection tests with boxes.
 struct BoxRay {
-  /// What rounding may take off a distance along it.
+  /// Upper bound of the relative rounding error of a distance along the ray.
   static constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
 
-  std::array<double, 3> origin, inverse;  ///< one through each coordinate of the direction
+  std::array<double, 3> origin, inverse;  ///< inverse: 1 / each coordinate of the direction
 
   BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction);
 };
 
-/// Whether the ray meets it; never without one that it passes through.
-/// Slabs, Kay & Kajiya 1986.
+/// Whether a ray hits a box, with the slab method of Kay & Kajiya 1986. Never misses a box that the
+/// ray crosses.
 bool meets(const BoxRay& ray, const Box& box);
-/// The same of the boxes of a leaf: bit i for box i. Those beyond its triangles may be met too.
+/// Tests a ray against all boxes of a leaf: bit i is set if the ray hits box i. Bits beyond the
+/// leaf's triangles are undefined.
 unsigned met(const BoxRay& ray, const LeafBoxes& boxes);
 
-/// Which boxes of two leaves overlap: bit 8 i + j for box i of the first and box j of the second.
+/// Pairs of overlapping boxes from two leaves: bit 8 i + j belongs to box i of `a` and box j of
+/// `b`.
 std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b);
-/// Which triangles of two leaves have a vertex in common, as bits like these.
+/// Pairs of triangles with a common vertex, in the same bits.
 std::uint64_t sharing_vertices(const LeafCorners& a, const LeafCorners& b);
-/// Which triangles of two leaves face alike: those whose normals' cosine is above `least`, as bits like these.
+/// Pairs of triangles whose normals enclose an angle with a cosine above `least`, in the same bits.
 std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least);
 
 }  // namespace crowdface

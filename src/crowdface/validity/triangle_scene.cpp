@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t kLeaf = TriangleTree::kLeaf;
 
-/// Whether a ray meets a triangle.
-/// Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
+/// Whether a ray hits a triangle.
+/// Source: Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
 bool meets_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                     const Positions& positions, const Triangle& triangle) {
   const Eigen::Vector3d a = row3(positions, triangle[0]);
@@ -62,7 +62,7 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   }
 }
 
-/// The pairs of children that have to be looked at in place of a pair that is not of two leaves.
+/// Replaces a pair of nodes that are not both leaves by the overlapping pairs of their children.
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {
   const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
   const auto add = [&](std::uint32_t first, std::uint32_t second) {
@@ -84,7 +84,7 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
 template <class Keep>
 void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                                    std::vector<TrianglePair>& found) const {
-  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;  // 8 i + j of j > i
+  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;  // the bits 8 i + j with j > i
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
   std::uint64_t left = overlapping(leaves_[one], leaves_[other]);
   if (one == other) left &= kLaterOnes;
@@ -184,7 +184,8 @@ std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
-  constexpr std::size_t kDeepest = 40;  // halves of fewer than 2³² triangles
+  // Enough for fewer than 2³² triangles, since each level halves their number.
+  constexpr std::size_t kDeepest = 40;
   std::array<std::uint32_t, kDeepest> waiting;
   std::size_t count = 0;
   waiting[count++] = 0;
@@ -193,7 +194,8 @@ std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::
     if (!meets(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
-      // First where the guess is: what is in the way there is often in the way here.
+      // Visit the child that holds the guess first: a triangle that blocked the previous ray often
+      // blocks this one too.
       const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second].begin;
       waiting[count++] = right_first ? n + 1 : node.second;
       waiting[count++] = right_first ? node.second : n + 1;

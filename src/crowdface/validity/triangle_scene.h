@@ -10,34 +10,36 @@
 
 namespace crowdface {
 
-/// Two triangles by their numbers, the smaller first.
+/// Indices of two triangles, the smaller first.
 using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Triangles of one mesh in a tree of boxes, to be asked which are near each other and what a ray meets. Boxes are in
-/// single precision and never smaller than in double; triangles are tested in double precision.
+/// The triangles of one mesh in a bounding volume hierarchy, for proximity and ray queries. Boxes
+/// have single precision and are rounded outwards, so that they contain the exact boxes; triangle
+/// tests use double precision.
 class TriangleScene {
  public:
-  /// \param triangles, tree, positions  must outlive the scene; the tree is of these triangles.
-  /// \param margin  by which boxes are grown on all sides.
+  /// \param triangles, tree, positions  must outlive the scene; the tree must hold these triangles.
+  /// \param margin  distance by which the boxes grow on all sides.
   TriangleScene(const std::vector<Triangle>& triangles, const TriangleTree& tree,
                 const Positions& positions, double margin);
 
-  /// Pairs without a common vertex whose boxes overlap, ascending. Triangles at a vertex of more than a
-  /// thousand are left out.
+  /// Pairs of triangles whose boxes overlap and that share no vertex, ascending. Omits triangles at
+  /// vertices with more than a thousand triangles, because the tree leaves them out.
   std::vector<TrianglePair> near_pairs() const;
 
-  /// Those of the near pairs that pass through each other; ascending.
+  /// The pairs from near_pairs() whose triangles intersect, ascending.
   std::vector<TrianglePair> crossing_pairs() const;
 
-  /// Leaves of the tree, from this one on, with triangles whose boxes may overlap some of its own; ascending.
+  /// Leaves with number `leaf` or higher that may hold triangles whose boxes overlap boxes of
+  /// `leaf`; ascending.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
-  /// A triangle other than the one it starts from that a ray meets, not the nearest, by its place in the tree's
-  /// order; kNoIndex if it meets none.
-  /// \param direction  of any length but zero
-  /// \param start      a triangle's number, or kNoIndex
-  /// \param guess      a place that is tried first, as what is in the way of one ray is in that of the next; or
-  ///                   kNoIndex
+  /// Any triangle that a ray hits, not necessarily the nearest, except `start`. Returns its
+  /// position in the tree's order, or kNoIndex if the ray hits nothing.
+  /// \param direction  of any length except zero
+  /// \param start      index of the triangle from which the ray starts, or kNoIndex
+  /// \param guess      position to test first, usually the result for the previous ray, because
+  ///         neighbouring rays often hit the same triangle; or kNoIndex
   std::uint32_t met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                        std::uint32_t start, std::uint32_t guess) const;
 
@@ -50,14 +52,15 @@ class TriangleScene {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  /// Pairs of nodes that together hold all pairs of leaves that may overlap.
+  /// Pairs of nodes that together contain all pairs of leaves that may overlap. Each pair is one
+  /// parallel task.
   std::vector<NodePair> first_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
   template <class Keep>
   std::vector<TrianglePair> pairs_with(const Keep& keep) const;
-  /// \param one, other  the same leaf, or the one that comes first in the tree first
-  /// \param keep        which of the pairs are wanted
+  /// \param one, other  leaf numbers, equal or in ascending order
+  /// \param keep        selects the pairs to return
   template <class Keep>
   void compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                       std::vector<TrianglePair>& found) const;
@@ -66,7 +69,7 @@ class TriangleScene {
   const TriangleTree& tree_;
   const Positions& positions_;
   std::vector<LeafBoxes> leaves_;
-  std::vector<Box> boxes_;  ///< of the nodes
+  std::vector<Box> boxes_;  ///< boxes of the nodes
 };
 
 }  // namespace crowdface
