@@ -23,7 +23,7 @@ YamlNode parsed(const std::string& text, const std::string& source) {
   return std::move(*root);
 }
 
-/// A value in one line.
+/// Writes a value on one line.
 std::string in_flow(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::kList) return flow_list(texts_of(node.items, in_flow));
   if (node.kind == YamlNode::Kind::kMap) {
@@ -34,7 +34,7 @@ std::string in_flow(const YamlNode& node) {
   return node.quoted ? write_scalar(node.text) : node.text;
 }
 
-/// A line for each section, and for each item of a list.
+/// Writes one line for each section and for each list item.
 std::string text_of(const YamlNode& edits) {
   std::string text = "# Written by crowdface edit; the config names this file as `edits`.\n";
   for (const auto& [key, place, value] : edits.entries) {
@@ -45,7 +45,7 @@ std::string text_of(const YamlNode& edits) {
   return text;
 }
 
-/// Saves sections, written as in a config.
+/// Saves sections, given as text in the format of a config.
 fs::path put_edit(const fs::path& config, const std::string& sections) {
   std::string config_text = read_file(config);
   const YamlNode root = parsed(config_text, config.string());
@@ -55,7 +55,7 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   const fs::path file = config.parent_path() / name;
 
   YamlNode edits;
-  // A file that the config does not name yet may hold what an editor saved that was killed.
+  // A file that the config does not name yet may contain the edits of an editor that was killed.
   if (named != nullptr || is_there(file)) edits = parsed(read_file(file), file.string());
   merge_edits(parsed(sections, "edits"), edits);
   const std::string text = text_of(edits);

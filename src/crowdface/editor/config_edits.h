@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the editor saves for a config: in the file that the config names as `edits`. A config that names
-// none gets one line more, which names `NAME_edits.yaml` beside it.
+// Edits of a config: what the editor saves, in the file that the config names as `edits`. If the
+// config names no such file, the editor adds a line to the config that names `NAME_edits.yaml` in
+// the same folder.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +12,16 @@
 
 namespace crowdface {
 
-/// Saves a recipe, in place of one with the same id. \return the file of the edits.
-/// \throws Error with every problem that the config would have; all files stay as they are then.
+/// Saves a recipe, in place of a recipe with the same id.
+/// \return the file of the edits.
+/// \throws Error with every problem that the new config would have; in this case no file changes.
 std::filesystem::path put_recipe(const HandRecipe& recipe, const Config& config);
 
-/// Saves regions, in place of those of the config. \param config  its file. \return the file of the edits.
-/// \throws Error as above: other parts of the config may name a region that is gone.
+/// Saves regions, in place of the config's regions.
+/// \param config  file of the config.
+/// \return the file of the edits.
+/// \throws Error as put_recipe does, for example if another part of the config names a region that
+///         the new regions lack.
 std::filesystem::path put_regions(const std::filesystem::path& config,
                                   const std::vector<std::string>& names,
                                   const std::vector<std::filesystem::path>& masks);

@@ -17,7 +17,7 @@ double between(double a, double b, double share) {
   return a + share * (b - a);
 }
 
-/// \param sources  of the band
+/// \param sources  sources of the band
 BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index target,
                    const std::vector<Index>& sources, const Casting& casting) {
   BandRecipe band;

@@ -11,20 +11,21 @@
 
 namespace crowdface {
 
-/// Faces to choose from.
+/// A request to draw faces for the user to choose from.
 struct DrawRequest {
   CastFace from;  ///< gives the id, and all that is locked
   std::vector<std::size_t>
-      locked;                    ///< parts that stay, as in reviews; with any the target stays too
-  std::optional<CastFace> like;  ///< draw around this face
-  double amount = 1;      ///< with `like`: how far, 0 … 1, towards a face that is drawn freely
-  std::size_t count = 1;  ///< how many
-  std::uint32_t first_attempt = 0;  ///< another number, other faces
+      locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
+  std::optional<CastFace> like;  ///< draw variations of this face
+  double amount = 1;  ///< how far variations move from `like` towards a freely drawn face, 0 to 1
+  std::size_t count = 1;            ///< number of faces to draw
+  std::uint32_t first_attempt = 0;  ///< draws differ if this number differs
 };
 
-/// Draws faces that keep the limits of the config, the distance from the crowd among them.
-/// \return fewer than asked for if they are hard to find.
-/// \throws Unsatisfiable if none was found.
+/// Draws faces that keep the limits of the config. Without `like`, the faces also keep the minimum
+/// distance from the crowd.
+/// \return fewer faces than requested if too many attempts violate the limits.
+/// \throws Unsatisfiable if all attempts violate the limits.
 std::vector<CastFace> draw_faces(const Casting& casting, const FaceJudge& judge,
                                  const FacePointIndex& crowd, const DrawRequest& request);
 

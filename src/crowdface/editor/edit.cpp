@@ -22,23 +22,27 @@ namespace {
   std::string where = "it has not said yet at which address";
   try {
     where = read_file(address);
-  } catch (const RecoverableError&) {  // it is another user's, or has just begun
+    // The address belongs to another user, or the other editor has just started.
+  } catch (const RecoverableError&) {
   }
   throw UsageError(concat(folder.parent_path().string(), ": is edited already: ", where));
 }
 
-/// The right to be the one editor of a crowd, for as long as it lives; on all machines that share the
-/// file system, and free again when its process is killed.
+/// The exclusive right to edit a crowd, during the lifetime of this object. Applies to all machines
+/// that share the file system, and ends when the process is killed.
 class EditorLock {
  public:
-  /// \param folder  is there; takes the lock and, readable by its owner alone, the address.
-  /// \throws UsageError, with the other's address, if there is another editor.
+  /// Takes the lock.
+  /// \param folder  must exist; receives the lock file, and the file with the editor's address,
+  ///         which only its owner can read.
+  /// \throws UsageError with the address of the other editor if there is one.
   explicit EditorLock(const std::filesystem::path& folder)
       : address_(folder / ".address"),
         lock_(folder / ".editor.lock", LockKind::kExclusive, [&] { refuse(folder, address_); }) {}
   ~EditorLock() { remove_if_there(address_); }
 
-  /// For others to be told. \throws CannotCreate
+  /// Writes the address for other editors to report.
+  /// \throws CannotCreate
   void tell(const std::string& address) {
     remove_if_there(address_);
     constexpr mode_t kOwnerOnly = 0600;
@@ -54,7 +58,7 @@ class EditorLock {
   FileLock lock_;
 };
 
-/// The command that makes the faces of the job as it was opened.
+/// The command line that makes the faces of the job as it was when opened.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
                                             const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",
@@ -71,7 +75,7 @@ std::vector<std::string> generate_arguments(const Config& config, const ConfigOv
   return arguments;
 }
 
-/// A job as it stood when it was opened, and what answers for it.
+/// A job as it was when opened, with the objects that answer requests about it.
 struct OpenedJob {
   OpenedJob(Job job, const EditOptions& options, EditedFolder& folder, GenerateRun& run,
             bool may_edit_config, std::function<void()> open_again)

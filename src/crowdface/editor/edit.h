@@ -13,23 +13,23 @@
 namespace crowdface {
 
 struct EditOptions {
-  CacheFolder cache;  ///< of prepared heads
-  int port = 0;       ///< 0: any that is free
+  CacheFolder cache;  ///< folder of prepared heads
+  int port = 0;       ///< 0: any free port
   std::size_t preview_vertices = 50'000;
   std::vector<std::string> generate_arguments =
-      {};  ///< further ones of the run that makes the crowd
+      {};  ///< additional arguments for `crowdface generate`
 };
 
-/// Serves the editor of a crowd until a signal asks to end.
+/// Runs the editor's server for a crowd until a signal stops the process.
 /// \param given    a config, or the folder of a crowd
-/// \param started  is given the address once the page can be opened
+/// \param started  receives the editor's address once the page can be opened
 /// \throws Error
 void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
-/// Serves nothing and writes nothing: how long an editor of that job takes for what a page asks when the
-/// mouse is let go, the full face after a controller, the smoothness or the target has changed, as a table
-/// beside the paper's frame.
+/// Measures how long the editor takes to rebuild a complete face after the user has moved a
+/// controller, changed the smoothness or changed the target. Starts no server and writes no files.
+/// Returns a table that includes the frame time of the paper.
 std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
                            const EditOptions& options);
 

@@ -120,7 +120,7 @@ std::vector<std::size_t> EditApi::parts_in(const Json& body, const std::string& 
 
 HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   constexpr double kMostFaces = 64;
-  constexpr std::uint32_t kAttempts = 4096;  // more than one request takes
+  constexpr std::uint32_t kAttempts = 4096;  // more than one request needs
   const Json body = body_of(request);
   DrawRequest draw{face_of(body), parts_in(body, "locked"), std::nullopt};
   if (body.contains("like") && !body["like"].is_null()) draw.like = face_of(body, "like");

@@ -23,40 +23,43 @@
 
 namespace crowdface {
 
-/// What the editor's page asks for, answered (docs/editor.md).
+/// Answers the requests of the editor's page (docs/editor.md).
 class EditApi {
  public:
   /// \param session, folder, run  must outlive this object
-  /// \param may_edit_config  whether recipes and regions may be put into the job's config: it is the
-  ///                         user's own
-  /// \param open_again  opens config and crowd as they stand now; from then on another object answers
+  /// \param may_edit_config  whether recipes and regions may be saved to the job's config, which is
+  ///         so if the config is the user's own file
+  /// \param open_again  loads the config and the crowd again; afterwards another object answers
+  ///         requests
   EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
           std::function<void()> open_again);
 
-  /// Never throws for what a request holds: mistakes are answers, {"error": sentence}.
+  /// Never throws because of the content of a request: the answer to a faulty request is {"error":
+  /// sentence}.
   HttpAnswer answer(const HttpRequest& request);
 
  private:
   using Json = nlohmann::ordered_json;
-  /// \param rest  what follows the route's address, if that ends in '/'.
+  /// \param rest  the address after the route, if the route ends in '/'
   using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
-  // About the job and its faces.
+  // Requests about the job and its faces.
   Handler job, mesh, head, attachment, face, measures, draw;
-  // What is kept or written.
+  // Requests that save or write files.
   Handler state, keep_state, save, picture, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
-  // What is painted.
+  // Requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
-  /// Where masks can be written beside those that the config names.
+  /// A path for new masks, next to the masks that the config names.
   std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;
   void require_own_config() const;
   void require_no_run();
 
-  // What a request's body holds. \throws UsageError with the key's name.
+  // Readers for the body of a request.
+  // \throws UsageError with the key's name.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   CastFace face_of(const Json& body, const std::string& key = "recipe") const;
   Json told(const FaceMeasures& measures) const;
@@ -71,11 +74,12 @@ class EditApi {
   PageFiles page_;
   EditPictures pictures_;
   EditWorn worn_;
-  RegionPainting painting_;               ///< under `building_`
-  std::mutex building_;                   ///< one face at a time, by all cores
-  std::atomic<std::uint32_t> draws_ = 0;  ///< attempts so far, so that each draw is another
+  RegionPainting painting_;  ///< guarded by `building_`
+  std::mutex building_;      ///< builds one face at a time, because each build uses all cores
+  /// Attempts so far, so that each draw differs from the previous draws.
+  std::atomic<std::uint32_t> draws_ = 0;
   std::mutex turns_mutex_;
-  std::map<std::string, std::uint64_t> turns_;  ///< the newest of each page
+  std::map<std::string, std::uint64_t> turns_;  ///< newest turn of each page
 };
 
 }  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the editor's page asks to be kept or written, and masks that are painted there.
+// Requests of the editor's page that save or write files, and requests that paint masks.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// \throws UsageError if the text is none of the words.
+/// \throws UsageError if the text is not one of the words of `Value`.
 template <class Value>
 Value word_in(const Json& body, const std::string& key) {
   const std::string text = text_in(body, key);
@@ -31,7 +31,7 @@ Value word_in(const Json& body, const std::string& key) {
   throw UsageError(concat(key, ": expected ", join(known, " or "), ", found ", quoted(text)));
 }
 
-/// A view's name, or the standard view that is nearest to {yaw, pitch} in degrees.
+/// Reads a view's name, or returns the standard view nearest to {yaw, pitch} in degrees.
 View view_in(const Json& body) {
   if (!body.contains("view")) return View::kFront;
   if (!body["view"].is_object()) return word_in<View>(body, "view");

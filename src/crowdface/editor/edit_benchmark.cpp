@@ -25,7 +25,7 @@ void move(const Casting& casting, Recipe& recipe, std::size_t region, double sha
                  casting.sampling.max_sources);
 }
 
-/// The median of some repetitions, in milliseconds.
+/// The median time of several repetitions, in milliseconds.
 double median_ms(const EditSession& session, Recipe recipe, const Change& change) {
   constexpr int kRepetitions = 21;
   std::vector<double> times;

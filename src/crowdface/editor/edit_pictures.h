@@ -12,15 +12,16 @@
 
 namespace crowdface {
 
-/// Pictures for the editor's page. What they need is made when it is first asked for. Any thread may ask.
+/// Pictures for the editor's page. Prepares its resources at the first request. Thread-safe.
 class EditPictures {
  public:
   /// \param job  must outlive this object.
   explicit EditPictures(const Job& job) : job_(job) {}
 
-  /// The head from the front, as a PNG file.
+  /// A PNG file that shows a head from the front.
   std::string thumbnail(Index head);
-  /// A face as contact sheets show it, as a PNG file. \param size  pixels a side.
+  /// A PNG file that shows a face as contact sheets do.
+  /// \param size  width and height in pixels.
   std::string picture(const Recipe& recipe, const Positions& positions, View view, int size);
   const FaceTextures& textures();
 

@@ -28,8 +28,9 @@ std::string sentence(Reason reason, const Config& config) {
   return describe_broken(reason, config.diversity, config.believability);
 }
 
-/// The faces in the job's output folder, if it holds a plan that was cast of these heads, masks and
-/// smoothing settings; nothing if there is none, or a warning if it is another's.
+/// The faces in the job's output folder if the folder holds a plan with the same heads, masks and
+/// smoothing settings. Returns nothing without a plan; warns and returns nothing if the plan does
+/// not match.
 std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
   const CrowdDirectory directory = directory_of(job.config);
   if (!is_there(directory.plan())) return std::nullopt;

@@ -24,25 +24,27 @@
 
 namespace crowdface {
 
-/// \param given  a config, or a crowd's folder: the config in it, whose faces go there.
+/// \param given  a config, or a crowd's folder. For a folder the function loads the config in it,
+///         and the job's output goes to this folder.
 Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
                     const CacheFolder& cache);
 
-/// What an editor says about a face beside its shape.
+/// What the editor reports about a face in addition to its shape.
 struct FaceMeasures {
-  Index head = 0;  ///< the input head nearest to it
+  Index head = 0;  ///< the nearest input head
   double head_mm = 0;
-  std::optional<std::size_t> face;  ///< the nearest of the crowd, itself left out
+  std::optional<std::size_t> face;  ///< the nearest other face of the crowd
   double face_mm = 0;
-  std::vector<std::string> warnings;  ///< limits of the config that it goes beyond, a sentence each
+  /// One sentence for each limit of the config that the face violates.
+  std::vector<std::string> warnings;
 };
 
-/// A job that is edited by hand: heads ready to be blended, the crowd that there is, and what the page
-/// shows of both. All may be asked from several threads at once.
+/// A job that the user edits by hand: heads ready for blending, the existing crowd, and the data
+/// that the page shows of both. Its const members are thread-safe.
 class EditSession {
  public:
   /// \param cache             the folder of prepared heads
-  /// \param preview_vertices  about how many the page shows at most
+  /// \param preview_vertices  approximate upper limit for the vertices of the preview
   EditSession(Job job, const CacheFolder& cache, std::size_t preview_vertices);
   EditSession(const EditSession&) = delete;
   EditSession& operator=(const EditSession&) = delete;
@@ -51,37 +53,40 @@ class EditSession {
   const Casting& casting() const { return casting_; }
   const std::vector<CastFace>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   const PreviewMesh& preview() const { return preview_; }
-  /// The heads' textures as the preview's coordinates show them.
+  /// The heads' textures, in the layout of the preview's texture coordinates.
   const TextureAtlas& textures() const { return textures_; }
 
-  /// What the page has to know before anything else.
+  /// The data that the page needs before all else.
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
   std::string mesh() const;
-  /// The positions of a head at the preview's vertices, its fields and their functions, likewise.
+  /// Positions of a head at the preview's vertices, its fields and their functions, as a
+  /// BinaryAnswer.
   std::string head(Index head) const;
 
-  /// The masks that faces are blended with: zero at parts that are no skin.
+  /// The masks for blending; zero at components that are not skin.
   const RegionWeights& masks() const { return builder_.regions(); }
-  /// Faces are blended with other masks from now on; distances, warnings and what is drawn go by the
-  /// config's. Not while another thread builds or reads masks.
+  /// Replaces the masks for blending. Distances, warnings and drawn faces still use the config's
+  /// masks. Call this only while no other thread builds faces or reads masks.
   void use_masks(const RegionWeights& masks);
 
-  /// Every point of a face, as it would be saved. Quick where the face before it differs in few regions.
+  /// All vertex positions of a face, as a saved mesh has them. Fast if the face differs from the
+  /// previous face in few regions.
   Positions build(const Recipe& recipe) const;
-  /// Takes no mesh, and tells no gaps between parts.
+  /// Measures a face without its mesh, and therefore does not check for gaps between parts.
   FaceMeasures measure(const CastFace& recipe) const;
-  /// \param face  what `build` gave
+  /// \param face  result of `build`
   FaceMeasures measure(const CastFace& recipe, const Positions& face) const;
   /// See draw_faces.
   std::vector<CastFace> draw(const DrawRequest& request) const;
-  /// Unit normals of the whole mesh at the preview's vertices, #preview by 3.
+  /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.
   std::vector<float> normals(const Positions& face) const;
   /// Positions at the preview's vertices, #preview by 3.
   std::vector<float> points(const Positions& face) const;
 
  private:
-  /// What faces are compared and judged in; takes a second, so that the page need not wait for it.
+  /// The data for comparing and judging faces. Computing it takes about a second, so a separate
+  /// thread does it while the page loads.
   struct Judging {
     std::unique_ptr<const CastingSpace> where;
     FaceJudge judge;
@@ -94,10 +99,11 @@ class EditSession {
 
   Job job_;
   TextureAtlas textures_;
-  std::future<PreviewMesh> reducing_;  ///< beside what follows
+  /// Runs in parallel with the construction of the following members.
+  std::future<PreviewMesh> reducing_;
   std::optional<std::vector<CastFace>> crowd_;
   Prepared prepared_;
-  std::optional<Prepared> fitted_;  ///< `levels: exact`: fields for the preview alone
+  std::optional<Prepared> fitted_;  ///< set for `levels: exact`: fields for the preview only
   FaceBuilder builder_;
   mutable std::mutex kept_mutex_;
   mutable FaceBuilder::Kept kept_;

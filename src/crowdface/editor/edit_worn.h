@@ -16,26 +16,28 @@
 
 namespace crowdface {
 
-/// What faces wear on the editor's page. Any thread may ask.
+/// Attachments of faces on the editor's page. Thread-safe.
 class EditWorn {
  public:
   /// \param job    must outlive this object.
-  /// \param crowd  its faces, or null; likewise.
+  /// \param crowd  faces of the crowd, or null; must outlive this object.
   EditWorn(const Job& job, const std::vector<CastFace>* crowd);
 
-  /// The names of each kind.
+  /// The names of the attachments of each kind.
   nlohmann::ordered_json kinds() const;
-  /// How one looks, as JSON; nothing if there is none of that name.
+  /// Appearance of an attachment as JSON; nothing if no attachment has this name.
   std::optional<std::string> look(const std::string& name) const;
 
-  /// \param face    the one that is edited: what it would be given.
-  /// \param opened  the face of the crowd that it was, whose attachments it has; or empty.
-  /// \param chosen  by kind "draw", "none" or a name; kinds that it lacks are drawn.
-  /// \throws UsageError if there is no such kind or name.
+  /// The attachments of a face.
+  /// \param face    the edited face; determines the attachments that are drawn for it
+  /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
+  ///         keeps; or empty
+  /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are drawn
+  /// \throws UsageError if a kind or a name does not exist.
   std::vector<WornAttachment> worn_by(const CastFace& face, const std::string& opened,
                                       const nlohmann::ordered_json& chosen,
                                       const Positions& positions) const;
-  /// Positions of what `look` tells of, three numbers a vertex.
+  /// Vertex positions of the attachment that `look` describes, three numbers for each vertex.
   std::vector<float> points(const WornAttachment& worn) const { return shown_.points(worn); }
 
  private:
@@ -43,7 +45,8 @@ class EditWorn {
 
   const Job& job_;
   const std::vector<CastFace>* crowd_;
-  std::shared_future<std::unique_ptr<const FaceAttachments>> bound_;  ///< takes a second
+  /// Takes about a second to compute.
+  std::shared_future<std::unique_ptr<const FaceAttachments>> bound_;
   WornSurfaces surfaces_;
   ShownAttachments shown_;
 };

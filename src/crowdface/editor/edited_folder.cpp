@@ -25,11 +25,12 @@ std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& 
   return concat("  ", entry(write_scalar(mark.id), flow_map(entries)), '\n');
 }
 
-/// The name of a file that is there while a face is being saved; it holds the ending of the mesh's file.
+/// Prefix of a file that exists while a face is being saved. The file contains the extension of the
+/// mesh file.
 constexpr std::string_view kSaving = ".saving-";
 constexpr const char* kPlan = "edited.jsonl";
 
-/// The lines of a plan but for the one with that id.
+/// All lines of a plan except the line with the given id.
 std::string other_lines(const fs::path& plan, const std::string& id, const PlanNames& names) {
   if (!is_there(plan)) return {};
   std::string lines;
@@ -41,7 +42,7 @@ std::string other_lines(const fs::path& plan, const std::string& id, const PlanN
   return lines;
 }
 
-/// Gives a plan its former lines again, if the disk lets it.
+/// Restores the former lines of a plan if the disk permits.
 void take_back(const fs::path& plan, const std::string& lines) {
   try {
     write_file(plan, lines);

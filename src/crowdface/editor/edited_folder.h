@@ -14,41 +14,44 @@
 
 namespace crowdface {
 
-/// The folder `edited` in the output folder, made if need be.
-/// \throws CannotCreate, also if it is a link that leads out of the output folder.
+/// Returns the folder `edited` in the output folder, and creates the folder if necessary.
+/// \throws CannotCreate, also if the folder is a link that leads out of the output folder.
 std::filesystem::path make_edited_folder(const Config& config);
 
-/// What an editor leaves behind, for as long as it runs. Every file is whole or not there, whenever the editor is killed.
-/// Any thread may ask. Everything that writes throws IoError if another folder has taken this one's place.
+/// The files that an editor saves, during the editor's lifetime. Each file is complete or absent,
+/// even if the editor is killed. Thread-safe. All members that write throw IoError if another
+/// folder has replaced this one.
 class EditedFolder {
  public:
-  /// The formats in which it saves meshes, by their files' endings: "obj".
+  /// The formats for saved meshes, by their file extensions, such as "obj".
   static std::vector<std::string> formats();
 
-  /// \param path  see make_edited_folder
+  /// \param path  result of make_edited_folder
   explicit EditedFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// To be called before something else is written there.
+  /// Call this before other code writes to the folder.
   void require_same() const { held_.require_same(); }
 
-  /// What the page last kept, as it gave it; empty: nothing yet.
+  /// The state that the page saved last, unchanged; empty if there is none.
   std::string state() const;
   void keep_state(std::string_view text);
 
   /// Writes the mesh of a face in one format.
   using WriteMesh =
       std::function<void(const CastFace&, MeshFormat, const std::filesystem::path& file)>;
-  /// Writes the recipe among those of edited.jsonl, in place of one with the same id, then the mesh that
-  /// `crowdface blend` makes of it, also in the other formats in which the face lies there.
-  /// \return the file
+  /// Writes the recipe to edited.jsonl, in place of a recipe with the same id, then the mesh that
+  /// `crowdface blend` makes from the recipe. If meshes of this face exist in other formats,
+  /// rewrites them, too.
+  /// \return the file of the mesh
   std::filesystem::path save(const Job& job, const CastFace& face, MeshFormat format,
                              const WriteMesh& write);
-  /// Writes the meshes that a save left older than their recipe, because the editor was killed or the disk failed.
+  /// Writes the meshes that are older than their recipe because a save was interrupted by a crash
+  /// or a disk error.
   void finish_saves(const Job& job, const WriteMesh& write);
   void save_picture(const std::string& name, std::string_view png);
-  /// Writes the mark among those of review.yaml, in place of one about the same face.
-  /// \throws Error if a config would refuse the marks that are there, or this one.
+  /// Writes the mark to review.yaml, in place of a mark about the same face.
+  /// \throws Error if a config would reject the existing marks or this mark.
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
 
  private:

@@ -86,8 +86,10 @@ void GenerateRun::start() {
   ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log_.c_str(), O_WRONLY | O_APPEND, 0);
   ::posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-  ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);  // the page's connections
-  // A key pressed in the editor's window is meant for the editor, which stops the run itself.
+  // Closes the connections to the page in the run's process.
+  ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  // Puts the run into its own process group. Keys such as Ctrl+C in the editor's terminal then
+  // reach only the editor, which stops the run itself.
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   const int error =
       ::posix_spawn(&process_, "/proc/self/exe", &files, &attributes, arguments.data(), environ);
@@ -114,7 +116,8 @@ GenerateRun::State GenerateRun::state() {
   return state_;
 }
 
-/// Asks after the process. \param options  WNOHANG, or 0: until it has ended.
+/// Updates the state of the process.
+/// \param options  WNOHANG, or 0 to wait for the end of the process.
 void GenerateRun::look(int options) {
   if (state_ != State::kRunning) return;
   int status = 0;

@@ -12,23 +12,23 @@
 
 namespace crowdface {
 
-/// How far a run is, by what it says: a line such as "info: casting: 12/24, 3.1/s, 4 s left".
+/// Progress of a run, parsed from log lines such as "info: casting: 12/24, 3.1/s, 4 s left".
 struct RunProgress {
   std::uint64_t done = 0, total = 0;
   double seconds_left = 0;
-  std::string message;  ///< the last line, without "info: "
+  std::string message;  ///< the last line without "info: "
 };
 RunProgress read_progress(std::string_view log);
 
-/// `crowdface generate` beside the editor, as a process of its own: neither ends with the other's mistakes,
-/// and what is stopped goes on where it was. Any thread may ask.
+/// Runs `crowdface generate` as a separate process, so that the failure of one process does not
+/// stop the other. A stopped run continues at its next start. Thread-safe.
 class GenerateRun {
  public:
   enum class State { kIdle, kRunning, kDone, kFailed, kStopped };
-  /// \param arguments  of the program, "generate" first
-  /// \param log        takes what it says
+  /// \param arguments  arguments of the program; the first is "generate"
+  /// \param log        file for the output of the run
   GenerateRun(std::vector<std::string> arguments, std::filesystem::path log);
-  /// Stops it and waits until it has ended.
+  /// Stops the run and waits for its end.
   ~GenerateRun();
   GenerateRun(const GenerateRun&) = delete;
   GenerateRun& operator=(const GenerateRun&) = delete;

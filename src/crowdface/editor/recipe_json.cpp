@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether the weights are just what a position gives.
+/// Whether the weights are exactly those that the position determines.
 bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                          const Casting& casting) {
   return band.position &&
@@ -24,7 +24,7 @@ bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sourc
 Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                   const Casting& casting, const std::vector<std::string>& heads) {
   Json json;
-  // Weights of nothing, as a printed normalisation may have, cannot be spelled out.
+  // Empty weights, which a printed normalisation may yield, cannot be written out.
   if (comes_from_position(band, sources, target, casting) || band.weights.empty()) {
     const PlanePoint at = band.position.value_or(PlanePoint::Zero());
     json["position"] = {at.x(), at.y()};
@@ -42,7 +42,7 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
   return json;
 }
 
-/// The values of the first band, and the others by their names.
+/// The values of the first band directly, and those of the other bands under their names.
 Json region_to_json(const RegionRecipe& region, Index target, const Casting& casting,
                     const std::vector<std::string>& heads) {
   const SamplingOptions& sampling = casting.sampling;
@@ -54,7 +54,7 @@ Json region_to_json(const RegionRecipe& region, Index target, const Casting& cas
   return json;
 }
 
-/// \throws UsageError if it is no mixture of heads.
+/// \throws UsageError if the value is not a mixture of heads.
 std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
   const std::vector<std::string>& names = config.faces.names;
   std::vector<SourceWeight> shares;
@@ -72,7 +72,7 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
     sum += value;
   }
   if (!(sum > 0)) throw UsageError("mixture: expected shares of heads, one above 0");
-  // Shares that sum to one stay as they are, to the bit.
+  // Keeps shares that already sum to one bitwise unchanged.
   constexpr double kRounding = 1e-12;
   if (std::abs(sum - 1) > kRounding) return normalized_weights(std::move(shares));
   std::erase_if(shares, [](const SourceWeight& share) { return share.weight == 0; });

@@ -8,19 +8,19 @@
 
 namespace crowdface {
 
-/// The recipe as an entry of the config's `recipes`, every region spelled out. Beside it stands
-/// `mixture: {head: share}`, which no config has, where the target is one.
+/// The recipe as an entry of the config's `recipes`, with all regions written out. If the target is
+/// a mixture of heads, the entry also has `mixture: {head: share}`, which a config must not have.
 nlohmann::ordered_json recipe_to_json(const CastFace& face, const Casting& casting,
                                       const Config& config);
 
-/// The face of an entry that recipe_to_json wrote, or anybody. Ages of the config are left out: a
-/// recipe that gives none is not moved.
-/// \throws UsageError with every mistake, in the config's own words.
+/// Reads a face from an entry that recipe_to_json or a user wrote. Ignores the ages of the config:
+/// a recipe without an age keeps its shape.
+/// \throws UsageError with all mistakes, in the words of the config's messages.
 CastFace face_of_json(const nlohmann::ordered_json& recipe, const Casting& casting,
                       const Config& config);
 
-/// The entry as the config's own section takes it, for a config to keep.
-/// \throws UsageError as above, or for a mixture.
+/// Converts the entry for saving in a config's `recipes` section.
+/// \throws UsageError as face_of_json does, and for a mixture.
 HandRecipe hand_recipe_of_json(const nlohmann::ordered_json& recipe, const Config& config);
 
 }  // namespace crowdface

@@ -42,7 +42,7 @@ bool is_true(const Json& body, const std::string& key) {
   return body.contains(key) && body[key] == true;
 }
 
-/// What strokes are painted on: places of the preview, the regions and their masks.
+/// Hash of the data on which strokes depend: the preview's triangles, the regions and their masks.
 Digest ground_of(const EditSession& session) {
   const RegionWeights::Alpha& alpha = session.job().inputs.regions.alpha;
   const std::span values(alpha.data(), static_cast<std::size_t>(alpha.size()));
@@ -70,7 +70,7 @@ void RegionPainting::replay() {
         painter().undo();
       }
     }
-  } catch (const UsageError& error) {  // somebody edited the file
+  } catch (const UsageError& error) {  // a user may have edited the file
     log_warning(concat(strokes_.file().string(), ": ", error.what(), "; what follows is left out"));
   }
 }
@@ -78,7 +78,7 @@ void RegionPainting::replay() {
 void RegionPainting::keep(const Json& step) {
   try {
     strokes_.add(step);
-  } catch (...) {  // the masks are again what the file says
+  } catch (...) {  // restore the masks from the file
     replay();
     painted_ = true;
     throw;

@@ -15,47 +15,50 @@
 
 namespace crowdface {
 
-/// Regions as they are to be: their names, and α of every vertex.
+/// A set of regions: their names and the weights α of every vertex.
 struct PaintedRegions {
   std::vector<std::string> names;
   RegionWeights::Alpha alpha;  ///< #V by #names
 };
 
-/// The regions of a job as they are painted on the editor's page. One thread at a time.
+/// The painted regions of a job, for the editor's page. Not thread-safe.
 class RegionPainting {
  public:
-  /// What was painted on these masks before and not saved is painted again.
+  /// Replays strokes that were painted on the same masks earlier but not saved.
   /// \param session  must outlive this object
-  /// \param strokes  the file that keeps what is painted
+  /// \param strokes  file that stores the strokes
   RegionPainting(EditSession& session, const std::filesystem::path& strokes);
 
-  /// One touch of the brush: {region, mode, points: [{triangle, u, v}…] on the preview, radius_mm, strength,
-  /// falloff, mirror, begin}; without `begin` it goes on with the touch before.
+  /// Applies one brush stroke: {region, mode, points: [{triangle, u, v}…] on the preview,
+  /// radius_mm, strength, falloff, mirror, begin}. Without `begin`, the stroke continues the
+  /// previous one.
   /// \throws UsageError if the request cannot be read.
   void stroke(const nlohmann::ordered_json& body);
-  /// Takes the last touch back. \throws UsageError if there is none.
+  /// Undoes the last stroke.
+  /// \throws UsageError if there is none.
   void undo();
-  /// Whether masks are other than the config's.
+  /// Whether the masks differ from the config's masks.
   bool painted() const { return painter_ && painter_->can_undo(); }
 
-  /// α at the preview's vertices, row by row; zero at parts that are no skin.
+  /// α at the preview's vertices, row by row; zero at components that are not skin.
   std::vector<float> masks() const;
 
-  /// Faces are blended with what is painted from now on.
+  /// Uses the painted masks for blending from now on.
   void apply();
 
-  /// What is painted, with {"add": NAME}: and a region that is nowhere yet; {"remove": NAME}: without one,
-  /// whose share the others take; {"propose": [NAME…]}: what the mean head's shape proposes, in its place.
-  /// \throws UsageError if the request cannot be read; InvalidInput if there is nothing to propose.
+  /// The painted regions with one change. {"add": NAME} adds a region without any vertices.
+  /// {"remove": NAME} removes a region and distributes its share to the other regions. {"propose":
+  /// [NAME…]} replaces all regions by those that the shape of the mean head suggests.
+  /// \throws UsageError if the request cannot be read; InvalidInput if no regions can be proposed.
   PaintedRegions regions(const nlohmann::ordered_json& change);
 
-  /// Writes images in the layout of the texture.
-  /// \param path  of the first, ending in .png
-  /// \return what a config's `regions.mask` has to name
+  /// Writes the masks as images in the layout of the texture.
+  /// \param path  file of the first image, ending in .png
+  /// \return the files for the config's `regions.mask`
   /// \throws InvalidInput if the heads have no texture coordinates; CannotCreate.
   std::vector<std::filesystem::path> save(const PaintedRegions& regions,
                                           const std::filesystem::path& path) const;
-  /// The config's masks hold what is painted.
+  /// Deletes the stored strokes. Call this once the config's masks contain them.
   void forget() { strokes_.clear(); }
 
  private:
@@ -63,15 +66,15 @@ class RegionPainting {
   SurfacePoint place_of(const nlohmann::ordered_json& point);
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
-  /// Paints all strokes of the file.
+  /// Applies all strokes of the file.
   void replay();
-  /// Adds what was just painted to the file; if that fails it is not painted either.
+  /// Appends a stroke that was just painted to the file; if this fails, undoes the stroke.
   void keep(const nlohmann::ordered_json& step);
 
   EditSession& session_;
   HeadShape mean_;
-  std::optional<MaskPainter> painter_;  ///< made by the first touch
-  bool painted_ = false;                ///< since `apply`
+  std::optional<MaskPainter> painter_;  ///< created at the first stroke
+  bool painted_ = false;                ///< whether anything was painted since the last `apply`
   StrokeLog strokes_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page gets of a job before it shows the first face.
+// The description of a job that the page receives before it shows the first face.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Steps of the sliders' square-root scale.
+/// Number of steps on the square-root scale of the sliders.
 constexpr int kLevels = 256;
 
 double smoothness_at(int step) {
@@ -49,7 +49,7 @@ std::string hex_colour(const Eigen::Vector3f& colour) {
   return text;
 }
 
-/// The smoothnesses that casting would draw within, as shares of L_max.
+/// The range of smoothness from which casting draws, as fractions of L_max.
 Range fractions_of(const SmoothnessDistribution& smoothness, const LevelScale& scale) {
   const auto fraction = [&](double value) {
     double share = value;
@@ -120,7 +120,7 @@ Json EditSession::description() const {
   json["vertices"] = job_.inputs.faces.topology.vertex_count;
   json["regions"] = regions_json();
   for (std::size_t b = 0; b < config.sampling.bands.size(); ++b) {
-    Json begins = Json::array();  // in each region
+    Json begins = Json::array();  // initial value for each region
     for (std::size_t k = 0; k < casting_.region_names.size(); ++k) {
       const Range range = fractions_of(smoothness_of(config.sampling, k, b), casting_.scale);
       begins.push_back((range.low + range.high) / 2);
@@ -223,7 +223,7 @@ std::string EditSession::mesh() const {
 
 std::string EditSession::head(Index head) const {
   const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
-  // One step for all of a field's numbers: the page reads them as a texture.
+  // All numbers of a field share one quantisation step, because the page reads them as a texture.
   std::vector<float> values;
   for (Index p = 0; p < levels.fields.rank; ++p) {
     for (const std::uint32_t vertex : preview_.vertices) {

@@ -45,7 +45,7 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
 void StrokeLog::add(const Json& stroke) {
   std::string lines;
   if (!open_) {
-    // Written anew, as the last line may be cut short.
+    // Rewrites the file, because its last line may be incomplete.
     lines = Json({{kPaintedOn, painted_on_.hex()}}).dump() + '\n';
     for (const Json& before : strokes_) lines += before.dump() + '\n';
     write_file(file_, lines);
@@ -53,7 +53,7 @@ void StrokeLog::add(const Json& stroke) {
   }
   try {
     open_->append(stroke.dump() + '\n');
-  } catch (...) {  // a part of the line may be there: the next stroke writes the file anew
+  } catch (...) {  // the file may hold part of the line, so the next stroke rewrites it
     open_.reset();
     throw;
   }

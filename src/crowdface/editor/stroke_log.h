@@ -12,26 +12,30 @@
 
 namespace crowdface {
 
-/// Strokes of a brush that no mask holds yet, a line of JSON each, so that they outlive the editor.
+/// Stores brush strokes that no mask contains yet, one line of JSON each, so that they survive the
+/// end of the editor.
 class StrokeLog {
  public:
-  /// Reads what an editor left behind that painted on the same; what is cut short at the end is left out.
-  /// \param painted_on  tells masks and preview apart: strokes on others are forgotten, which is said.
+  /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
+  /// last line.
+  /// \param painted_on  identifies the masks and the preview. Strokes on others are discarded with
+  ///         a log message.
   StrokeLog(std::filesystem::path file, const Digest& painted_on);
 
-  /// In their order, as `add` was given them.
+  /// The strokes in the order of the calls of `add`.
   const std::vector<nlohmann::ordered_json>& strokes() const { return strokes_; }
   const std::filesystem::path& file() const { return file_; }
-  /// \throws CannotCreate, IoError: then the file does not hold it.
+  /// Appends a stroke.
+  /// \throws CannotCreate, IoError: in this case the file does not contain the stroke.
   void add(const nlohmann::ordered_json& stroke);
-  /// The masks hold them.
+  /// Removes all strokes. Call this once the masks contain them.
   void clear();
 
  private:
   std::filesystem::path file_;
   Digest painted_on_;
   std::vector<nlohmann::ordered_json> strokes_;
-  std::unique_ptr<AppendFile> open_;  ///< from the first `add` on
+  std::unique_ptr<AppendFile> open_;  ///< open since the first call of `add`
 };
 
 }  // namespace crowdface

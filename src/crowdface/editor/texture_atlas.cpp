@@ -11,7 +11,8 @@
 namespace crowdface {
 namespace {
 
-constexpr int kMostTexels = 2048, kMostOfAll = 4096;  // a side
+// Width or height of a head's picture, and of the atlas.
+constexpr int kMostTexels = 2048, kMostOfAll = 4096;
 
 void append(std::vector<std::uint8_t>& pixels, const Light& texel) {
   for (const std::uint8_t value : to_srgb8(texel)) pixels.push_back(value);
@@ -50,7 +51,8 @@ TextureCoordinates TextureAtlas::coordinates() const {
   const TextureCoordinates& uvs = inputs_.faces.uvs;
   if (cells_ < 2) return uvs;
   TextureCoordinates placed = TextureCoordinates::Zero(uvs.rows(), 2);
-  const double margin = 0.5 / cell_px_;  // a cell's colours do not run into the next one's
+  // Half a texel, so that the colours of neighbouring cells do not mix.
+  const double margin = 0.5 / cell_px_;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t cell = cell_of_face_[static_cast<std::size_t>(f)];
     if (cell == TextureCoat::kNone) continue;
