@@ -15,16 +15,16 @@
 namespace crowdface {
 namespace {
 
-// Heads of different people differ by a few degrees and a few hundredths of their size even when
-// they were aligned well; beyond these limits it is the frame that differs.
+// Even well-aligned heads of different people differ by a few degrees and a few hundredths of their
+// size. Larger differences mean that their coordinate frames differ.
 constexpr double kMostDegrees = 6;
 constexpr double kMostShift = 0.06;
 constexpr double kMostScale = 1.3;
-constexpr double kOtherUnit = 5;  // times as large: no head of people, but one in another unit
-constexpr double kMostTurn = 45;  // degrees: what is carried over then is no detail
+constexpr double kOtherUnit = 5;  // ratio of sizes; beyond it, the head is in another unit
+constexpr double kMostTurn = 45;  // degrees; a larger rotation cannot be blended as detail
 constexpr Index kPoints = 2000;
 
-/// Evenly chosen vertices of the skin.
+/// Vertices of the skin at regular steps of their index.
 std::vector<Index> some_skin(const Components& components, Index most) {
   const std::uint32_t skin = components.largest();
   const Index size = components.sizes[skin];
@@ -78,7 +78,7 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
   std::vector<Positions> points;
   for (const Head& head : faces.heads) points.emplace_back(head.positions(chosen, kAllColumns));
   // The reference is the head whose median disagreement with the others is smallest, so that one
-  // stray head never makes the rest look wrong.
+  // stray head does not make the others look wrong.
   std::vector<double> disagreement(count);
   parallel_for_each(count, [&](std::size_t r) {
     std::vector<double> against;

@@ -23,14 +23,14 @@ namespace fs = std::filesystem;
 
 constexpr int kLargestUnasked = 4096;
 
-/// Where each picture of the layout is first worn.
+/// The first use of an image of the layout.
 struct FirstWorn {
   std::size_t head = 0;
-  std::uint32_t row = 0;  ///< of its files
+  std::uint32_t row = 0;  ///< index of the head's file
   Index face = 0;
 };
 
-/// Each face is painted where the first head that has a texture there has it.
+/// Lays each polygon out as the first head with a texture there does.
 std::vector<FirstWorn> lay_out(const HeadsTextures& found, TextureLayout& layout) {
   layout.tile = found.tile;
   layout.of_face.assign(found.tile.size(), kNoIndex);
@@ -50,7 +50,7 @@ std::vector<FirstWorn> lay_out(const HeadsTextures& found, TextureLayout& layout
   return first;
 }
 
-/// Letters and digits of a material's name: it becomes a part of files' names.
+/// Letters and digits of a material's name, for use in file names.
 std::string part_name(const std::string& material) {
   std::string name;
   for (const char c : material) {
@@ -85,7 +85,8 @@ std::vector<PictureName> picture_names(const HeadsTextures& found,
   return names;
 }
 
-/// The files that a head wears in each picture; none where a face of it goes without.
+/// For each image, the head's files that it is composed of; none if a polygon of the image has no
+/// texture on this head.
 std::vector<std::vector<std::uint32_t>> rows_in_pictures(const WornTextures& worn,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
@@ -104,7 +105,7 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const WornTextures& wor
   return result;
 }
 
-/// A texture file as it is needed: at some size.
+/// A texture file, and the size and content that it is needed in.
 struct NeededMap {
   fs::path path = {};
   int width = 0, height = 0;
@@ -115,7 +116,7 @@ struct NeededMap {
 };
 using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 
-/// Normals point out of the surface, which is the third channel.
+/// Whether an image holds normals: these point out of the surface, which is the third channel.
 bool holds_normals(const Image& image) {
   if (image.channels < 3) return false;
   constexpr int kStep = 7;
@@ -160,7 +161,7 @@ std::uint64_t map_bytes(const NeededMap& needed) {
          static_cast<std::uint64_t>(needed.height) * static_cast<std::uint64_t>(needed.channels);
 }
 
-/// \param scratch  the folder where it is to lie; empty: in memory.
+/// \param scratch  folder for the map; empty: the map lies in memory
 std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::path& scratch) {
   struct Kept {
     ImageMemory memory;
@@ -184,7 +185,7 @@ void read_maps(LoadedMaps& maps, const fs::path& scratch) {
                     [&](std::size_t i) { all[i]->second = read_map(all[i]->first, scratch); });
 }
 
-/// One map of several, each of which covers some of the picture's faces.
+/// Merges several maps, each of which covers some of the image's polygons.
 std::shared_ptr<const TextureMap> compose(
     const FaceSet& faces, const TextureLayout& layout, std::uint32_t picture,
     const std::vector<std::uint32_t>& of_face,
@@ -218,7 +219,9 @@ std::shared_ptr<const TextureMap> compose(
   return composed;
 }
 
-/// \param sizes  of all files. \param rows  #heads by #pictures, see rows_in_pictures.
+/// Sets the size of each image in the layout.
+/// \param sizes  of all files
+/// \param rows   #heads by #pictures, see rows_in_pictures
 void choose_sizes(const HeadsTextures& found, const std::map<fs::path, ImageSize>& sizes,
                   const std::vector<std::vector<std::vector<std::uint32_t>>>& rows,
                   std::optional<std::uint64_t> size, TextureLayout& layout) {
@@ -240,8 +243,8 @@ void choose_sizes(const HeadsTextures& found, const std::map<fs::path, ImageSize
   }
 }
 
-/// What the maps of a picture hold, as its kind and the first of its files say.
-/// \param channels  the most that any of its files has.
+/// What the maps of an image contain, according to its kind and the first of its files.
+/// \param channels  largest number of channels of its files
 NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
   switch (kind) {
     case TextureKind::kColour:

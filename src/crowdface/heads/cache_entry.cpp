@@ -36,8 +36,9 @@ std::string_view as_bytes(const void* data, std::size_t size) {
   return {static_cast<const char*>(data), size};
 }
 
-/// Magnitudes are ordered as their bits are, and NaN and infinity beyond all others. So they are
-/// compared as integers, vectors of them at once: any too large makes its difference negative.
+/// Absolute values of floats have the same order as their bit patterns; infinity and NaN come last.
+/// The values are therefore compared as integers, which vectorizes: a value that is too large makes
+/// its difference negative.
 template <class Integer, class T>
 bool all_coordinates(std::span<const T> values) {
   constexpr auto kMagnitude = std::numeric_limits<Integer>::max();

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a file has the name of an entry, see cache_entry.
+/// Whether a file is named like an entry (see cache_entry).
 bool has_name_of_entry(const fs::path& path) {
   constexpr std::size_t kDigits = 32;
   const std::string stem = path.stem().string();
@@ -39,7 +39,8 @@ fs::path cache_directory() {
     return fs::path(home) / ".cache" / "crowdface";
   }
   std::error_code error;
-  const fs::path temporary = fs::temp_directory_path(error);  // one that is not there is an error
+  // sets `error` if the folder does not exist
+  const fs::path temporary = fs::temp_directory_path(error);
   return (error ? fs::path("/tmp") : temporary) / "crowdface-cache";
 }
 

@@ -19,16 +19,16 @@ namespace {
 
 constexpr std::size_t kFewestHeads = 4, kFewestVertices = 50;
 constexpr double kLeastMm = 2, kMostOfOthers = 3.2;
-constexpr double kShare = 0.9;  ///< of the vertices are less far off than what is compared
+constexpr double kShare = 0.9;  ///< the compared deviation is this quantile over the vertices
 
-/// A box of the face, in lengths from mouth to eyes.
+/// A box around a facial feature. Unit: distance from mouth to eyes.
 struct Box {
   const char* name;
-  double height;      ///< of its middle, from the mouth
-  double up, across;  ///< half its height and width
+  double height;      ///< of the centre, above the mouth
+  double up, across;  ///< half extents
 };
 constexpr Box kBoxes[] = {{"mouth", 0, 0.4, 0.5}, {"eyes", 1, 0.25, 0.75}};
-constexpr double kDepth = 0.6;  ///< behind the foremost point of a box
+constexpr double kDepth = 0.6;  ///< depth of a box behind its foremost point
 
 std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const HeadShape& head,
                                const HeadAxes& axes) {
@@ -55,7 +55,7 @@ double median(std::vector<double> values) {
   return value_of_rank(std::move(values), rank);
 }
 
-/// Vertex by vertex the median of all heads: one head that is odd does not move it.
+/// The vertex-wise median of all heads, which one odd head does not change.
 Positions middle_head(const FaceSet& faces) {
   Positions middle(faces.heads[0].positions.rows(), 3);
   parallel_for_each(static_cast<std::size_t>(middle.rows()), [&](std::size_t v) {

@@ -13,7 +13,7 @@ namespace crowdface {
 
 namespace {
 
-/// As meshes, whatever they are painted with.
+/// Whether two attachments have the same mesh; their materials may differ.
 bool equal_meshes(const Attachment& a, const Attachment& b) {
   const Topology &one = a.file.topology, &other = b.file.topology;
   return a.moves == b.moves && a.file.positions.rows() == b.file.positions.rows() &&
@@ -90,9 +90,10 @@ std::size_t FaceAttachments::memory_bytes() const {
   return bytes;
 }
 
-/// One of each kind is no more than all that there are.
+/// A face wears at most one attachment of each kind.
 std::size_t FaceAttachments::worn_bytes() const {
-  constexpr std::size_t kCopies = 3;  // bent, pushed off the skin, before that
+  // the bent mesh, the mesh pushed off the skin, and the mesh before that
+  constexpr std::size_t kCopies = 3;
   std::map<std::string, std::size_t> largest;
   for (const Attachment& item : inputs_.attachments.items) {
     std::size_t& most = largest[item.kind];

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// How much of a field of displacements one iteration of smoothing leaves, as a whole: what it leaves of a
-/// wave of the field's mean size (the Rayleigh quotient of the one-ring mean).
+/// The fraction of a displacement field that remains after one smoothing iteration, from the
+/// field's Rayleigh quotient under the one-ring mean.
 double kept_by_smoothing(const Adjacency& adjacency, const Displacements& moves,
                          OperatorKind kind) {
   Positions whole = Positions::Zero(adjacency.vertex_count(), 3);
@@ -35,8 +35,8 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// The sets of a region's heads: B's own, and for each band what is smoothed of it taken out of it, as in
-/// level_shares, as far as smoothing changes this shape.
+/// The shares of the heads' shape sets in a region: the target's own, minus the smoothed part of
+/// each band as in level_shares, scaled by how much smoothing changes this shape.
 SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
   for (const SourceWeight& part : target_shares(recipe)) {

@@ -15,10 +15,10 @@
 namespace crowdface {
 namespace {
 
-/// Waves of colour that are longer than this are blended as a mean, shorter ones keep their contrast: brows,
-/// lips' borders, freckles, stubble, pores.
+/// Colour variation with a longer wavelength is blended as a mean; shorter variation keeps its
+/// contrast: brows, lip borders, freckles, stubble, pores.
 constexpr double kDetailMm = 24;
-/// Over so much of the surface the strength of detail is averaged.
+/// Distance over which the strength of detail is averaged.
 constexpr double kStrengthMm = 48;
 
 }  // namespace
@@ -99,7 +99,7 @@ std::uint64_t FaceTextures::blend_bytes() const {
 }
 
 std::uint64_t texture_bytes(const Inputs& inputs) {
-  std::set<const TextureMap*> maps;  // heads may share them
+  std::set<const TextureMap*> maps;  // each once: heads may share maps
   const auto add = [&](const HeadTextures& textures) {
     for (const auto& of_picture : textures.blended.maps) {
       for (const auto& map : of_picture) maps.insert(map.get());

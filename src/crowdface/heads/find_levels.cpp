@@ -22,8 +22,8 @@ LevelError in_mm(LevelError error, double mm) {
   return {error.most * mm, error.root_mean_square * mm};
 }
 
-/// The mean head as edges are to be collapsed on it: what is larger keeps more triangles. Eyes and the
-/// lids around them are nearly twice their size, teeth a third.
+/// The mean head, deformed to weight edge collapse: enlarged parts keep more triangles. Eyes and
+/// the lids around them are nearly doubled in size, teeth are reduced to a third.
 Positions weighted(const Positions& mean, const PartList& parts) {
   constexpr double kEyes = 0.8, kTeeth = 0.3;
   Positions sizes = mean;
@@ -47,7 +47,8 @@ Positions weighted(const Positions& mean, const PartList& parts) {
   return sizes;
 }
 
-/// Over the template, or each head, in all its shapes.
+/// The error of a level over all shapes of the template or, if the heads have shapes of their own,
+/// of each head.
 LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const LevelMap& map) {
   const ShapeSet& set = inputs.shapes;
   if (set.shapes.empty()) return {};
@@ -78,7 +79,7 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
   return error;
 }
 
-/// One level, and how far it is from the heads and their shapes.
+/// A level of detail, and its error on the heads and their shapes.
 MeasuredLevel measured_level(const Inputs& inputs, const FaceSet& typical, double share,
                              double mm) {
   DetailLevel level = std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1})[0]);
@@ -90,7 +91,7 @@ MeasuredLevel measured_level(const Inputs& inputs, const FaceSet& typical, doubl
   return {std::move(level), of_heads, of_shapes};
 }
 
-/// Of all that a level follows from.
+/// Hash of everything that a level depends on.
 Digest key_of(const Inputs& inputs, const FaceSet& typical, double share, double mm) {
   Hasher key;
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
@@ -103,7 +104,7 @@ Digest key_of(const Inputs& inputs, const FaceSet& typical, double share, double
   return key.digest();
 }
 
-/// Whether it is a level of a mesh, whatever its numbers.
+/// Whether a level read from the cache is a consistent mesh; coordinates are not checked.
 bool is_sound(const DetailLevel& level, const Topology& whole) {
   const auto& uvs = level.topology.corner_uvs;
   const auto end = [](Index count) { return static_cast<std::uint64_t>(count); };
@@ -129,13 +130,13 @@ constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
   arrays("rms of shapes", measured.shapes.root_mean_square);
 };
 
-/// Fills in what follows from the arrays.
+/// Also computes the members that the cache does not store.
 bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
   DetailLevel& level = measured.level;
   level.share = share;
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
   for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
-    level.topology.face_offsets.push_back(3 * t);  // after the 0 that is there
+    level.topology.face_offsets.push_back(3 * t);  // the initial 0 is already there
   }
   const auto is_error = [](const LevelError& error) {
     return error.most >= 0 && error.root_mean_square >= 0;

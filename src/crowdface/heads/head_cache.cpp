@@ -10,7 +10,8 @@
 namespace crowdface {
 namespace {
 
-/// Whether each tile has some of the first fields, all of them together what there is, with steps that a value can have.
+/// Whether the fields are consistent: each tile uses a prefix of the fields, the tiles together use
+/// all steps, and each step is zero or a power of two.
 bool are_fields(const LevelFields& fields) {
   const auto& first = fields.first;
   for (std::size_t t = 0; t + 1 < first.size(); ++t) {
@@ -39,7 +40,7 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("numbers", fields.numbers);
 };
 
-/// Fills in what follows from the shape.
+/// Also fills in what follows from the shape.
 bool is_head(PreparedHead& head, const HeadCacheShape& shape) {
   const Eigen::MatrixXd& mixing = head.levels.mixing;
   LevelFields& fields = head.levels.fields;

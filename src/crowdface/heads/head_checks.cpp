@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kUvTolerance = 1e-4;
 
-/// The first corner that has another place in the texture, whatever rows the places stand in: programs
-/// number them anew when they write a file. Empty if there is none.
+/// Describes the first corner whose texture coordinates differ; empty if there is none. Compares
+/// coordinates instead of indices, because programs renumber them on export.
 std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found) {
   const auto text = [](const TextureCoordinates& uvs, std::uint32_t row) {
     return row == kNoIndex ? std::string("none") : concat(uvs(row, 0), ' ', uvs(row, 1));
@@ -44,7 +44,7 @@ std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found)
   return {};
 }
 
-/// What an export did to a head that has another topology than the first, and what helps.
+/// Explains which export setting gave a head another topology than the first, and how to fix it.
 std::string cause_of_difference(const Topology& first, const Topology& found) {
   const auto triangles = [](const Topology& topology) {
     return topology.corner_count() - 2 * topology.face_count();
@@ -92,7 +92,8 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
 
 void check_stance(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return;
-  const HeadShape head{inputs.mean, skin_of(inputs), {}};  // parts that follow are no skin
+  // without parts: those that follow the skin are not skin
+  const HeadShape head{inputs.mean, skin_of(inputs), {}};
   const Topology& topology = inputs.faces.topology;
   const Bearing asked{config.faces.up, config.faces.front};
   auto marks = find_face_marks(topology, head, axes_of(asked));
@@ -105,7 +106,8 @@ void check_stance(const Config& config, const Inputs& inputs) {
         " say: set up: ", name_of(found->up), " and front: ", name_of(found->front),
         " (faces.align: none takes them as they are)"));
   }
-  constexpr double kLeastMm = 35, kMostMm = 120;  // of people, from a child's 45 mm to some 85
+  // of humans: from a child's 45 mm to about 85 mm, with a margin
+  constexpr double kLeastMm = 35, kMostMm = 120;
   const double mm = marks->face() * mm_per(config.faces.units);
   if (mm >= kLeastMm && mm <= kMostMm) return;
   const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
@@ -127,7 +129,8 @@ void check_stance(const Config& config, const Inputs& inputs) {
 std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
   constexpr double kMostMm = 1,
-                   kMostOfOthers = 0.4;  // of the middle distance to the most alike head
+                   // of the median distance between a head and its nearest head
+      kMostOfOthers = 0.4;
   const std::vector<Head>& heads = inputs.faces.heads;
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;

@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// Of all vertices that must have another side.
+/// Minimum fraction of vertices that must have a mirror partner.
 constexpr double kLeastShare = 0.9;
 
 std::string key_of(const SamplingOptions& sampling, const std::string& section) {

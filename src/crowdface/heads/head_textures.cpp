@@ -20,7 +20,7 @@ struct TextureFile {
   Digest content;
 };
 
-/// The texture, and its share of all images' memory for as long as it lives.
+/// Reads a texture and reserves its share of the image memory for its lifetime.
 TextureFile read_texture(const fs::path& path, int most_px) {
   struct Kept {
     ImageMemory memory;
@@ -47,12 +47,13 @@ Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb,
   });
 }
 
-/// Relief that is finer than pixels only makes grain: fewer texels than colours have, each a mean.
+/// Texels a side of normal and roughness maps in renders: fewer than for colour, each an average,
+/// because relief finer than pixels only causes noise.
 int finish_texels(int most_px) {
   return std::max(1, most_px / 2);
 }
 
-/// A map's numbers, and normals as slopes.
+/// The values of a map; normals become slopes.
 Texture finish_of(const BlendedPicture& picture, bool normals, int most_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<Light> texels) {
@@ -81,7 +82,7 @@ Texture finish_of(const TextureMap& map, int most_px) {
   });
 }
 
-/// Where a coat holds a kind that is shown.
+/// The layer of a coat for a rendered kind of texture.
 TextureLayer& layer_of(TextureKind kind, TextureCoat& coat) {
   if (kind == TextureKind::kColour) return coat;
   return kind == TextureKind::kNormal ? coat.slopes : coat.roughness;
@@ -187,7 +188,7 @@ std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head
 HeadTextures load_coats(HeadsTextures found, int most_px) {
   HeadTextures result;
   result.warnings = std::move(found.warnings);
-  std::map<fs::path, TextureFile> shelf;  // each read once however many heads name it
+  std::map<fs::path, TextureFile> shelf;  // each file is read once, even if several heads name it
   Hasher hasher;
   for (WornTextures& worn : found.heads) {
     TextureCoat coat;

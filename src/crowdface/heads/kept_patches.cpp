@@ -40,7 +40,8 @@ KeptPatches kept_patches(const CacheFolder& cache, const Digest& key, Index vert
   if (auto found = in_file()) return *std::move(found);
   FieldPatches made = make();
   if (store(cache, entry_key, arrays_of(made.lists(), kPatchArrays))) {
-    if (auto found = in_file()) return *std::move(found);  // memory holds them once
+    // use the mapped file, so that the patches do not stay in memory twice
+    if (auto found = in_file()) return *std::move(found);
   }
   return {std::move(made), nullptr};
 }

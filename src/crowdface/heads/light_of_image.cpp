@@ -22,7 +22,7 @@ const std::vector<float>& light_of_srgb16() {
   return table;
 }
 
-/// Of the same light.
+/// The values of light_of_srgb16 as densities.
 const std::vector<Density>& densities_of_srgb16() {
   static const std::vector<Density> table = [] {
     std::vector<Density> densities;
@@ -32,7 +32,7 @@ const std::vector<Density>& densities_of_srgb16() {
   return table;
 }
 
-/// Writes a row of whole numbers as densities. \param steps  of 16 bits to one of the numbers
+/// Converts a row of integer texels to densities. \param steps  16-bit steps per step of `numbers`
 template <class Number>
 void write_densities(const Image& image, const std::vector<Number>& numbers, std::size_t steps,
                      int y, const std::array<Density*, 3>& planes) {
@@ -75,7 +75,7 @@ LightRows light_of(const Image& image) {
 
 LightRows slopes_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
-    constexpr float kLeastUp = 1.0F / 8;  // MapCoding::slopes() has room for no more
+    constexpr float kLeastUp = 1.0F / 8;  // steepest slope that MapCoding::slopes() can store
     for (int x = 0; x < image.width; ++x) {
       Eigen::Array3f normal;
       for (int c = 0; c < 3; ++c) normal[c] = 2 * image.at(x, y, c) - 1;

@@ -23,7 +23,7 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
   if (!asked.file.empty()) return read(asked.file);
   if (!asked.head) return mean_head(inputs.faces);
   const auto head = static_cast<std::size_t>(*asked.head);
-  // Attachments stand beside a head as its file has it, wherever it was moved since.
+  // Attachments were fitted to the head as its file has it, before any alignment.
   if (config.faces.align == Align::kRigid) return read(config.faces.files[head]);
   return inputs.faces.heads[head].positions;
 }
@@ -37,9 +37,9 @@ Attachment item_of(const Config::Attachment& asked, HeadFile read) {
   return item;
 }
 
-/// In another unit or frame than the heads an attachment is nowhere near them.
+/// Rejects an attachment far from the head: it is probably in another unit or coordinate frame.
 void check_place(const Attachment& item, const Positions& head) {
-  constexpr double kFarthest = 0.5, kLargest = 4;  // of the head's diagonal
+  constexpr double kFarthest = 0.5, kLargest = 4;  // as multiples of the head's diagonal
   const Eigen::RowVector3d low = head.colwise().minCoeff(), high = head.colwise().maxCoeff();
   const Positions& own = item.file.positions;
   const Eigen::RowVector3d own_low = own.colwise().minCoeff(), own_high = own.colwise().maxCoeff();

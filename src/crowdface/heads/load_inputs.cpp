@@ -29,7 +29,7 @@
 namespace crowdface {
 namespace {
 
-/// Colours at the heads' vertices, if any head has them.
+/// Reads the vertex colours of the heads, if any head has them.
 void take_colours(Inputs& inputs) {
   const std::size_t count = inputs.files.size();
   std::vector<ColourRows> colours(count);
@@ -52,7 +52,7 @@ void take_colours(Inputs& inputs) {
                      "those of their other heads"));
 }
 
-/// Moves what was read into the inputs; the topology is kept once.
+/// Moves the heads into the inputs; their common topology is stored once.
 void take_heads(const Config& config, std::vector<HeadFile> heads, Inputs& inputs) {
   for (std::size_t h = 0; h < heads.size(); ++h) {
     ObjFile& file = heads[h].file;
@@ -76,7 +76,7 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
   return sum / static_cast<double>(heads.size()) * mm_per(config.faces.units);
 }
 
-/// A warning if output.surfaces names materials that no face has.
+/// Warns if output.surfaces names materials that no polygon has.
 std::optional<std::string> unknown_surfaces(const Config& config, const Inputs& inputs) {
   const std::vector<std::string>& known = inputs.materials.names;
   std::vector<std::string> unknown, materials;
@@ -116,7 +116,8 @@ void hash_heads(Inputs& inputs) {
   });
 }
 
-/// What to say of heads without a map where all others have one and the same: it is not blended.
+/// A message if only some heads have a texture and all of these have the same one: it is not
+/// blended.
 std::optional<std::string> told_of_single(const HeadsTextures& textures, const FaceSet& faces) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {
@@ -128,11 +129,13 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const F
                 "): only faces with such a target get it, as it is");
 }
 
-/// Does without pictures that turn out to be damaged when they are read: loads again, as if they were not there.
-/// \param load  makes what blends of a copy.
+/// Loads textures without damaged images: after each damaged image it loads again as if that file
+/// were missing.
+/// \param load  blends the textures of its argument
 template <class Load>
 HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) {
-  std::map<std::filesystem::path, std::string> damaged;  // told in order, whichever was met first
+  // sorted, so that the order of messages is fixed
+  std::map<std::filesystem::path, std::string> damaged;
   for (;;) {
     try {
       HeadTextures loaded = load(found);
@@ -207,7 +210,7 @@ void Inputs::warn(std::string text) {
 }
 
 void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Problems& problems) {
-  // Of files that are not there whoever read the config has told.
+  // The config reader has already reported missing files.
   const auto is_missing = [](const std::filesystem::path& file) { return !is_there(file); };
   if (reading.heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMostPoints = 1000;
-constexpr double kFarthest = 1e7;  ///< as of heads' coordinates
+constexpr double kFarthest = 1e7;  ///< same limit as for the heads' coordinates
 
 std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
   Eigen::RowVector3d position;
@@ -30,7 +30,8 @@ std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints
   return complaints.expected(node, concat("a position, [x, y, z], of numbers up to ", kFarthest));
 }
 
-/// Reads `{name: [x, y, z]}`. \param names  those known already, in their order; filled by the first.
+/// Reads `{name: [x, y, z]}`. \param names  the expected names in order; if empty, the function
+/// fills it
 Positions read_set(const YamlNode& node, std::vector<std::string>& names, Complaints& complaints) {
   if (!complaints.expect_map(node, "a mapping from names to positions, {eye_L: [3.1, 2.5, 7]}")) {
     return {};
@@ -76,7 +77,7 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
   }
 }
 
-/// The mesh beside which one set of points stands.
+/// The mesh that one set of points belongs to.
 Positions template_of(const YamlNode& root, const std::filesystem::path& file,
                       const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {
@@ -90,7 +91,7 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
   return read_positions(file.parent_path() / entry->value.text, topology, "the heads");
 }
 
-/// \param neutral  of the shapes' template, if there is one
+/// \param neutral  file of the shapes' template; empty if there is none
 void read_file(const std::filesystem::path& file, const YamlNode& root,
                const std::filesystem::path& neutral, Inputs& inputs, Complaints& complaints) {
   constexpr const char* kExpected =

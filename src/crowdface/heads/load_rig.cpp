@@ -20,11 +20,13 @@
 namespace crowdface {
 namespace {
 
-/// How far a rig's vertex may be from the template's, as a share of its extent: 0.1 mm on a head.
+/// Maximum distance between a rig's vertex and the template's, as a fraction of the template's
+/// extent: 0.1 mm on a head.
 constexpr double kSame = 2e-4;
 constexpr double kMmPerMetre = 1000;
 
-/// From glTF's axes and metres, or from whatever the file was exported in, to the heads'.
+/// Transforms from the axes and unit of the rig file (glTF's, or those it was exported in) to the
+/// heads'.
 struct Frame {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   double scale = 1;
@@ -53,11 +55,11 @@ Positions in_frame(const Frame& frame, const Positions& points) {
   return placed;
 }
 
-/// For each vertex of the heads one of the rig's.
+/// Assigns a vertex of the rig to each vertex of the heads.
 struct Match {
   std::vector<std::uint32_t> points;
   std::size_t missing = 0;
-  double farthest = 0;  ///< of those missing, from the rig's nearest
+  double farthest = 0;  ///< largest distance of an unmatched vertex from the rig
 };
 
 Match match_by_id(const GltfRig& rig, Index vertices) {
@@ -83,11 +85,11 @@ Match match_by_place(const PointGrid& grid, const Positions& mesh, double reach)
   return match;
 }
 
-/// Where the rig stands against the heads.
+/// The position of the rig relative to the heads.
 struct Fit {
   Frame frame;
   Match match;
-  Positions mesh;  ///< of the heads' topology
+  Positions mesh;  ///< positions of the rig's vertices, in the heads' topology
 };
 
 Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
@@ -134,7 +136,7 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
                      "the rig of one of them, at rest"));
 }
 
-/// \throws InvalidInput unless the rig's mesh is about as large as the heads and stands near them.
+/// \throws InvalidInput unless the rig's mesh is about as large as the heads and close to them.
 void require_near_heads(const Fit& fit, const Config& config, const Inputs& inputs) {
   constexpr double kMostTimes = 2, kMostOff = 10;
   const auto size_of = [](const Positions& mesh) {
@@ -153,7 +155,7 @@ void require_near_heads(const Fit& fit, const Config& config, const Inputs& inpu
                      "and joints say where the mesh stands)"));
 }
 
-/// A joint's axes in the heads'. \throws InvalidInput if their lengths differ.
+/// A joint's axes in the heads' frame. \throws InvalidInput if their lengths differ.
 Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
   constexpr double kAlike = 1e-3;
   Eigen::Matrix3d axes;

@@ -20,20 +20,21 @@
 namespace crowdface {
 namespace {
 
-/// Where meshes are read from, and what they are to be like.
+/// The source of shape meshes, and the topology that they must have.
 struct Source {
   const Config& config;
   const Topology& topology;
   const CacheFolder& cache;
 };
 
-/// Reads many meshes in parallel. \param asked  those that are empty are left out
-/// \param take  take(i, positions of asked[i]) for each that can be read
+/// Reads many meshes in parallel.
+/// \param asked  paths; empty ones are skipped
+/// \param take   called as take(i, positions of asked[i]) for each mesh that can be read
 template <class Take>
 void read_meshes(const std::vector<std::filesystem::path>& asked, const Source& source,
                  Problems& problems, const Take& take) {
   std::vector<std::filesystem::path> files;
-  std::vector<std::size_t> places;  // among those that are asked for
+  std::vector<std::size_t> places;  // indices into `asked`
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (asked[i].empty()) continue;
     files.push_back(asked[i]);
@@ -63,7 +64,7 @@ void read_meshes(const std::vector<std::filesystem::path>& asked, const Source& 
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
-/// The template's shapes; those that it lacks are left out.
+/// Loads the template's shapes; skips those that the template lacks.
 ShapeSet load_template(const Source& source, const Inputs& inputs, double extent,
                        Problems& problems) {
   const Config::Shapes& asked = source.config.shapes;
@@ -83,7 +84,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   return set;
 }
 
-/// A head as its file has it, and the motion that aligned it.
+/// A head as its file has it, and the rigid motion that aligns it.
 struct RestingHead {
   Positions mesh;
   RigidMotion motion;
@@ -114,7 +115,7 @@ void load_head(const Source& source, const Inputs& inputs, std::size_t head, dou
   });
 }
 
-/// Carries the template's shapes to heads that lack them.
+/// Transfers the template's shapes to heads that lack them.
 void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_template,
              ShapeSet& set) {
   std::optional<ShapeTransfer> transfer;
@@ -134,7 +135,7 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
   }
 }
 
-/// The shapes of each head, and their mean on the mean head.
+/// Loads the shapes of each head, and averages them on the mean head.
 void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   const Config& config = source.config;
   const Config::Shapes& asked = config.shapes;
@@ -157,7 +158,8 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   }
 }
 
-/// A shape that moves no vertex of any head is the neutral, or a shape that a model names and does not have.
+/// Removes shapes that move no vertex of any head: either the neutral pose or a shape that a model
+/// names but does not have.
 void leave_out_still_shapes(Inputs& inputs) {
   ShapeSet& set = inputs.shapes;
   for (std::size_t s = set.shapes.size(); s-- > 0;) {

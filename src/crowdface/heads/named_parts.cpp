@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// The name that most faces of each component bear, #components; empty where none is borne.
+/// #components: the name that most polygons of a component have; empty if none has a name.
 std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, const Inputs& inputs) {
   const Topology& topology = inputs.faces.topology;
   std::vector<std::map<std::size_t, Index>> faces(
@@ -19,7 +19,7 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
     const Index end =
         range + 1 < ranges.size() ? ranges[range + 1].first_face : topology.face_count();
     std::uint32_t component = kNoIndex;
-    Index* count = nullptr;  // of this component: faces of one mostly follow each other
+    Index* count = nullptr;  // cached, because the polygons of a component mostly follow each other
     for (Index f = ranges[range].first_face; f < end; ++f) {
       const std::uint32_t of_face = inputs.components.of_vertex[topology.face(f)[0]];
       if (of_face != component) count = &faces[of_face][range];
@@ -29,7 +29,7 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
   }
   std::vector<std::string> names;
   for (const auto& of_component : faces) {
-    std::map<std::string, Index> by_name;  // a name may stand in the file several times
+    std::map<std::string, Index> by_name;  // a name may occur several times in the file
     for (const auto& [r, count] : of_component) by_name[ranges[r].name] += count;
     const auto most = std::ranges::max_element(
         by_name, [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -38,7 +38,7 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
   return names;
 }
 
-/// Finds the components that a name in the config stands for.
+/// Finds the components that a name in the config refers to.
 class ComponentNames {
  public:
   ComponentNames(const Config& config, const Inputs& inputs, Problems& problems)
@@ -181,7 +181,7 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
     if (inputs.parts.classes[c] == PartClass::kSkin) add(lines[0], c);
   }
   for (const Part& part : inputs.parts.parts) {
-    // Lashes come in dozens: those of one material share a line.
+    // There may be dozens of eyelash components: those of one material share a line.
     const bool again = part.part_class == PartClass::kBound && lines.back().what == "bound" &&
                        label(lines.back().components[0]) == label(part.components[0]);
     if (!again) lines.push_back({part_name(part), {}, 0});

@@ -35,20 +35,20 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels))
       .add(is_basis ? config.smoothing.tolerance_mm / mm_per(config.faces.units) : 0.0)
-      // The first head orders the filter's rows, of which a basis is fitted to every n-th.
+      // The filter's row order depends on the first head, and a basis is fitted to every n-th row.
       .add(is_basis ? inputs.head_digests.front() : Digest{})
       .digest();
 }
 
-/// How much the nodes may miss, as a share of the displacement at L_max, so that they take about a
-/// tenth of the tolerance: 2·10⁻⁴ at the default of 0.05 mm (measured, docs/method.md).
+/// Maximum error of the nodes as a fraction of the displacement at L_max, such that it uses up
+/// about a tenth of the tolerance: 2·10⁻⁴ at the default of 0.05 mm (measured, docs/method.md).
 double missed_by_nodes(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
   if (config.smoothing.levels != Levels::kBasis) return 2e-4;
   return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
 }
 
-/// Computes heads when the cache does not have them; the filter is made for the first.
+/// Prepares heads that the cache lacks; makes the filter when the first head needs it.
 class HeadPreparation {
  public:
   HeadPreparation(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
@@ -87,7 +87,8 @@ class HeadPreparation {
   Prepared& prepared_;
 };
 
-/// Removes what runs left that were killed while they kept a head. A cache is no reason to stop.
+/// Removes temporary files of runs that were killed while writing to the cache. Errors only cause a
+/// warning.
 void clean(const std::filesystem::path& cache) {
   try {
     remove_leftovers(cache);
@@ -119,11 +120,11 @@ HeadCacheShape cache_shape(const Config& config, const Inputs& inputs, const Pre
           config.smoothing.levels};
 }
 
-/// All heads' fields on patches, from the cache or made for it.
+/// Patches of all heads' fields, from the cache or computed.
 KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const std::vector<Digest>& keys, const CacheFolder& cache) {
   const double tolerance = config.smoothing.tolerance_mm / mm_per(config.faces.units);
-  double missed = 0;  // by the heads' own fields
+  double missed = 0;  // largest error of the heads' own fields
   std::vector<Index> ranks;
   Hasher hasher;
   hasher.add(kPatchVersion).add(tolerance);
@@ -186,10 +187,10 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
       ++prepared.from_cache;
     } else {
       head = preparation.prepare(inputs.faces.heads[h]);
-      // After one failure there is no point in more warnings.
+      // After one failure, more warnings would not help.
       cache_works =
           cache_works && store(cache, prepared_key(keys[h]), arrays_of(*head), "prepared heads");
-      // What was written is used from there, so that memory holds the fields of one head only.
+      // Use the mapped file from here on, so that only one head's fields are in memory at a time.
       if (cache_works) {
         if (auto written = find_prepared(cache, keys[h], shape)) head = std::move(written);
       }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Raised when the reader, `read_obj`, makes something else of a text.
+/// Increase this if `read_obj` changes its result for the same text.
 constexpr std::uint32_t kVersion = 1;
 
 bool is_topology(const Topology& topology) {
@@ -29,7 +29,7 @@ bool is_topology(const Topology& topology) {
   return all_below(topology.corner_vertices, static_cast<std::uint64_t>(topology.vertex_count));
 }
 
-/// Names, and from which face on each is in use.
+/// Names, and the first polygon of each.
 struct KeptNames {
   std::vector<std::uint64_t> faces, sizes;
   std::vector<std::uint8_t> names;
@@ -116,7 +116,7 @@ Digest HeadMesh::digest() const {
 }
 
 CacheKey read_key(const Digest& text) {
-  // A text that one limit allows may be too large for another.
+  // The cache may hold a file that exceeds the current limits.
   const InputLimits& limits = input_limits();
   return {kReadKind,
           Hasher().add(kVersion).add(text).add(limits.vertices).add(limits.faces).digest()};

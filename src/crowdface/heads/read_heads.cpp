@@ -35,13 +35,13 @@ bool by_digest(const Digest& a, const Digest& b) {
   return std::pair(a.high, a.low) < std::pair(b.high, b.low);
 }
 
-/// The meshes of the heads read so far, each once.
+/// Meshes of the heads read so far, without duplicates. Thread-safe.
 class MeshShelf {
  public:
   MeshShelf(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}
   Winding winding() const { return winding_; }
 
-  /// \return null if neither we nor the cache have it.
+  /// \return the mesh from memory or the cache; null if neither has it.
   std::shared_ptr<HeadMesh> find(const Digest& digest) {
     const std::lock_guard lock(mutex_);
     const auto known = meshes_.find(digest);
@@ -51,12 +51,12 @@ class MeshShelf {
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
 
-  /// Whether nobody has asked this of a text's mesh: then it is the caller's to read it.
+  /// Returns true for the first caller with this outline, who must then read the mesh.
   bool is_first(const Digest& outline) {
     const std::lock_guard lock(mutex_);
     return of_outline_.emplace(outline, Known()).second;
   }
-  /// \param outline  of the text that the mesh was read from
+  /// \param outline  hash of the text that the mesh was read from
   void put(const Digest& outline, HeadMesh mesh, HeadFile& head) {
     head.mesh_digest = mesh.digest();
     const std::lock_guard lock(mutex_);
@@ -65,7 +65,8 @@ class MeshShelf {
     head.mesh = place;
     if (!head.file.is_mended) of_outline_[outline] = {head.mesh_digest, place};
   }
-  /// The mesh that was read from another text with this outline; nothing if there is none, or that text was mended.
+  /// Gives a head the mesh read from another text with this outline; null if there is none, or if
+  /// that text had to be repaired.
   void take(const Digest& outline, HeadFile& head) {
     const std::lock_guard lock(mutex_);
     const Known& known = of_outline_[outline];
@@ -99,7 +100,7 @@ bool is_worth_keeping(const ObjFile& file) {
   return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kLeastKeptBytes;
 }
 
-/// What readers have to say of files, once for all of which they say the same.
+/// Logs the readers' notes on files; identical notes are merged.
 void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
   std::vector<std::pair<std::string, std::vector<std::string>>> notes;
   for (const std::optional<HeadFile>& head : files) {
@@ -118,7 +119,7 @@ void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
   }
 }
 
-/// Fills in what the cache knows of a head. \return false if it does not.
+/// Fills in a head from the cache. \return false if the cache does not have it.
 bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf) {
   const auto mesh = find_head(cache, head.text, head.file);
   if (!mesh) return false;
@@ -136,7 +137,7 @@ struct HeadReading {
   ObjOutline outline;
 };
 
-/// Sorts what was read into the head and its mesh.
+/// Distributes what was read to the head and its mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   file = shelf.winding() == Winding::kOutward ? right_side_out(std::move(read)) : std::move(read);
@@ -151,8 +152,10 @@ void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
   take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.outline), shelf);
 }
 
-/// Puts the textures of a mesh file where OBJ files have them: into a folder of the cache, beside a material file.
-/// \return the path beside which the material file lies, and its name; nothing without textures or a cache
+/// Stores the textures embedded in a mesh file as files next to a material file, as OBJ files have
+/// them, in a folder of the cache.
+/// \return the path that the material file is relative to, and the file's name; empty without
+///         textures or without a cache.
 std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
                                                const FileMesh& mesh) {
   if (mesh.textures.empty() || cache.path.empty()) return {};
@@ -166,7 +169,7 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
   return {folder / stem, std::move(library)};
 }
 
-/// Arrays of positions may come without faces: then the head has no mesh.
+/// Files with only positions have no polygons: then the head has no mesh yet.
 void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_joined_mesh(file.path);
@@ -180,7 +183,7 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf
   file.is_mended = true;
 }
 
-/// Reads all but the mesh if another head has the same, which may not be there yet.
+/// Reads a head; skips the mesh if another head has the same, which may still be in progress.
 HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshShelf& shelf) {
   HeadReading reading;
   HeadFile& head = reading.head;
@@ -213,20 +216,21 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   return reading;
 }
 
-/// Gives a head its mesh when that of the first that has the same is there, or could not be read.
+/// Gives a head the mesh that the first head with the same outline has read; if that failed, reads
+/// it.
 void end_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
 }
 
-/// The mesh of another head for one that has its vertices in the same order.
-/// \param colours  of the vertices
+/// Gives a head with the same vertex order the mesh of another head.
+/// \param colours  vertex colours
 void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours = {}) {
   FileMesh mesh;
   mesh.topology = other.mesh->topology;
   mesh.uvs = other.mesh->uvs;
-  // Materials of several names stand with the other's faces.
+  // Several materials can only be assigned to polygons as in the other file.
   mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
   mesh.positions = head.file.positions;
   mesh.colours = colour_shares(colours);
@@ -244,7 +248,7 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours 
   head.mesh_digest = other.mesh_digest;
 }
 
-/// Arrays of positions have the faces of the first mesh with as many vertices.
+/// Gives heads without polygons those of the first mesh with as many vertices.
 void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
                           std::vector<std::optional<Error>>& errors) {
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -304,7 +308,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
 
 namespace {
 
-/// Least and greatest texture coordinates of each vertex, which tell layouts apart.
+/// Minimum and maximum texture coordinates of each vertex; they differ between layouts.
 std::vector<std::array<double, 4>> uv_bounds(const HeadMesh& mesh) {
   constexpr double kFar = std::numeric_limits<double>::max();
   std::vector<std::array<double, 4>> bounds(static_cast<std::size_t>(mesh.topology.vertex_count),
@@ -338,8 +342,8 @@ bool has_same_uvs(const HeadMesh& first, const HeadMesh& found,
   return true;
 }
 
-/// The vertex of a head for each of the first one's, if it is the same mesh but for their order, or without polygons or
-/// texture coordinates; nothing otherwise.
+/// Maps each vertex of the first head to a vertex of `head`, if both are the same mesh except for
+/// the vertex order, or except for missing polygons or texture coordinates; otherwise nothing.
 std::optional<std::vector<std::uint32_t>> vertices_in_order(const HeadFile& first,
                                                             const HeadFile& head) {
   const Topology &expected = first.mesh->topology, &found = head.mesh->topology;
@@ -359,7 +363,7 @@ std::optional<std::vector<std::uint32_t>> vertices_in_order(const HeadFile& firs
   return vertices;
 }
 
-/// Heads that are the first one's mesh in another order are put in its order.
+/// Reorders the vertices of heads that have the first head's mesh in another order.
 void put_in_order(std::vector<HeadFile>& heads) {
   std::vector<std::size_t> moved(heads.size(), 0);
   parallel_for_each(heads.size(), [&](std::size_t h) {

@@ -19,7 +19,7 @@ std::int64_t nanoseconds(const timespec& time) {
   return time.tv_sec * kSecond + time.tv_nsec;
 }
 
-/// One entry for each device and inode.
+/// The key has one entry for each device and inode.
 CacheKey seen_key(std::span<const std::int64_t> stamp) {
   return {"seen", Hasher().add(stamp[0]).add(stamp[1]).digest()};
 }
@@ -47,13 +47,14 @@ SeenFile::SeenFile(const CacheFolder& cache, const fs::path& file)
     arrays("stamp", seen);
     arrays("digest", digest);
     if (seen == *stamp_) digest_ = digest;
-  } catch (const RecoverableError&) {  // a damaged entry tells nothing of the file
+  } catch (const RecoverableError&) {  // ignore a damaged entry: the file will be hashed
   }
 }
 
 void SeenFile::remember(const Digest& digest) const {
   if (!stamp_ || digest_ == digest || stamp_of(file_) != stamp_) return;
-  // Clocks of file systems tick some hundred times a second.
+  // File systems update times only some hundred times a second: a change within this time might go
+  // unnoticed.
   constexpr std::int64_t kSettled = 1'000'000'000;
   timespec now{};
   if (::clock_gettime(CLOCK_REALTIME, &now) != 0 || nanoseconds(now) - stamp_->back() < kSettled) {
@@ -64,7 +65,7 @@ void SeenFile::remember(const Digest& digest) const {
     arrays("stamp", *stamp_);
     arrays("digest", digest);
     write_entry(cache_, seen_key(*stamp_), arrays.arrays);
-  } catch (const RecoverableError&) {  // then the next run hashes the file again
+  } catch (const RecoverableError&) {  // the next run will hash the file again
   }
 }
 

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// Nothing if all is skin.
+/// Adds nothing if all components are skin.
 void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
   if (parts.parts.empty()) return;
   hasher.add(kPartsVersion).add(static_cast<int>(config.parts.shape));
@@ -31,7 +31,8 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
   for (std::size_t h = 0; h < inputs.head_digests.size(); ++h) {
-    // The file as well as the positions: everything else in a mesh is its target's own text.
+    // Also hash the file: everything in a mesh except its positions is copied from its target's
+    // file.
     hasher.add(config.faces.names[h]).add(inputs.head_digests[h]).add(inputs.texts[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
@@ -53,7 +54,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
 
 Digest materials_digest(const Inputs& inputs) {
   const bool has_colours = inputs.textures.digest != Digest();
-  std::set<std::filesystem::path> known;  // heads mostly share theirs
+  std::set<std::filesystem::path> known;  // heads mostly share their material files
   Hasher hasher;
   for (const ObjFile& head : inputs.files) {
     for (const MaterialFile& file :

@@ -27,13 +27,13 @@ Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
   return hasher.add(kSharedVersion).add(inputs.topology_digest);
 }
 
-/// Of all that follows from where the skin of all heads is.
+/// Adds everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
   for (const Digest& head : inputs.head_digests) hasher.add(head);
   return hasher.add_array(std::span(inputs.skin.of_vertex)).add(inputs.skin.largest());
 }
 
-/// Whether each component has as many vertices as it says.
+/// Whether each component's size equals its number of vertices.
 bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
                const std::vector<std::uint32_t>& sizes) {
   if (!all_below(of_vertex, sizes.size())) return false;
@@ -42,15 +42,16 @@ bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
   return counted == sizes;
 }
 
-/// Of the corners of a triangle.
+/// Whether the numbers are valid barycentric coordinates.
 bool are_shares(const std::array<double, 3>& shares) {
   constexpr double kRounding = 1e-9;
   return std::ranges::all_of(
       shares, [](double share) { return share >= -kRounding && share <= 1 + kRounding; });
 }
 
-/// Nothing if the masks' bytes do not tell all: of tiles it depends on the mesh which are read, and of files
-/// that cannot be read whoever reads them tells.
+/// Hash of the masks' bytes and of everything else that the regions depend on. Nothing if that does
+/// not suffice: the mesh determines which UDIM tiles are read, and unreadable files are reported
+/// when they are loaded.
 std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs) {
   const InputLimits& limits = input_limits();
   Hasher key;

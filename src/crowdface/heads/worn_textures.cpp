@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 using TilePlace = std::array<std::int32_t, 2>;
 
-/// The UDIM tile that a face lies in, told by its middle, so that corners on a border do no harm. The
-/// first for a face without coordinates or outside all tiles.
+/// The UDIM tile of a polygon, determined by its centroid, so that corners may lie on a tile's
+/// border. The first tile if the polygon has no texture coordinates or lies outside all tiles.
 TilePlace tile_of(const FaceSet& faces, Index face) {
   Eigen::RowVector2d sum(0, 0);
   double corners = 0;
@@ -60,7 +60,8 @@ WornTextures worn_by(const std::map<std::string, fs::path>& of_material,
       row->second = static_cast<std::uint32_t>(worn.files.size());
       worn.files.push_back({path, found->second});
     } else if (is_new && !find_tiles(found->second).empty()) {
-      missing.push_back(path);  // of others whoever read the material file has told
+      // other missing files were reported by the reader of the material file
+      missing.push_back(path);
     }
     worn.of_face[f] = row->second;
   }
@@ -132,7 +133,7 @@ std::vector<HeadsTextures> find_worn_textures(const FaceSet& faces,
     parallel_for_each(face_count, kBlock,
                       [&](Index f) { tile[static_cast<std::size_t>(f)] = tile_of(faces, f); });
   }
-  // Heads of one folder mostly share their material files.
+  // Heads in one folder mostly share their material files.
   std::map<std::pair<fs::path, std::vector<std::string>>, NamedTextures> known;
   std::vector<const NamedTextures*> of_head;
   std::set<TextureKind> kinds = {TextureKind::kColour};
