@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// A request to draw faces for the user to choose from.
 struct DrawRequest {
-  CastFace from;  ///< gives the id, and all that is locked
+  CastFace from;  ///< supplies the id and all locked parts
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
   std::optional<CastFace> like;  ///< draw variations of this face

@@ -98,7 +98,7 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
 
   std::mutex opening, answering;
   std::shared_ptr<OpenedJob>
-      opened;  // under `answering`; requests to an older one are answered to the end
+      opened;  // guarded by `answering`; requests to an older job still finish
   std::function<void()> open_again;
   const auto open = [&](Job next) {
     auto made =

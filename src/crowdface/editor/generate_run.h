@@ -33,7 +33,8 @@ class GenerateRun {
   GenerateRun(const GenerateRun&) = delete;
   GenerateRun& operator=(const GenerateRun&) = delete;
 
-  /// Begins, unless it runs. \throws IoError if the program cannot be started.
+  /// Starts the run unless it is running.
+  /// \throws IoError if the program cannot be started.
   void start();
   void stop();
   State state();

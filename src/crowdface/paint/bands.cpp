@@ -13,30 +13,32 @@
 namespace crowdface {
 namespace {
 
-// Lengths are parts of the way from mouth to eyes. Borders between the bands: under the brows, and
-// between nose and lips; half as wide to either side as they are soft. Bands are of different people, often
-// by a centimetre: where that has less room than four centimetres it is seen as a ridge.
+// Lengths are fractions of the distance from mouth to eyes. The upper border runs under the brows,
+// the lower border between nose and lips. Blending extends by kSoft to either side of a border, so
+// that a transition is about four centimetres wide. Adjacent bands come from different people,
+// whose surfaces are often a centimetre apart; a narrower transition shows as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
-// Ears are painted this far around what stands out; the neck begins this far below chin and ears.
+// How far the ear regions extend beyond the ears, and how far below chin and ears the neck begins.
 constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
                  kBelowChin = 0.12, kNeckSoft = 0.12;
 
-// Of the way from eyes to mouth, some 65 mm: how far above the eyes and below the mouth the head's own
-// breadth is taken, and how far ears stand out at least.
+// Fractions of the distance from eyes to mouth, about 65 mm. The head's breadth without ears is
+// measured this far above the eyes and below the mouth; kLeastEar is the smallest protrusion of an
+// ear.
 constexpr double kAbove = 0.9, kBelow = 0.1, kLeastEar = 0.06;
-/// What stands out by more than this part of the ear's most is ear.
+/// A place belongs to an ear if it protrudes by more than this fraction of the ear's maximum.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
-/// Where both ears of a head lie, along its axes.
+/// Extent of both ears of a head along the head's axes.
 struct EarBox {
   double bottom = 0, top = 0;  ///< heights
   double back = 0, front = 0;
-  double inner = 0;  ///< how far from the middle they begin
+  double inner = 0;  ///< distance from the middle at which the ears begin
 };
 
-/// What stands out at the sides of the skin between mouth and brows.
-/// \return nothing if nothing does.
+/// Finds the ears: the protrusions at the sides of the skin between mouth and brows.
+/// \return nothing if nothing protrudes.
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks) {
   const HeadAxes& axes = marks.axes;
@@ -49,7 +51,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   const auto breadth_at = [&](const Eigen::Vector3d& p) {
     return std::abs(p.dot(side) - marks.middle);
   };
-  // The head's half breadth at each height, from its edges.
+  // Half breadth of the head at each height, from the edges of the skin.
   std::array<double, kBins> breadth{};
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face_corners = topology.face(f);
@@ -68,7 +70,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
       }
     }
   }
-  const auto head_at = [&](double height) {  // without ears
+  const auto head_at = [&](double height) {  // half breadth without ears
     const double t = std::clamp((height - low) / (step * (kBins - 1)), 0.0, 1.0);
     return (1 - t) * breadth.front() + t * breadth.back();
   };
@@ -101,7 +103,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   return ears;
 }
 
-/// How much of the ears each place is.
+/// Weight of the ears at a place.
 double ear_share(const EarBox& ears, double face, double side, double height, double front) {
   const double around = kAroundEar * face, soft = kEarSoft * face;
   const auto inside = [&](double from, double to, double x) {
@@ -112,7 +114,8 @@ double ear_share(const EarBox& ears, double face, double side, double height, do
          smooth_step(ears.inner - 2 * around, ears.inner, side);
 }
 
-/// The height below which a place is neck: it rises from under the chin to under the ears.
+/// The height below which a place belongs to the neck. The border rises from below the chin to
+/// below the ears.
 struct NeckBorder {
   double chin_front, chin, ear_front, ear;
   double at(double front) const {

@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// Parts of a head that a shape tells apart.
+/// Parts of a head that the shape of the head determines.
 enum class Band : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose
@@ -29,17 +29,17 @@ inline constexpr std::array<std::pair<std::string_view, Band>, 5> kBandNames = {
      {"ears", Band::kEars},
      {"neck", Band::kNeck}}};
 
-/// Shares of brow, nose and mouth (columns 0 to 2) at some heights: soft, one above the other.
-/// \param heights  #V; rises upwards.
+/// Weights of brow, nose and mouth (columns 0 to 2) as soft horizontal bands.
+/// \param heights  #V; increase upwards.
 /// \throws InvalidInput unless the eyes are above the mouth.
 RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
 
-/// Soft bands of a head, from its own shape.
-/// \param marks  found in that head
-/// \param bands  kBrow, kNose and kMouth, and which others.
-/// \return #V by #bands, not negative; rows sum to one.
-/// \throws InvalidInput if ears are asked for and nothing stands out at the sides of the head, or a
-///         neck and nothing lies below the chin.
+/// Weights of soft bands of a head, computed from the head's shape.
+/// \param marks  the result of find_face_marks for this head
+/// \param bands  kBrow, kNose and kMouth, and optionally others
+/// \return #V by #bands, not negative; each row sums to one.
+/// \throws InvalidInput if `bands` has kEars and no ears stand out at the sides of the head, or if
+///         `bands` has kNeck and the head ends at the chin.
 RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& head,
                                    const FaceMarks& marks, const std::vector<Band>& bands);
 

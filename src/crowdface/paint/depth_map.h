@@ -11,30 +11,35 @@
 
 namespace crowdface {
 
-/// The foremost depth of a surface in each square of a grid, seen from the front.
+/// Depth map of a surface seen from the front: the foremost depth in each square of a grid.
 class DepthMap {
  public:
-  /// \param square  how large a square is
+  /// \param square  edge length of a square
   DepthMap(const Positions& samples, const HeadAxes& axes, double square);
 
-  /// Means over three by three squares, of those that show the surface: noise counts less.
+  /// Reduces noise: replaces each depth by the mean over three by three squares, without the
+  /// squares that do not show the surface.
   void soften();
 
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// How the surface compares with the mean face.
-  /// \param across, height  between the eyes. \param scale, stretch  see ReliefMatch
+  /// Compares the surface with the mean face.
+  /// \param across, height  position of the point between the eyes.
+  /// \param scale, stretch  see ReliefMatch
   ReliefFit fit(double across, double height, double scale, double stretch = 1) const;
 
  private:
-  /// A place along one side of the grid: the square that holds the place, the one whose middle lies below, and the share
-  /// of the next one. No square: -1.
+  /// The squares around a coordinate along one axis of the grid: the square that contains the
+  /// coordinate, the last square whose centre is below the coordinate, and the interpolation weight
+  /// of the next square. An index is −1 if there is no such square.
   struct Lookup {
     Index nearest = -1, below = -1;
     double share = 0;
   };
   Lookup look_up(double offset, double extent, Index count) const;
-  /// Linear between the middles of four squares if all of them show the surface.
+  /// Depth at a point of the grid: bilinear between the centres of four squares if all four show
+  /// the surface, otherwise the depth of the square that contains the point. kNoDepth outside the
+  /// grid.
   double at(const Lookup& column, const Lookup& row) const;
   std::size_t index(double x, double y) const;
 

@@ -18,10 +18,11 @@ namespace {
 
 constexpr Index kHeights = 720;
 
-/// How far in front the skin reaches about the middle, at each of kHeights heights.
+/// Profile of the skin near the symmetry plane: how far in front the skin reaches at each of
+/// kHeights heights.
 class Outline {
  public:
-  /// \param mm  the unit of the positions per millimetre of a face of mean size
+  /// \param mm  length of a millimetre on a face of average size, in the unit of the positions
   Outline(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
           const HeadAxes& axes, double middle, double mm) {
     low_ = std::numeric_limits<double>::infinity();
@@ -35,7 +36,7 @@ class Outline {
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
     front_.assign(kHeights, kNothing);
     if (!(step_ > 0)) return;
-    // The median of several planes: small holes and noise do not count.
+    // Takes the median of several parallel planes, so that small holes and noise have no effect.
     constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
     std::array<std::vector<double>, kBesideMm.size()> fronts;
     for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -60,7 +61,7 @@ class Outline {
     const double t = x - static_cast<double>(bin);
     return (1 - t) * front_[bin] + t * front_[bin + 1];
   }
-  /// The outline with whatever is hollow over less than `width` filled: a mouth that is open a little.
+  /// Fills hollows of the profile that are narrower than `width`, such as a slightly open mouth.
   Outline without_slits(double width) const {
     Outline closed = *this;
     const auto reach = static_cast<std::ptrdiff_t>(width / (2 * step_));
@@ -79,11 +80,12 @@ class Outline {
     closed.front_ = extreme(extreme(front_, highest), lowest);
     return closed;
   }
-  /// How far the outline lies behind the line between the places a way above and below.
+  /// How far the profile at `height` lies behind the line between its points at the distance `way`
+  /// above and below.
   double hollow(double height, double way) const {
     return (at(height + way) + at(height - way)) / 2 - at(height);
   }
-  /// The height from `from` to `to` at which `measure` is largest.
+  /// The height between `from` and `to` at which `measure` is largest.
   template <class Measure>
   double best(double from, double to, const Measure& measure) const {
     double best = from, most = -std::numeric_limits<double>::infinity();
@@ -101,14 +103,15 @@ class Outline {
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
   static constexpr double kSoftMm = 1.5;
 
-  /// Adds what a plane cuts from the skin.
+  /// Adds the intersection of the skin with a plane.
   void cut(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
            const HeadAxes& axes, double middle) {
     const Eigen::Vector3d side = axes.side();
     for (Index f = 0; f < topology.face_count(); ++f) {
       const auto face = topology.face(f);
       if (!skin[face[0]]) continue;
-      std::vector<Eigen::Vector2d> cut;  // height and front of the places where edges cross
+      // Height and front of the points where edges cross the plane.
+      std::vector<Eigen::Vector2d> cut;
       for (std::size_t c = 0; c < face.size(); ++c) {
         const Eigen::Vector3d a = row3(positions, face[c]);
         const Eigen::Vector3d b = row3(positions, face[(c + 1) % face.size()]);
@@ -147,7 +150,8 @@ class Outline {
       }
     }
   }
-  /// Binomial smoothing; \param width  standard deviation
+  /// Binomial smoothing.
+  /// \param width  standard deviation
   void soften(double width) {
     const auto rounds = static_cast<int>(std::ceil(2 * (width / step_) * (width / step_)));
     for (int round = 0; round < rounds; ++round) {
@@ -162,18 +166,21 @@ class Outline {
   std::vector<double> front_;
 };
 
-// Lengths in millimetres of a face of mean size; heights are those of the mean relief, above its eyes.
-constexpr double kSlitMm = 11;  ///< an open mouth is hollow over less
+// Lengths in millimetres on a face of average size. Heights are relative to the eyes of the mean
+// relief.
+constexpr double kSlitMm = 11;  ///< an open mouth is a narrower hollow
 constexpr double kBridgeMm = 5, kTipMm = -34, kMouthMm = -74;
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
-constexpr double kBridgeWayMm = 15, kLipWayMm = 5;  ///< over which bridge and mouth are hollow
-constexpr double kPriorMm = 3;                      ///< penalty at the end of the reach
+/// Half widths of the hollows of bridge and mouth.
+constexpr double kBridgeWayMm = 15, kLipWayMm = 5;
+constexpr double kPriorMm = 3;  ///< penalty at the end of the search range
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
-constexpr double kFineMm = 5;  ///< edges that show lips
-// Of the way from eyes to mouth, some 65 mm.
+constexpr double kFineMm = 5;  ///< edges up to this length resolve the lips
+// Fractions of the distance from eyes to mouth, about 65 mm.
 constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
 
-/// The length of an edge of the skin about the middle of a face, if all polygons there were squares of the median area.
+/// Typical edge length of the skin around a face: the edge of a square that has the median area of
+/// the polygons there.
 double edge_length_near(const Topology& topology, const HeadShape& head, const ReliefMatch& face) {
   constexpr double kNearMm = 70;
   std::vector<double> areas;
@@ -231,14 +238,15 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   FaceMarks marks;
   marks.axes = match.axes;
   const double mm = match.scale, eyes = match.between.dot(match.axes.up);
-  // The middle of the skin is more exact, but hair or a cap may move it.
+  // The middle of the skin is more accurate, but hair or a cap may shift it.
   marks.middle = middle_of(topology, head, marks.axes);
   const double of_relief = match.between.dot(match.axes.side());
   if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
   const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle, mm);
   const Outline closed = outline.without_slits(kSlitMm * mm);
-  // A quadratic penalty keeps each feature near its height on the mean face, because shallow hollows may be noise. A mesh
-  // with long edges does not show the slit between the lips, so there the mean face counts for more.
+  // A quadratic penalty keeps each feature near its height on the mean face, because shallow
+  // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
+  // mean face has more weight there.
   const double coarseness = std::max(1.0, edge_length_near(topology, head, match) / (kFineMm * mm));
   const double prior = kPriorMm * mm * coarseness * coarseness;
   const auto best_near = [&](double expected, double reach, const auto& measure) {
@@ -252,7 +260,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
                            [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
   marks.mouth = best_near(kMouthMm, kMouthReachMm,
                           [&](double h) { return outline.hollow(h, kLipWayMm * mm); });
-  // The tip stands out most beyond the line from bridge to mouth, however the head is bowed.
+  // The tip is the point farthest in front of the line from bridge to mouth, so that a bowed head
+  // does not matter.
   const double slope =
       (closed.at(marks.bridge) - closed.at(marks.mouth)) / std::max(marks.bridge - marks.mouth, mm);
   marks.tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h) - slope * h; });

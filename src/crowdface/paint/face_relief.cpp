@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A place for the relief, and how well it agrees there.
+/// A position of the relief and its agreement there.
 struct Candidate {
   double across = 0, height = 0, scale = 1, stretch = 1;
   ReliefFit fit;
@@ -36,7 +36,7 @@ HeadAxes turned(const HeadAxes& axes, const Eigen::Vector3d& about, double degre
   return {turn * axes.front, turn * axes.up};
 }
 
-/// Degrees of the turn that carries one frame into another.
+/// Angle in degrees of the rotation from one frame to the other.
 double angle_between(const HeadAxes& a, const HeadAxes& b) {
   const double trace = a.front.dot(b.front) + a.up.dot(b.up) + a.side().dot(b.side());
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) / kRadians;
@@ -44,7 +44,8 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 
 constexpr double kVoteOfEyes = 0.15;
 
-/// What eyeballs say about a place for the eyes: 1, or -1 against it; 0 if there are none.
+/// Compares the known eyeballs with the eyes of a match: 1 if they agree, −1 if not, 0 without
+/// eyeballs.
 int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                  double height, double scale) {
   constexpr double kNearMm = 20;
@@ -57,14 +58,14 @@ int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes,
              : -1;
 }
 
-/// The best place for the relief in one view, over all sizes.
-/// \param coarseness  steps as multiples of the finest
+/// Finds the best position of the relief in one view, over all sizes.
+/// \param coarseness  step width as a multiple of the finest steps
 Candidate search_view(const Positions& samples, const HeadAxes& axes,
                       const std::vector<Eigen::Vector3d>& eyes, double coarseness) {
   constexpr double kLeastAmplitude = 0.45, kMostAmplitude = 2;
-  constexpr double kSquares = 150;  // along the diagonal
+  constexpr double kSquares = 150;  // number of squares along the diagonal
   constexpr double kLeastShare = 0.15,
-                   kMostShare = 0.85;  // of the breadth that the relief may have
+                   kMostShare = 0.85;  // width of the relief as fractions of the surface's breadth
   constexpr double kReliefMm = kReliefSpacingMm * (kReliefColumns - 1);
   const double grow = std::pow(1.15, coarseness), up_mm = 6 * coarseness,
                aside_mm = 10 * coarseness;
@@ -110,7 +111,7 @@ ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
           candidate.stretch};
 }
 
-/// Pattern search (Hooke & Jeeves 1961) for turn, place and size from a first match.
+/// Refines rotation, position and size of a match by pattern search (Hooke & Jeeves 1961).
 class Refinement {
  public:
   Refinement(const Positions& samples, const ReliefMatch& first) : best_(first) {
@@ -134,7 +135,8 @@ class Refinement {
     search();
     const double pitch = std::atan(slope_up_) / kRadians;
     if (std::abs(pitch) >
-        kLeastPitch) {  // a smaller one is how the person holds the head, or the face's own form
+        // Smaller angles come from the person's posture or from the form of the face.
+        kLeastPitch) {
       ReliefMatch next = best_;
       next.axes = turned(best_.axes, best_.axes.side(), pitch);
       best_.agreement = -1;
@@ -146,7 +148,7 @@ class Refinement {
 
  private:
   static constexpr double kSquareMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
-  static constexpr double kMostStretch = 0.25;  // of the logarithm
+  static constexpr double kMostStretch = 0.25;  // of the logarithm of the stretch
   static constexpr double kLeastPitch = 10;     // degrees
 
   void search() {
@@ -205,7 +207,7 @@ class Refinement {
   }
 
   Positions near_;
-  std::optional<DepthMap> map_;  ///< along map_axes_
+  std::optional<DepthMap> map_;  ///< depths along map_axes_
   HeadAxes map_axes_;
   double square_ = 1, slope_up_ = 0;
   ReliefMatch best_;
@@ -245,16 +247,18 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  constexpr double kCoarser = 1.5;  // in the turned views, which are many
-  constexpr double kTurn = 25;      // degrees, of the turned views
-  constexpr double kStraight = 5;   // degrees within which a face is taken to stand along the axes
+  constexpr double kCoarser = 1.5;  // step width in the rotated views, because there are many
+  constexpr double kTurn = 25;      // rotation of the rotated views, in degrees
+  // A face within this angle in degrees counts as aligned with the axes.
+  constexpr double kStraight = 5;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
     std::vector<Candidate> found(views.size());
     parallel_for_each(views.size(), [&](std::size_t i) {
       found[i] = search_view(samples, views[i], eyes, coarseness);
     });
-    // The best views are compared after refinement: a view that is turned the wrong way ends at a lower agreement.
+    // Compares the best views after refinement, because only refinement shows that a view with the
+    // wrong rotation agrees less.
     std::vector<std::size_t> order(views.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return found[i].votes; });
@@ -289,8 +293,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  // One pair of axes is the case of every run, so it must be fast: wide steps nearly always find the face, and the turned
-  // views follow if they do not.
+  // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
+  // face; otherwise the rotated views follow.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.votes < kLeastVotes || match.degrees_off > kTurn) {

@@ -9,40 +9,44 @@
 
 namespace crowdface {
 
-inline constexpr Index kSkinSamples = 150'000;  ///< enough for a face on a bust
+inline constexpr Index kSkinSamples = 150'000;  ///< enough to find a face on a bust
 
-/// Points spread evenly over the skin by area, so that what is measured on them does not depend on how the mesh is cut.
-/// \param skin  #V: which vertices are skin; a face of the mesh counts if its first corner is skin
-/// \return #S by 3, at most `count`; empty if the skin has no area
+/// Samples the skin evenly by area, so that measurements on the samples do not depend on the
+/// tessellation of the mesh.
+/// \param skin  #V: which vertices are skin; a polygon counts as skin if its first vertex does
+/// \return #S by 3, at most `count` rows; empty if the skin has no area
 Positions sample_skin(const Topology& topology, const Positions& positions,
                       const std::vector<bool>& skin, Index count);
 
-/// Where the relief of a face is found on a surface.
+/// A match of the relief of a face with a surface.
 struct ReliefMatch {
-  /// Partial correlation between the depths of the surface and those of a mean face, after an offset, slopes and
-  /// curvatures are removed from both: 1 for the mean face itself, 0.75 to 0.97 for faces, seldom above 0.6 elsewhere.
+  /// Partial correlation between the depths of the surface and the depths of the mean face, after
+  /// an offset, slopes and curvatures are removed from both. 1 for the mean face itself, 0.75 to
+  /// 0.97 for faces, rarely above 0.6 for other surfaces.
   double agreement = -1;
-  /// The agreement, and 0.15 more or less if eyeballs are known and lie where this face has its eyes, or do not.
+  /// The agreement, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15 if
+  /// they are elsewhere.
   double votes = -1;
-  std::size_t view = 0;     ///< index of the requested axes nearest to the face's own
-  double degrees_off = 0;   ///< angle between these axes and the face's own
-  HeadAxes axes;            ///< the face's own; the requested ones if they differ by less than 5°
-  Eigen::Vector3d between;  ///< the point of the surface between the eyes
-  double scale = 1;         ///< units of the positions per millimetre of the mean face, across
-  double stretch = 1;       ///< up, as a multiple of scale
+  std::size_t view = 0;    ///< index of the requested axes that are nearest to the axes of the face
+  double degrees_off = 0;  ///< angle between these requested axes and the axes of the face
+  HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
+  Eigen::Vector3d between;  ///< point on the surface between the eyes
+  double scale = 1;    ///< units of the positions per millimetre of the mean face, horizontally
+  double stretch = 1;  ///< vertical scale as a multiple of `scale`
 };
 
 /// A match with fewer votes is not a face.
 inline constexpr double kLeastVotes = 0.65;
-/// A match that is turned by more degrees from the requested axes is not accepted as a face along these axes.
+/// A match whose axes differ by more degrees from the requested axes is rejected.
 inline constexpr double kMostDegreesOff = 45;
 
-/// Searches the surface for the relief of a face (nose, eye sockets, mouth and chin; normalised cross-correlation with
-/// the depths of a mean face): of any size, and turned by up to some 35° from one of `axes` in any direction. Turned faces
-/// are searched only if no face stands straight.
+/// Searches a surface for the relief of a face (nose, eye sockets, mouth and chin) by normalised
+/// cross-correlation with the depths of a mean face. Finds faces of any size that are rotated by up
+/// to about 35° from one of `axes` in any direction. Searches for rotated faces only if no upright
+/// face matches.
 /// \param samples  see sample_skin
-/// \param eyes     centres of the eyeballs if known: they vote for a face or against it
-/// \return the match with the most votes, however few; nothing if there are no samples
+/// \param eyes     centres of the eyeballs if known; they vote for or against a match
+/// \return the match with the most votes, even if they are few; nothing if there are no samples
 std::optional<ReliefMatch> match_relief(const Positions& samples, const std::vector<HeadAxes>& axes,
                                         const std::vector<Eigen::Vector3d>& eyes);
 

@@ -14,7 +14,8 @@ namespace {
 
 using Alpha = RegionWeights::Alpha;
 
-// Smoothing reaches over this part of the radius, growing over that, whatever the mesh's resolution.
+// Distances over which smoothing and growing act, as fractions of the radius. They do not depend on
+// the resolution of the mesh.
 constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
 constexpr int kMostRounds = 400;
 
@@ -33,8 +34,8 @@ void scale_to_one(Alpha& alpha, Index row) {
   for (Index k = 0; k < alpha.cols(); ++k) alpha(row, k) /= sum;
 }
 
-/// Gives one region this much of a vertex, and the others the rest in proportion; where they have none,
-/// `heir` takes it.
+/// Sets the weight of one region at a vertex. The other regions share the rest in proportion; if
+/// their weights are zero, `heir` gets the rest.
 void set_share(Alpha& alpha, Index row, Index region, double share, Index heir) {
   const double others = 1 - alpha(row, region);
   if (others <= 0) {
@@ -48,7 +49,8 @@ void set_share(Alpha& alpha, Index row, Index region, double share, Index heir) 
   scale_to_one(alpha, row);
 }
 
-/// The region beside `region` that has most of these vertices; of equals the first.
+/// The region other than `region` with the largest total weight at the touched vertices; the first
+/// one if several are equal.
 Index heir_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
   Index heir = region;
   double most = -1;
@@ -63,7 +65,7 @@ Index heir_of(const Alpha& alpha, const std::vector<Touched>& touched, Index reg
   return heir;
 }
 
-/// The vertices next to each touched one.
+/// The vertices next to each touched vertex.
 Grouped<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
                                      const std::vector<Touched>& touched) {
   Grouped<std::uint32_t> neighbours;
@@ -82,12 +84,12 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// How often to go from vertex to vertex to get that far.
+/// Number of steps from vertex to vertex that cover a distance of `edges` edges.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMostRounds}));
 }
 
-/// Moves each touched vertex towards its neighbours' mean.
+/// Moves the weights of each touched vertex towards the mean of its neighbours.
 void smooth_once(const std::vector<Touched>& touched, const Grouped<std::uint32_t>& neighbours,
                  Alpha& alpha) {
   Alpha next(static_cast<Index>(touched.size()), alpha.cols());
@@ -200,7 +202,7 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
       bare.push_back(static_cast<std::uint32_t>(v));
     }
   }
-  // What was the region's alone is filled from its border inwards.
+  // Fills vertices that belonged to the removed region only, from the border of the region inwards.
   while (!bare.empty()) {
     std::vector<std::uint32_t> left;
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;

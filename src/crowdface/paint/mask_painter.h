@@ -12,28 +12,30 @@
 namespace crowdface {
 
 enum class BrushMode : std::uint8_t {
-  kAdd,     ///< more of the region
-  kErase,   ///< less of it: the others grow in proportion
-  kSmooth,  ///< all regions run more softly into one another
-  kGrow,    ///< the region's border moves outwards
+  kAdd,     ///< increases the weight of the region
+  kErase,   ///< decreases the weight of the region; the other weights grow in proportion
+  kSmooth,  ///< smooths the weights of all regions
+  kGrow,    ///< moves the border of the region outwards
 };
 
 struct Brush {
   BrushMode mode = BrushMode::kAdd;
-  double radius = 1;    ///< along the surface, in the positions' unit, above 0
-  double strength = 1;  ///< 0 to 1: how much is changed where the brush is strongest
-  double falloff = 1;   ///< 0: equally strong up to the rim; 1: softer from the middle on
-  bool mirror = false;  ///< paints on the other half of the head too
+  double radius = 1;    ///< distance along the surface, in the unit of the positions, above 0
+  double strength = 1;  ///< change at the centre of the brush, 0 to 1
+  /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
+  double falloff = 1;
+  bool mirror = false;  ///< also paints on the other half of the head
 };
 
-/// Regions of a mesh that are painted by hand. Whatever is done to them, weights are not negative and sum
-/// to one at every vertex, and all can be taken back exactly.
+/// Regions of a mesh that the user paints by hand. At every vertex the weights are not negative and
+/// sum to one. Undo restores the exact weights of each earlier step.
 class MaskPainter {
  public:
   using Alpha = RegionWeights::Alpha;
 
-  /// \param positions  #V by 3, of the head that is painted on; with the topology they must outlive it.
-  /// \param mirror     where the head's halves meet.
+  /// \param positions  #V by 3, of the head to paint on. Topology and positions must outlive this
+  ///         object.
+  /// \param mirror     symmetry plane of the head.
   /// \param alpha      #V by #R.
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
               Alpha alpha);
@@ -41,24 +43,28 @@ class MaskPainter {
   const Alpha& alpha() const { return alpha_; }
   const SurfaceDistance& surface() const { return surface_; }
 
-  /// One touch of the brush along some places: as strong at a vertex as where it comes nearest.
-  /// \param goes_on  whether it belongs to the touch before, and is taken back with that.
+  /// Applies one brush stroke at several places. The strength at a vertex is the largest strength
+  /// from any of the places.
+  /// \param goes_on  whether the stroke continues the previous stroke, so that one undo covers
+  ///         both.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
                                    const Brush& brush, bool goes_on = false);
 
-  /// The weights if there were no such region: its share goes to the others in proportion; where it was
-  /// alone, to those around, and failing these to the first.
-  /// \throws BrokenPrecondition if it is the only one.
+  /// The weights without a region. The other regions at a vertex take over its weight in
+  /// proportion. Where the region was alone, the regions of the neighbouring vertices take over, or
+  /// else the first region does.
+  /// \throws BrokenPrecondition if there is no other region.
   Alpha alpha_without(Index region) const;
 
   bool can_undo() const { return !done_.empty(); }
-  /// Takes the last step back. \return false if there is none.
+  /// Undoes the last step.
+  /// \return false if there is none.
   bool undo();
 
  private:
-  /// What stood there before a step: rows of α by vertex.
+  /// The weights before a step: rows of α by vertex.
   using Step = std::map<std::uint32_t, Eigen::RowVectorXd>;
 
   MirrorPlane mirror_;

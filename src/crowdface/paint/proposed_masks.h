@@ -10,23 +10,24 @@
 
 namespace crowdface {
 
-/// "brow,nose,mouth": commas between names; brow, nose and mouth must be among them.
+/// Parses a list such as "brow,nose,mouth". The list must contain brow, nose and mouth.
 /// \throws UsageError otherwise.
 std::vector<Band> parse_bands(std::string_view text);
 std::vector<std::string> names_of(const std::vector<Band>& bands);
 
-/// Texels of a side that are enough for soft regions on so many vertices: 1024 or 2048.
+/// Width and height in texels that suffice for masks of soft regions on a mesh with this number of
+/// vertices: 1024 or 2048.
 int mask_size(Index vertices);
 
-/// Regions told from the shape of the mean head: #V by #bands.
-/// \throws InvalidInput if no face is found that looks along the front, naming the axes along which
-///         one does, if there are; as propose_bands.
+/// Computes regions from the shape of the mean head: #V by #bands.
+/// \throws InvalidInput as propose_bands does, and if there is no face along the front; then the
+///         message names the axes along which there is a face, if there are any.
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
                                      const Bearing& bearing, const std::vector<Band>& bands);
 
-/// The same as images in the layout of the heads' texture.
-/// \param size  texels of a side.
-/// \throws InvalidInput as propose_regions and paint_masks.
+/// Computes the same regions as images in the layout of the heads' texture.
+/// \param size  width and height in texels.
+/// \throws InvalidInput as propose_regions and paint_masks do.
 PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,
                            const std::vector<Band>& bands, int size);
 

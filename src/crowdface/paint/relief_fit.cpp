@@ -12,7 +12,8 @@ namespace crowdface {
 namespace {
 
 constexpr double kMiddleMm = kReliefTopMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
-// Of 16 synthetic heads: depths in mm behind the tip of the nose. Columns go from the middle to the side.
+// Mean of 16 synthetic heads: depth in mm relative to the tip of the nose, negative behind the tip.
+// Columns run from the middle to the side.
 constexpr std::array<std::array<double, kHalfReliefColumns>, kReliefRows> kMeanRelief = {{
     {-23, -24, -26, -29, -32, -36},
     {-21, -22, -25, -28, -32, -35},
@@ -33,13 +34,13 @@ constexpr std::array<std::array<double, kHalfReliefColumns>, kReliefRows> kMeanR
     {-21, -22, -25, -30, -37, -47},
 }};
 
-constexpr int kTerms = 6;  // of a fit: 1, x, y, x², y², relief
+constexpr int kTerms = 6;  // terms of a fit: 1, x, y, x², y², relief
 using Coefficients = Eigen::Matrix<double, kTerms, 1>;
 using Products = Eigen::Matrix<double, kTerms, kTerms>;
 
-constexpr double kUnitMm = 40;  // of x and y in the terms
+constexpr double kUnitMm = 40;  // unit of x and y in the terms
 
-/// The terms of each cell, and the sum of their products over all cells.
+/// The terms of each cell, and the sum of their outer products over all cells.
 struct Terms {
   std::array<Coefficients, kReliefCells> of_cell;
   Products products = Products::Zero();
@@ -60,8 +61,8 @@ const Terms& terms() {
 
 using UsedCells = std::bitset<kReliefCells>;
 
-/// A fit over the cells that are used. The relief is the last term, so the Cholesky factor of the terms' products holds what
-/// the relief explains of what the other terms leave.
+/// A fit over the selected cells. The relief is the last term, so the last row of the Cholesky
+/// factor of the normal matrix yields the part that only the relief explains.
 struct CellFit {
   ReliefFit fit;
   Eigen::LLT<Products> factor;
@@ -114,7 +115,8 @@ ReliefFit fit_relief(ReliefDepths depths) {
     used[c] = depths[c] > -kDeepestMm;
   }
   CellFit of_cells(depths, used);
-  // An open mouth and the openings of the eyes lie behind the face: what is too deep is left out, twice.
+  // An open mouth and the openings of the eyes lie behind the face. Excludes cells that are too
+  // deep, in two rounds.
   for (int round = 0; round < 2 && of_cells.fit.agreement > kPromising; ++round) {
     const Coefficients by = of_cells.coefficients();
     const UsedCells before = used;

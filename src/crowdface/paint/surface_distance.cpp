@@ -17,14 +17,15 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// How far c is from the source of a wave that has reached a and b, all in the plane of the triangle;
-/// along its edges where the straight way does not cross it.
+/// Distance of c from the source of a wave that has reached a and b, unfolded into the plane of the
+/// triangle. If the straight path does not cross the edge ab, the shortest path along the edges
+/// counts.
 double across(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
               double from_a, double from_b) {
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
   const double length = (b - a).norm();
   if (!(length > 0)) return along_edges;
-  // a at the origin, b at (length, 0), c above, the source at (x, −y).
+  // Coordinates: a at the origin, b at (length, 0), c above, the source at (x, −y).
   const double x = (from_a * from_a - from_b * from_b + length * length) / (2 * length);
   const double y = std::sqrt(std::max(0.0, from_a * from_a - x * x));
   const double c_x = (c - a).dot(b - a) / length;
@@ -35,7 +36,7 @@ double across(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
   return std::sqrt((c_x - x) * (c_x - x) + (c_y + y) * (c_y + y));
 }
 
-/// Rings of rim vertices of several components that lie in one place.
+/// Links coinciding boundary vertices of different components in rings.
 std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Positions& positions) {
   std::vector<std::uint32_t> twins(static_cast<std::size_t>(positions.rows()));
   std::iota(twins.begin(), twins.end(), 0U);
@@ -103,7 +104,8 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
     front.emplace(way, vertex);
   };
   for (const SurfacePoint& place : places) {
-    // All corners of the faces that the place's triangle is of, so that quads count whole.
+    // Uses all corners of the polygons that contain the triangle of the place, so that quads count
+    // as a whole.
     for (const std::uint32_t f : faces_.of(place.corners[0])) {
       const auto face = topology_.face(f);
       if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;
@@ -131,7 +133,8 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
         for (std::size_t j = 0; j < face.size(); ++j) {
           const std::uint32_t other = face[j];
           const bool near = face.size() <= 4 || (i + 1) % face.size() == j ||
-                            (j + 1) % face.size() == i;  // of large polygons: those next to it
+                            // In large polygons only neighbouring corners.
+                            (j + 1) % face.size() == i;
           if (!near || other == vertex || other == to || distance[other] == kFar) continue;
           reached(to, across(here, row3(positions_, other), there, way, distance[other]));
         }

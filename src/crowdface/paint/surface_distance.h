@@ -10,28 +10,30 @@
 
 namespace crowdface {
 
-/// Lengths of ways along a mesh, never through the air: from lip to lip they go around the corner of the
-/// mouth. Components whose open rims coincide vertex by vertex are one surface (a face and the back of its
-/// head may be pieces of their own); rims of one component never are.
+/// Distances along the surface of a mesh, not through the air: from lip to lip they lead around the
+/// corner of the mouth. Components whose boundaries coincide vertex by vertex count as one surface,
+/// because a face and the back of its head may be separate components. Coinciding boundary vertices
+/// of one component stay separate.
 class SurfaceDistance {
  public:
-  /// \param positions  #V by 3. Topology and positions must outlive it.
+  /// \param positions  #V by 3. Topology and positions must outlive this object.
   SurfaceDistance(const Topology& topology, const Positions& positions);
 
   struct Reached {
     std::uint32_t vertex;
     double distance;
   };
-  /// Vertices whose way to the nearest of some places is at most `reach`, ascending. Waves run over the
-  /// triangles as on a plane (Novotni & Klein 2002, "Computing geodesic distances on triangular
-  /// meshes"); a quad counts with both its diagonals.
+  /// Vertices at a distance of at most `reach` from the nearest of several places, ascending. Uses
+  /// fast marching (Novotni & Klein 2002, "Computing geodesic distances on triangular meshes"); a
+  /// quad counts with both its diagonals.
   std::vector<Reached> within(const std::vector<SurfacePoint>& places, double reach) const;
 
-  /// The place on the surface that is nearest to a point.
+  /// The point on the surface that is nearest to `point`.
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
-  /// The vertices next to one, those of coinciding rims too; some may stand there twice.
+  /// The vertices next to a vertex, including those next to coinciding boundary vertices; the list
+  /// may contain duplicates.
   std::vector<std::uint32_t> around(std::uint32_t vertex) const;
 
  private:
@@ -39,7 +41,8 @@ class SurfaceDistance {
   const Positions& positions_;
   Adjacency adjacency_;
   FacesAround faces_;
-  /// #V: the vertex that lies in the same place on another rim, then the next, in a ring; alone: itself.
+  /// #V: links coinciding boundary vertices of different components in rings; a vertex without a
+  /// twin links to itself.
   std::vector<std::uint32_t> twins_;
   PointGrid grid_;
 };
