@@ -31,7 +31,7 @@ std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& hea
       anchors = similarity_layout(head_distances);
       break;
     case Layout::kManual:
-      break;  // every head has an anchor of its own below
+      break;  // the config gives every head an anchor, see below
   }
   for (const auto& [head, anchor] : config.plane.anchors) {
     anchors[static_cast<std::size_t>(head)] = anchor;
@@ -39,7 +39,7 @@ std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& hea
   return anchors;
 }
 
-/// Distances below the diagonal.
+/// The entries below the diagonal.
 std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
   std::vector<double> values;
   for (Index a = 0; a < distances.rows(); ++a) {
@@ -98,8 +98,8 @@ std::vector<FamilyReport> report_families(const Config& config, const CrowdCast&
   return reports;
 }
 
-/// What the plan has of each face with four decimals has no more here: whoever takes the plan tells the
-/// same of it.
+/// Rounds values to the four decimals that plans store, so that runs that read the plan report the
+/// same values.
 void round_as_planned(std::vector<CastFace>& crowd) {
   for (CastFace& face : crowd) {
     face.mother_share = rounded(face.mother_share);
@@ -204,7 +204,7 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
     family.founder.family = family.name;
     result.founders.push_back(std::move(family.founder));
   }
-  // Of a million faces they take a gigabyte.
+  // Keep the points only if needed: for a million faces they need a gigabyte.
   if (config.output.contact_sheet || !config.groups.empty()) {
     result.points = std::move(crowd.points);
   }

@@ -28,7 +28,7 @@ Json to_json(const Quartiles& q) {
           {"max", rounded(q.max)}};
 }
 
-/// Distances of single faces to their nearest: the same without "pairs".
+/// Distances from each face to its nearest neighbour: no pairs, hence no key "pairs".
 Json nearest_to_json(const Quartiles& q) {
   Json json = to_json(q);
   if (json.is_object()) json.erase("pairs");
@@ -55,7 +55,7 @@ Json asked_to_json(const DiversityOptions& diversity) {
           {"max_weight", diversity.max_weight}};
 }
 
-/// How many faces each group has, and how they lie among themselves.
+/// The number of faces in each group, and the distances between them.
 Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
   Json json = Json::object();
   for (const Group& group : groups) {
@@ -69,7 +69,7 @@ Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
   return json;
 }
 
-/// How many faces are built on heads of each tag, or for the most part on such.
+/// The number of faces per tag. A face has the tags of its most typical head.
 Json tags_to_json(const Config& config, const Cast& cast) {
   Json json = Json::object();
   for (const CastFace& face : cast.crowd) {
@@ -81,7 +81,8 @@ Json tags_to_json(const Config& config, const Cast& cast) {
   return json;
 }
 
-/// How many faces wear what: by kind, name and colour, and what quotas asked of the sampled ones.
+/// The number of faces with each attachment, by kind, name and colour, and the quotas for sampled
+/// faces.
 Json attachments_to_json(const Config::Attachments& attachments, const Cast& cast) {
   const auto wears = [&](const CastFace& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {
@@ -136,7 +137,7 @@ Json families_to_json(const Cast& cast) {
 }  // namespace
 
 std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads) {
-  constexpr double kSamePersonMm = 0.5;  // docs/casting.md
+  constexpr double kSamePersonMm = 0.5;  // see docs/casting.md
   constexpr std::size_t kMostNamed = 8;
   std::vector<std::string> near;
   for (const CastFace& face : cast.crowd) {

@@ -18,10 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Copies each file once: heads of one folder mostly share theirs.
+/// Copies each file once: heads in one folder mostly share their files.
 class MaterialCopies {
  public:
-  /// \param own  the kinds of texture that faces have of their own; if any, they have own material files.
+  /// \param own  kinds of textures that faces have of their own; if not empty, faces have their own
+  ///             material files, too
   MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, std::set<TextureKind> own)
       : directory_(directory), ledger_(ledger), own_(std::move(own)) {}
 
@@ -40,14 +41,14 @@ class MaterialCopies {
     }
   }
 
-  /// What an attachment's material files need, in a folder of its own.
+  /// Copies an attachment's material files and textures into a separate folder.
   void add(const Attachment& item) {
     for (const MaterialFile& material : item.materials.files) {
       copy({material.from, attachment_folder(item.name) / material.relative}, item.name);
     }
   }
 
-  /// \param told  what was warned of before, which may be of more heads
+  /// \param told  earlier warnings, which are not repeated even if they list more heads
   std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

@@ -47,13 +47,13 @@ void write_founders(const std::vector<CastFace>& founders, const FaceBuilder& bu
   }
 }
 
-/// Like the whole text.
+/// Adds a text piece by piece; the hash is the same as for the whole text.
 void add_text(const TextPieces& text, Hasher& hasher) {
   hasher.add(digest_of(text).bytes);
   text([&](std::string_view piece) { hasher.add_raw(piece); });
 }
 
-/// The hash of all that sheets and gallery show.
+/// Hash of everything that sheets and gallery show.
 Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
@@ -62,10 +62,11 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
     hasher.add(name).add(digest);
   }
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
-  // With each face's notes and what it looks like: reviews and the distance mask alter these alone.
+  // Include the plan, with each face's notes, and the likeness: reviews and the distance mask
+  // change only these.
   try {
     add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
-  } catch (const MissingInput& error) {  // it was there a moment ago
+  } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
     throw IoError(error.what());
   }
   hasher.add(joined(plan_text(cast.founders, job.names, job.settings)));
@@ -78,7 +79,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   return hasher.digest();
 }
 
-/// Those whose pictures are not there as this job would draw them.
+/// Faces whose images are missing or out of date.
 std::vector<CastFace> faces_to_draw(const FaceLedger& ledger, const std::vector<CastFace>& crowd) {
   std::vector<CastFace> faces;
   for (const std::size_t f : find_done_faces(ledger, crowd, Shard()).todo)
@@ -86,7 +87,7 @@ std::vector<CastFace> faces_to_draw(const FaceLedger& ledger, const std::vector<
   return faces;
 }
 
-/// Pictures of faces and their meshes in the gallery, from the meshes.
+/// Renders faces, and makes their gallery meshes, from the mesh files.
 void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<CastFace>& faces,
                 const FaceTextures& textures, const FaceShapes& shapes,
                 const CrowdRenders& renders) {
@@ -117,14 +118,14 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const C
   const std::vector<CastFace>& crowd = cast.crowd;
   const CrowdLikeness likeness = crowd_likeness(cast.anchors, cast.points);
   const Digest key = key_of_sheets(job, directory, cast, likeness, faces);
-  // What faces are compared with may have changed since.
+  // With a comparison image from a file, always make the sheets: the file may have changed.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
   if (!cast.founders.empty()) {
     write_founders(cast.founders, builder.get(), pictures.get());
   }
-  builder.release();  // sheets need the memory
+  builder.release();  // frees memory for the sheets
   const WrittenSheets sheets = pictures.get().finish(crowd, likeness);
   ledger.record(kItem, key, sheet_files(directory, sheets));
   return sheets.pages;
@@ -134,7 +135,8 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                    const fs::path& cache) {
   CrowdDirectory directory{crowd_directory};
   require_crowd(directory);
-  const CrowdLock lock(directory, {});  // another run may be about to replace what is read here
+  // another run might otherwise replace the files while they are read
+  const CrowdLock lock(directory, {});
   ConfigOverrides overrides;
   overrides.set = set;
   const Job job = load_job(directory.config(), overrides, cache);

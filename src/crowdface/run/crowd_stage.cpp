@@ -12,9 +12,9 @@
 namespace crowdface {
 namespace {
 
-/// Where the faces stand, in the stage's axes.
+/// Arranges the faces in rows, in the stage's axes.
 struct Rows {
-  Eigen::Vector3d side, back;  ///< from one face to the next
+  Eigen::Vector3d side, back;  ///< offsets to the next column and to the next row
   std::size_t columns = 1;
 
   Eigen::Vector3d place(std::size_t face) const {
@@ -24,7 +24,7 @@ struct Rows {
   }
 };
 
-/// How far the heads reach along an axis, and a third more.
+/// Spacing along an axis: the heads' largest extent times 4/3.
 double room(const Inputs& inputs, Eigen::Index axis) {
   double most = 0;
   for (const Head& head : inputs.faces.heads) {
@@ -37,7 +37,8 @@ double room(const Inputs& inputs, Eigen::Index axis) {
 Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
   const Axis up = config.faces.up, front = config.faces.front;
   const Eigen::Index side = 3 - up.index - front.index;
-  const bool as_it_is = up.sign > 0 && up.index > 0;  // see UsdaTemplate
+  // the stage keeps the heads' axes, see UsdaTemplate
+  const bool as_it_is = up.sign > 0 && up.index > 0;
   Rows rows;
   rows.side = Eigen::Vector3d::Unit(as_it_is ? side : 0) * room(inputs, side);
   const Axis to_front = as_it_is ? front : Axis{2, 1};

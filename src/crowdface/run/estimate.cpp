@@ -37,7 +37,7 @@ std::string format_csv(const std::vector<EstimateRow>& rows) {
   return csv;
 }
 
-/// From faces and millimetres to the picture's pixels.
+/// Maps faces and millimetres to pixels of the plot.
 class Frame {
  public:
   Frame(const std::vector<EstimateRow>& rows, std::uint64_t asked_count, double asked_mm) {
@@ -82,7 +82,7 @@ std::string line_of(const Frame& frame, const std::vector<EstimateRow>& rows,
                 points, "\"/>\n");
 }
 
-/// The table with columns for people to read.
+/// The table, with columns aligned for reading.
 std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
                             double asked_mm) {
   std::string table = "   faces   spread, mm   first fit, mm\n";
@@ -95,8 +95,8 @@ std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t 
   return table;
 }
 
-/// A plot as SVG: faces across (each decade the same width), millimetres upwards, one line a mode,
-/// and what is asked for as a cross.
+/// A plot as SVG: number of faces on a logarithmic x axis, millimetres on the y axis, one line per
+/// mode, and a cross at the requested values.
 std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
                           double asked_mm) {
   const Frame frame(rows, asked_count, asked_mm);
@@ -139,7 +139,7 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
                      const std::filesystem::path& cache) {
   const Job job = load_job(config_file, overrides, cache);
   const CrowdDirectory directory = directory_of(job.config);
-  // Beside whatever crowd is there: two files of its own.
+  // The folder may hold any crowd, because only two separate files are written.
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
   const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared, cache);

@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// The regions at the profiles of each place: #places by #regions, rows summing to one.
+/// The region weights averaged over the two profiles of each contact: #contacts by #regions, rows
+/// summing to one.
 std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
                                           const RegionWeights& regions) {
   std::vector<std::vector<double>> masks;
@@ -41,7 +42,7 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
       prepared_(prepared),
       keeps_contacts_(config.blending.contacts == Contacts::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
-  BackgroundTasks beside;  // whoever is done with the contacts helps with the parts
+  BackgroundTasks beside;  // runs the contacts in parallel with the parts
   beside.run([&] { contacts_.emplace(inputs.faces, inputs.adjacency, skin_vertices(inputs)); });
   if (!inputs.parts.parts.empty()) {
     follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
@@ -84,7 +85,7 @@ Positions FaceBuilder::build(const Recipe& recipe) const {
 
 Positions FaceBuilder::rebuild(const Recipe& recipe, Kept& kept) const {
   if (!blender_) return build(recipe);
-  // What fails half-way leaves nothing to go on from.
+  // Clear the state first, so that an exception cannot leave an inconsistent one.
   if (const auto before = std::exchange(kept.recipe, std::nullopt)) {
     blender_->change(*before, recipe, kept.blended);
   } else {
@@ -163,7 +164,8 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   return ranges;
 }
 
-/// A gap may come from either corner of the mouth then.
+/// Extends each range by that of the mirrored contact: an asymmetric face may take its gap from
+/// either corner of the mouth.
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {
@@ -190,11 +192,11 @@ std::uint64_t FaceBuilder::bytes(std::size_t faces) const {
   const auto vertices = static_cast<std::uint64_t>(inputs_.faces.topology.vertex_count);
   std::uint64_t of_face = 3 * sizeof(double) * vertices;
   if (!blender_) {
-    // Per region the difference, its rows, four vectors of the recurrence and one sum.
+    // Per region: the difference, its rows, four vectors of the recurrence and one sum.
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     of_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
-  constexpr std::uint64_t kMirrored = 3;  // the image, and what is between, beside the face
+  constexpr std::uint64_t kMirrored = 3;  // the face, its mirror image, and the mesh between them
   if (inputs_.mirror != nullptr) of_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
   return faces * of_face;
 }

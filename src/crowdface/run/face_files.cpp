@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Puts together the list of one face's meshes.
+/// Builds the list of one face's mesh files.
 class MeshFileList {
  public:
   MeshFileList(const Config& config, const Inputs& inputs, const CastFace& face,
@@ -45,7 +45,7 @@ class MeshFileList {
   }
   std::size_t shapes() const { return options_.all ? inputs_.shapes.shapes.size() : 0; }
 
-  /// \param part  what stands between stem and ending: "LOD1+bob+smile".
+  /// Joins the name parts between stem and extension: "LOD1+bob+smile".
   static std::string joined_parts(const std::vector<std::string>& parts) {
     std::string name;
     for (const std::string& part : parts) {

@@ -6,8 +6,9 @@
 
 namespace crowdface {
 
-/// One texture after the other is blended, encoded and forgotten.
-/// \return  the textures as pictures show them.
+/// Blends the textures in parallel; each is encoded and discarded before its thread blends the
+/// next.
+/// \return the textures for renders.
 std::optional<OwnCoat> FaceFinisher::paint(const Recipe& recipe, OwnTextures::Encoded& files,
                                            StageBusy& busy) const {
   std::optional<OwnCoat> coat;
@@ -38,7 +39,8 @@ void FaceFinisher::finish(FinishedFace& face, StageBusy& busy) const {
   face.colours = textures.vertex_colours(recipe);
   const bool with_shapes = (encoders != nullptr && encoders->holds_shapes()) ||
                            (renders != nullptr && renders->show_shapes());
-  // As meshes hold them: so `sheet` finds the same shapes, attachments and pictures.
+  // Round the positions as mesh files do, so that `sheet`, which reads these files, gets the same
+  // shapes, attachments and renders.
   Positions single;
   if (with_shapes || renders != nullptr || !face.face.attachments.empty()) {
     single = as_written(face.positions);

@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the files of all faces depend on: heads, settings, what is read beside heads, and the versions of the
-/// algorithms.
+/// Hash of what the files of all faces depend on: heads, settings, the other inputs, and algorithm
+/// versions.
 Digest digest_of_common(const Job& job) {
   const Config& config = job.config;
   const Inputs& inputs = job.inputs;
@@ -52,8 +52,8 @@ Json to_json(const SkinDefects& skin) {
           {"wider_mm", skin.wider_mm},       {"exposed_mm2", skin.exposed_mm2}};
 }
 
-/// The line's checksum was right, so it is what `to_json` made; a line of another program's version
-/// throws.
+/// Parses what `to_json` wrote: the line's checksum has been verified. Throws if another version of
+/// the program wrote the line.
 SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
   skin.local.compared = json.at("compared").get<Index>();
@@ -65,7 +65,7 @@ SkinDefects noted_skin(const Json& json) {
   return skin;
 }
 
-/// How many, if a format or the gallery has them.
+/// The number of shapes transferred to each face: 0 unless a format or the gallery has shapes.
 std::size_t carried_shapes(const Job& job) {
   const bool is_carried =
       has_gallery(job.config) || any_format(job.config.output.meshes, [](const auto& format) {
@@ -86,10 +86,10 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& list
       shapes_(carried_shapes(job)),
       common_(digest_of_common(job)) {}
 
-/// The item of a face as it should be: key and names; what the files hold is in `result`.
+/// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
 LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceResult& result) const {
   CastFace recipe = face;
-  recipe.notes = {};  // no file depends on how it was found
+  recipe.notes = {};  // no file depends on the notes of casting
   Hasher key;
   key.add(common_).add(judges_skin_).add(shapes_ > 0);
   key.add(format_recipe(recipe, job_.names, job_.settings));

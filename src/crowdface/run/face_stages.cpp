@@ -24,14 +24,16 @@
 namespace crowdface {
 namespace {
 
-/// Faces blended together at most: they share the reading of the fields, and memory for more that is new to the
-/// process would take longer than that saves. A multiple of the faces that the product makes at a time.
+/// Maximum number of faces blended together. A group reads the fields once, but for larger groups,
+/// allocating new memory takes longer than that saves. A multiple of the number of faces that one
+/// matrix product handles.
 constexpr std::size_t kMostAtOnce = 24;
-/// What rendering takes per vertex of a face while it runs: its normals, its quads on the image, and the gallery's
-/// smaller mesh. 272 were measured on 1.2 million vertices with a ray tracer's tree of all of them; 74 of its own are left.
+/// Memory for rendering, per vertex of a face: normals, quads on the image, and the gallery's
+/// smaller mesh. The value is an upper bound, with a margin, of a measurement at 1.2 million
+/// vertices.
 constexpr std::uint64_t kRenderBytesAVertex = 300;
-/// What the heads' mesh takes per vertex, whatever their number: faces, texture coordinates, neighbours,
-/// how parts hang on it. 262 were measured on 1.2 million vertices.
+/// Memory of the heads' mesh per vertex, whatever the number of heads: polygons, texture
+/// coordinates, adjacency, binding of parts. Measured: 262 at 1.2 million vertices.
 constexpr std::uint64_t kMeshBytesAVertex = 300;
 
 std::uint64_t vertex_count(const Inputs& inputs) {
@@ -45,14 +47,14 @@ std::uint64_t input_bytes(const Inputs& inputs) {
          displacement_bytes(inputs.shapes) + own_shape_bytes(inputs.shapes);
 }
 
-/// What all threads take while they make pictures.
+/// Memory of all threads for rendering.
 std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
   if (!config.output.contact_sheet) return 0;
   return static_cast<std::uint64_t>(thread_count()) *
          (kRenderBytesAVertex * vertex_count(inputs) + displacement_bytes(inputs.shapes));
 }
 
-/// What fitted levels take that lie in memory of ours.
+/// Memory of fitted levels that are not memory-mapped.
 std::uint64_t level_bytes(const Prepared& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
@@ -65,7 +67,7 @@ std::uint64_t level_bytes(const Prepared& prepared) {
   return bytes;
 }
 
-/// What attachments take that somebody wears: as they were read, and in pictures.
+/// Memory of the attachments in use: their meshes, and their data for renders.
 std::uint64_t worn_bytes(const Config& config, const Inputs& inputs,
                          const std::vector<CastFace>& crowd) {
   std::set<std::string> worn;
@@ -86,14 +88,14 @@ std::uint64_t worn_bytes(const Config& config, const Inputs& inputs,
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
-/// How many faces are in memory at a time: while a group is blended, each thread may be at one of the group
-/// before, and there are never more than two groups.
+/// Maximum number of faces in memory: while one group is blended, each thread may still finish a
+/// face of the previous group. There are never more than two groups.
 std::uint64_t faces_held(std::uint64_t at_once) {
   return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
 }
 
-/// How many faces are blended together within the memory.
-/// \param standing  what the process holds whatever their number.
+/// How many faces can be blended together within the memory.
+/// \param standing  memory that does not depend on this number
 std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::uint64_t memory) {
   const std::uint64_t least = standing + faces_held(1) * one_face;
   if (least > memory) refuse_memory(format_bytes(least), memory);
@@ -102,8 +104,8 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
   return at_once;
 }
 
-/// Memory of faces that are done, for faces to come: memory that is new to a process costs as much as
-/// half of blending.
+/// Recycles the memory of finished faces, because allocating new memory would take half as long as
+/// blending. Thread-safe.
 class FaceMemory {
  public:
   Positions take() {
@@ -123,10 +125,10 @@ class FaceMemory {
   std::vector<Positions> free_;
 };
 
-/// Faces that were blended together. Any thread makes the files of the next that nobody is at.
+/// Faces that were blended together. Each thread claims and finishes the next unclaimed face.
 class FaceGroup {
  public:
-  /// \param make  what is done with each face, by its place in the group
+  /// \param make  called with each face's index in the group and its positions
   void begin(std::vector<Positions> positions,
              std::function<void(std::size_t, const Positions&)> make, FaceMemory& memory) {
     positions_ = std::move(positions);
@@ -137,7 +139,8 @@ class FaceGroup {
       tasks_.run([this] { make_files(); });
     }
   }
-  /// Returns when no face is left that nobody is at. \throws what making one threw; then no more are begun.
+  /// Makes files until every face has been claimed. \throws the exception of `make`; the remaining
+  /// faces are then skipped.
   void make_files() {
     try {
       for (std::size_t f = next_++; f < positions_.size(); f = next_++) {
@@ -150,7 +153,7 @@ class FaceGroup {
       throw;
     }
   }
-  /// Returns when all are done. \throws what making one threw.
+  /// Waits until all faces are finished. \throws the exception of `make`.
   void wait() { tasks_.wait(); }
 
  private:
@@ -158,7 +161,7 @@ class FaceGroup {
   std::function<void(std::size_t, const Positions&)> make_;
   FaceMemory* memory_ = nullptr;
   std::atomic<std::size_t> next_ = 0;
-  BackgroundTasks tasks_;  // after what it uses, so that it ends first
+  BackgroundTasks tasks_;  // last, so that it ends before the members that it uses
 };
 
 }  // namespace
@@ -183,7 +186,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                            shapes.memory_bytes() + attachments.memory_bytes() +
                            worn_bytes(config, inputs, crowd);
   std::uint64_t of_thread = encoders_.encode_bytes() + attachments.worn_bytes();
-  // Colours at vertices: a face's own, and what a picture is drawn with.
+  // Vertex colours: the face's own, and those for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.any()) {
     standing += textures_.memory_bytes();
@@ -202,17 +205,17 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kLeastWaitingBytes);
-  // Files wait for the writer, and others are with it, beside those that threads are at.
+  // Besides the files in the threads, files wait in the queue, and as many are being written.
   standing += of_threads + 2 * waiting_bytes_;
   const std::uint64_t one_face = builder.bytes(1);
   at_once_ = faces_at_once(standing, one_face, memory);
-  // Where there is room, more may wait: the disk has work while faces are blended.
+  // If memory is left, enlarge the queue: it keeps the disk busy while faces are blended.
   const std::uint64_t room = memory - standing - faces_held(at_once_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
                               std::max(waiting_bytes_, FaceWriter::kMostWaitingBytes));
 }
 
-/// Encodes, renders and judges one face after the other, on any thread, and leaves their files to the writer.
+/// Encodes, renders and judges faces, and passes their files to the writer. Thread-safe.
 class FaceStages::Output {
  public:
   Output(const FaceStages& stages, const FaceFileLists& lists, const CrowdRenders* renders,

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// Descriptors that are open at a time are few in number.
+/// Maximum number of files written together: the number of open file descriptors is limited.
 constexpr std::size_t kMostFiles = 200;
 
 }  // namespace

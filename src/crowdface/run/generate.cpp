@@ -45,7 +45,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs one stage and notes how long it took.
+/// Runs one stage and records its duration.
 template <class Work>
 auto timed(StageSeconds& stages, const char* stage, const Work& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -55,7 +55,7 @@ auto timed(StageSeconds& stages, const char* stage, const Work& work) {
   return result;
 }
 
-/// The log of a crowd stands in its folder, for as long as the run lasts.
+/// Writes the log into the crowd's folder during the lifetime of this object.
 class CrowdLog {
  public:
   explicit CrowdLog(const fs::path& path) { add_log_file(path); }
@@ -64,7 +64,7 @@ class CrowdLog {
   CrowdLog& operator=(const CrowdLog&) = delete;
 };
 
-/// A crowd cast from prepared heads, and what builds its faces.
+/// A cast crowd, and the objects that build its faces.
 struct CastJob {
   CastJob(const Job& job, Prepared heads)
       : prepared(std::move(heads)),
@@ -83,9 +83,10 @@ struct CastJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   Cast cast;
-  std::vector<std::string> warnings;  ///< see near_heads; none of a shard's faces
-  nlohmann::ordered_json casting;  ///< what stands in casting.json; none if the faces are a shard's
-  /// If not empty, `cast` is as the folder's plan has it; of a shard its faces and no more.
+  std::vector<std::string> warnings;  ///< see near_heads; empty for a shard's faces
+  nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
+  /// If not empty, `cast` comes from the folder's plan; for a shard, it then has only the shard's
+  /// faces.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
 };
@@ -95,7 +96,9 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
                [&] { return prepare(job.config, job.inputs, job.smoothing, options.cache); });
 }
 
-/// The crowd, or a shard's faces, from the folder's plan; null if there is no plan of this job.
+/// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if the folder has no
+/// plan of this job and the crowd may be cast instead.
+/// \throws MissingInput if the folder has no plan of this job and must have one.
 std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& options,
                                      StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
@@ -125,8 +128,8 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
   return crowd;
 }
 
-/// Everything that comes before a file is written: a crowd that cannot be cast leaves nothing
-/// behind, and no other crowd in the folder is touched for it.
+/// Prepares heads and casts the crowd. Runs before any file is written, so that a crowd that cannot
+/// be cast neither leaves files nor destroys another crowd in the folder.
 std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options,
                                   StageSeconds& stages) {
   auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
@@ -144,7 +147,7 @@ std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options
   return crowd;
 }
 
-/// \param inputs  null: only the plan is wanted
+/// \param inputs  null if only a plan is requested
 void tell_dry_run(const Config& config, const Inputs* inputs) {
   const std::uint64_t faces = face_count(config);
   if (inputs == nullptr) {
@@ -159,18 +162,18 @@ void tell_dry_run(const Config& config, const Inputs* inputs) {
                   config.output.directory.string(), "; nothing was written"));
 }
 
-/// What a run over a crowd is for.
+/// The purpose of a run over a crowd.
 enum class Purpose {
-  kGenerate,  ///< build what is missing
-  kGather,    ///< refuse if a face is missing
+  kGenerate,  ///< build missing faces
+  kGather,    ///< fail if a face is missing
 };
 
-/// What the whole process may take, in bytes.
+/// Maximum memory of the process, in bytes.
 std::uint64_t memory_for(const GenerateOptions& options) {
   return options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
 }
 
-/// Everything after the crowd is cast and the folder is ready. \return what to say of it.
+/// All stages after casting; the folder must be ready. \return a summary for the user.
 std::string fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
                            const GenerateOptions& options, Purpose purpose,
                            Lazy<FaceStages>& face_stages, StageSeconds& stages,
@@ -269,21 +272,21 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
       pages > 0 ? concat("; contact sheet: ", directory.sheet(1).string()) : "");
 }
 
-/// Whether a run before this one may have made all its faces.
+/// Whether an earlier run may have made all faces of this shard.
 bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
   return is_there(directory.ledger()) ||
          (shard.whole() ? !directory.shard_ledgers().empty() : is_there(directory.ledger(shard)));
 }
 
-/// Whether it is certain that faces will be made: a crowd that goes on may have none to make; a new
-/// one is refused before anything is written.
+/// Whether this run is certain to make faces. A resumed crowd may have none to make; a new crowd
+/// can be rejected before anything is written.
 bool makes_faces(const Config& config, const GenerateOptions& options) {
   const CrowdDirectory directory = directory_of(config);
   const bool is_new = options.replace == Replace::kForce || !goes_on(directory, options.shard);
   return is_new && face_count(config) > 0;
 }
 
-/// Casts the crowd and fills its folder, as far as that is not done.
+/// Casts the crowd and fills its folder, except for finished work.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogMemory& memory, StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
@@ -314,12 +317,12 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
     if (progress) {
       progress->end(interrupted() ? ShardState::kInterrupted : ShardState::kFailed, error.what());
     }
-    log_debug(error.what());  // `main` says it aloud, when this log is closed
+    log_debug(error.what());  // `main` reports the error after this log is closed
     throw;
   }
 }
 
-/// \param load  reads the job.
+/// \param load  reads the job
 template <class Load>
 void generate_loaded(const Load& load, const GenerateOptions& options) {
   if (!options.shard.whole() && options.replace == Replace::kForce) {
@@ -327,7 +330,7 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
         "--force does not go with --shard, as one shard would remove what another made; replace "
         "the old crowd with crowdface plan --force first");
   }
-  const LogMemory memory;  // the crowd's log is opened once there is a crowd
+  const LogMemory memory;  // buffers messages: the crowd's log is opened only after casting
   StageSeconds stages;
   const Job job = timed(stages, "read", load);
   if (options.dry_run) {

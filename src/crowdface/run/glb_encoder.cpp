@@ -30,7 +30,7 @@ std::uint8_t byte_at(const Image& image, int x, int y, int channel) {
   return static_cast<std::uint8_t>(std::lround(255.0F * value));
 }
 
-/// A file's own bytes, if glTF takes them.
+/// The file's bytes, if glTF supports its format.
 std::optional<GlbImage> as_it_is(const fs::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("\x89PNG")) return GlbImage{std::move(bytes), "image/png"};
@@ -38,7 +38,8 @@ std::optional<GlbImage> as_it_is(const fs::path& file) {
   return std::nullopt;
 }
 
-/// Colours with holes as alpha. \param holes  of another size is taken at the nearest texel.
+/// Combines colours with opacity as alpha. \param holes  opacity; if it has another size, the
+/// nearest texel is used
 GlbImage with_alpha(const Image* colour, const Image* holes) {
   const Image& size = colour != nullptr ? *colour : *holes;
   std::vector<std::uint8_t> pixels;
@@ -90,8 +91,8 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
   return material;
 }
 
-/// Each vertex goes with the joints of the skin nearest to it; what is rigid, as a whole, with those of the skin
-/// nearest to its middle.
+/// Binds each vertex of an attachment to the joints of the nearest skin vertex; a rigid attachment
+/// is bound as a whole, by its centroid.
 Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
   Grouped<Influence> influences;
   if (inputs.rig.empty()) return influences;
@@ -108,7 +109,7 @@ Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
   return influences;
 }
 
-/// What an attachment is made of.
+/// The materials and images of an attachment.
 struct WornLook {
   std::vector<GlbPartMaterial> materials;
   std::vector<std::uint32_t> of_face;

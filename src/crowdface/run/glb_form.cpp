@@ -20,8 +20,8 @@
 namespace crowdface {
 namespace {
 
-/// The colour of the renders. What they do not draw (lashes, shells over the eye) cannot be seen
-/// here either: without its texture it would hide the eye.
+/// A material with the colour of the renders. Surfaces that renders do not draw (lashes, shells
+/// over the eye) are transparent here, too: without their texture they would hide the eye.
 GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
                          const std::optional<Eigen::Array3f>& paint) {
   const Light colour = paint ? from_srgb(*paint) : albedo_of(kind);
@@ -29,7 +29,7 @@ GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
   return {name, {colour(0), colour(1), colour(2), opacity}};
 }
 
-/// An eyeball as seen from where it looks, from edge to edge.
+/// An image of an eyeball in the direction of gaze, from rim to rim.
 std::string iris_png() {
   constexpr int kSide = 64;
   const PlacedEye eye{Eigen::Vector3f::Zero(), 1};
@@ -45,7 +45,8 @@ std::string iris_png() {
   return encode_stored_png(kSide, kSide, picture.pixels);
 }
 
-/// Irises where the renders paint them. They lie on the eyes of the mean head, which parts follow.
+/// Irises as painted in renders. They are placed on the eyes of the mean head, whose texture
+/// coordinates all faces use.
 std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& inputs,
                                        const Surfaces& surfaces) {
   const auto eyes =
@@ -63,7 +64,8 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
   return overlay;
 }
 
-/// Which image of a GLB file each face shows of one kind, or kNoIndex; empty: none does.
+/// For each polygon, the image of one kind in the GLB file, or kNoIndex; empty if no polygon has
+/// one.
 std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const Inputs& inputs,
                                      TextureKind kind) {
   std::size_t first = 0;
@@ -89,7 +91,8 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
   return {};
 }
 
-/// A material for each that faces have, together with what they are and with their own textures' pictures.
+/// Adds a material for each combination of material name, surface kind and own textures that
+/// polygons have.
 void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
                    const Surfaces& surfaces, GlbOptions& options) {
   const std::vector<std::uint32_t> colours = images_of(held, inputs, TextureKind::kColour);
@@ -165,7 +168,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   if (options.overlay) options.overlay->places = at_rows(options.overlay->places, detail.vertices);
   options.skin.influences = at_rows(options.skin.influences, detail.vertices);
   options.vertex_ids = detail.vertices;
-  options.points.clear();  // those of the whole mesh are the face's
+  options.points.clear();  // only the whole mesh has points
   return options;
 }
 

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// What positions alone do not say.
+/// The topology, which files with positions alone lack.
 std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) {
   const TextureCoordinates& uvs = inputs.faces.uvs;
   Hasher key;
@@ -28,7 +28,7 @@ std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) 
                      }};
 }
 
-/// The image of the iris as a file of its own, for mesh formats that do not embed it.
+/// The image of the iris as a separate file, for mesh formats that cannot embed it.
 std::optional<SharedFiles> iris_file(const Config& config, const Inputs& inputs) {
   const GlbOptions options = glb_options(config, inputs);
   if (!options.overlay) return std::nullopt;
@@ -41,11 +41,11 @@ std::optional<SharedFiles> iris_file(const Config& config, const Inputs& inputs)
                      }};
 }
 
-/// How a format is encoded.
+/// A format's encoders, size estimate and shared files.
 struct MeshEncoding {
   MeshFormat format;
   MeshEncoders (*make)(const MeshSource& source);
-  /// About how many bytes the face's own file and those of its shapes have.
+  /// Approximate size in bytes of a face's file and of its shape files.
   std::uint64_t (*estimate)(const MeshSize& size);
   std::optional<SharedFiles> (*shared)(const Config& config, const Inputs& inputs) = nullptr;
 };
@@ -69,7 +69,7 @@ constexpr std::array<MeshEncoding, kMeshFormats> kEncodings = {{
        return kVector * size.vertices + (kVector + 2 * sizeof(std::uint32_t)) * size.moved;
      },
      topology_arrays},
-    {MeshFormat::kUsd, usd_encoders,  // a number takes some ten characters, an index six
+    {MeshFormat::kUsd, usd_encoders,  // about ten characters per number, six per index
      [](const MeshSize& size) {
        return 10 * (6 * size.vertices + 2 * size.uvs) + 12 * size.corners + 36 * size.moved;
      },

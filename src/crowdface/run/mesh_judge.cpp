@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// In front of the face and to its sides, at its height, above and below.
+/// Viewing directions from the front to both sides, at face height and from above and below.
 Viewing viewing_of(const Config& config) {
   const HeadAxes axes = head_axes(config);
   Viewing viewing{{}, mm_per(config.faces.units)};
@@ -26,7 +26,7 @@ Viewing viewing_of(const Config& config) {
 }  // namespace
 
 bool skin_is_judged(const Config& config, const Inputs& inputs) {
-  constexpr Index kMostFaces = 200'000;  // polygons; beyond that it would rule the time of a run
+  constexpr Index kMostFaces = 200'000;  // polygons; larger meshes would dominate the run time
   const BelievabilityOptions& believability = config.believability;
   using Meshes = BelievabilityOptions::Meshes;
   return believability.check && believability.meshes != Meshes::kNone &&

@@ -17,7 +17,7 @@ namespace crowdface {
 
 namespace {
 
-/// The materials of a level's faces, runs of one after the other, as face_materials has them of the whole mesh.
+/// The materials of a level's polygons as runs of equal material.
 std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
                                            const DetailLevel& level) {
   const FaceMaterials materials = face_materials(file.materials, faces);
@@ -34,8 +34,8 @@ bool is_same(const MaterialRange& a, const MaterialRange& b) {
   return a.name == b.name && a.first_face == b.first_face;
 }
 
-/// The `mtllib` line that names material files; nothing if there are none.
-/// \param from  where their places are relative to.
+/// The `mtllib` line that names the material files; empty if there are none.
+/// \param from  folder that the paths are relative to
 std::string library_line(const std::vector<MaterialFile>& files,
                          const std::filesystem::path& from) {
   std::string line;
@@ -46,7 +46,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
   return line;
 }
 
-/// Memory of all forms together, and the most that encoding one of them takes, bytes.
+/// Memory of all forms together, and the maximum for encoding one of them, in bytes.
 template <class Forms, class FormOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
   std::size_t memory = 0, encode = 0;
@@ -57,7 +57,7 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// The `mtllib` lines that take the place of the targets' own where material files lie elsewhere.
+/// Replacements for the targets' own `mtllib` lines if material files lie elsewhere.
 std::map<Index, std::string> shared_libraries(const MeshSource& source) {
   std::map<Index, std::string> lines;
   if (source.shared.empty()) return lines;
@@ -69,7 +69,7 @@ std::map<Index, std::string> shared_libraries(const MeshSource& source) {
   return lines;
 }
 
-/// The targets' own files with other positions.
+/// Writes each target's original file with other positions.
 MeshEncoder whole_encoder(const MeshSource& source) {
   const std::span<const Index> targets = source.targets;
   std::vector<std::optional<ObjTemplate>> made(targets.size());
@@ -87,11 +87,11 @@ MeshEncoder whole_encoder(const MeshSource& source) {
           memory, encode};
 }
 
-/// Plain files on a level of detail; targets whose materials are the same share one form.
+/// Writes plain files at a level of detail. Targets with the same materials share a form.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct Forms {
     std::vector<PlainObjTemplate> obj;
-    std::map<Index, std::size_t> of_target;  ///< rows of `obj`
+    std::map<Index, std::size_t> of_target;  ///< index into `obj` for each target
   };
   const Inputs& inputs = source.inputs;
   const auto forms = std::make_shared<Forms>();

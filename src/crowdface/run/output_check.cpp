@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \throws UsageError if an input lies where this run writes files and removes those of an old
-/// crowd.
+/// \throws UsageError if an input lies where this run writes files and deletes those of an old
+///         crowd.
 void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& directory) {
   const auto& sheet = config.output.contact_sheet;
   for (const fs::path& input : input_files(config)) {
-    if (sheet && input == sheet->compare.file) continue;  // may be one of this crowd's own
+    if (sheet && input == sheet->compare.file) continue;  // may belong to this crowd
     for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
       if (!leads_below(input, folder)) continue;
       throw UsageError(concat(directory.root.string(), ": the input ", input.string(),
@@ -32,13 +32,14 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
   }
 }
 
-/// With `output.directory: .` beside a config.yaml of the user's, that would be replaced.
+/// \throws UsageError if the crowd's config.yaml would overwrite the user's, for example with
+///         `output.directory: .`.
 void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
   std::error_code error;
   const bool is_same = fs::equivalent(config.file, directory.config(), error);
   require_look(directory.config(), error);
   if (!is_same) return;
-  if (is_there(directory.plan())) return;  // it is a crowd's own
+  if (is_there(directory.plan())) return;  // the config belongs to a crowd
   if (read_file(config.file) == config_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
                           ": stands where the crowd's own config would be written; choose another "
@@ -51,7 +52,7 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
   if (replace == Replace::kForce || !is_there(directory.plan())) return;
   const MappedFile file(directory.plan());
   const std::string_view plan = file.bytes();
-  // Of a plan that is damaged some line tells.
+  // Search the whole plan, because a damaged plan may still have one line with the hash.
   if (plan.find(settings.hex()) != plan.npos) return;
   const auto first = parse_shallow_json(plan.substr(0, plan.find('\n')));
   if (!first.is_object() || !first.contains("settings")) return;

@@ -20,7 +20,7 @@ std::string_view ending_of(TextureFormat format) {
   return kEndings[static_cast<std::size_t>(format)];
 }
 
-/// \param tile  a number, or <UDIM>; empty for a picture that is no tile.
+/// \param tile  a number, or <UDIM>; empty if the image is not a tile
 std::string file_name(const std::string& id, const PictureName& picture, std::string_view tile,
                       TextureFormat format) {
   const bool is_colour = picture.kind == TextureKind::kColour;
@@ -70,13 +70,13 @@ std::string encode_picture(const BlendedPicture& picture, const PictureName& nam
 
 constexpr std::uint64_t kChannels = 3;  // at most
 
-/// At most, of an encoded picture.
+/// Maximum size of an encoded image, in bytes per channel and texel.
 std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
   if (format == TextureFormat::kExr) return sizeof(float);
   return picture.of_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
 }
 
-/// Which picture of a layout each material of a head shows.
+/// Maps each material name of a head to the index of its image in a layout.
 std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
                                                          const TextureLayout& layout, Index head) {
   const FaceMaterials materials = face_materials(
@@ -89,8 +89,8 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
   return pictures;
 }
 
-/// The formats that a face's picture is written in. Of colours those of the config. What is not colour is
-/// never JPEG, which would blur it, but PNG; and heights that a head has in floats are EXR alone.
+/// The formats in which a face's image is written. Colours use the config's formats. Other kinds
+/// use PNG instead of JPEG, which would blur them; heights that a head has as floats use only EXR.
 std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture) {
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =

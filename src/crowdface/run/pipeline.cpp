@@ -18,7 +18,7 @@
 namespace crowdface {
 namespace {
 
-/// Level of one end of a distribution.
+/// The level for one end of a distribution.
 double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScale& scale) {
   switch (unit) {
     case SmoothnessDistribution::Unit::kFraction:
@@ -33,7 +33,7 @@ double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScal
   return value;
 }
 
-/// A smoothness must not ask for more than L_max, which is known only once the heads are read.
+/// Adds a problem if a smoothness exceeds L_max, which is known only after the heads are read.
 void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
                       const Config& config, const Inputs& inputs, Problems& problems) {
   const LevelScale scale = level_scale(config, inputs);
@@ -50,8 +50,8 @@ void check_smoothness(const SmoothnessDistribution& distribution, const std::str
   }
 }
 
-/// Each band must begin below the one before it, wherever in their ranges both are drawn.
-/// \param where  what keys begin with in messages
+/// Adds a problem unless each band begins below the previous one for all values that can be drawn.
+/// \param where  prefix of the config keys in messages
 void check_sampling(const SamplingOptions& sampling, const std::string& where, const Config& config,
                     const Inputs& inputs, Problems& problems) {
   const LevelScale scale = level_scale(config, inputs);
@@ -79,7 +79,7 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
   }
 }
 
-/// Bands that begin at no iteration in any region.
+/// Warns about bands that begin at 0 iterations in every region.
 std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;
@@ -117,11 +117,11 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
   }
 }
 
-/// More faces than this lie in numbered subfolders, if the config says nothing of it.
+/// Larger crowds use numbered subfolders, unless the config sets output.faces_per_folder.
 constexpr std::uint64_t kMostInOneFolder = 10'000;
 constexpr std::uint64_t kFacesPerFolder = 1'000;
 
-/// A large crowd gets subfolders, unless it stands in its folder already, as older versions made it.
+/// Sets numbered subfolders for a large crowd, unless its folder already exists without them.
 void choose_folders(Config& config) {
   if (config.output.faces_per_folder || face_count(config) <= kMostInOneFolder) return;
   const CrowdDirectory directory{config.output.directory};
@@ -133,7 +133,7 @@ void choose_folders(Config& config) {
 
 using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&)>;
 
-/// The config, with the reviews that the crowd's folder keeps if it holds this very crowd.
+/// Reads the config, including the reviews in the crowd's folder if that holds the same crowd.
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);

@@ -17,7 +17,7 @@
 namespace crowdface {
 namespace {
 
-/// Of all that a plan follows from.
+/// Hash of everything that a plan depends on.
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
   hasher.add(kVersion).add(config_in_folder(job.config, directory)).add(job.settings);
@@ -26,7 +26,7 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
   return hasher.digest();
 }
 
-/// The faces that a shard has in the plan, read by several threads.
+/// Reads a shard's faces from the plan; parses lines in parallel.
 std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& plan,
                                  const Shard& shard) {
   constexpr std::size_t kAtOnce = 4096, kBlock = 16;
@@ -52,7 +52,7 @@ std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& pl
   return faces;
 }
 
-/// A folder with a report is complete: another plan's report must not outlive the plan.
+/// A report marks a folder as complete, so it must be removed when the plan changes.
 void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
   if (!is_there(directory.report()) || holds(directory.plan(), digest_of(plan))) return;
   remove_if_there(directory.report());
@@ -91,7 +91,7 @@ std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& 
       mark.value("job", nlohmann::ordered_json()) != key_of(job, directory).hex()) {
     return std::nullopt;
   }
-  // What a shard does not read it leaves to those who gather.
+  // A shard checks only the plan, which it reads; `gather` checks the other files.
   for (const LedgerEntry::File& file : std::span(*files).first(shard.whole() ? files->size() : 1)) {
     if (!holds(directory.root / file.name, file.content)) return std::nullopt;
   }

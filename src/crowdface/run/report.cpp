@@ -23,10 +23,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What stands in a report between its summary and its faces.
+/// The text between a report's summary and its faces.
 constexpr std::string_view kBeforeFaces = ",\n  \"faces\": [";
 
-/// Smallest, median and largest of what casting.json says of distances; null where there is nothing.
+/// Minimum, median and maximum of distances in casting.json; null if there are none.
 Json distribution(const Json& of) {
   if (of.is_null()) return nullptr;
   return {{"min", of["min"]}, {"median", of["median"]}, {"max", of["max"]}};
@@ -52,7 +52,7 @@ Json topology_to_json(const Inputs& inputs) {
           {"digest", inputs.topology_digest.hex()}};
 }
 
-/// How good the fitted levels of each head are, measured when they were fitted.
+/// The errors of each head's fitted levels, measured during fitting.
 Json levels_to_json(const Job& job, const Prepared& prepared) {
   const double mm = mm_per(job.config.faces.units);
   const auto fine = [](double value) { return std::round(value * 1e7) / 1e7; };
@@ -68,7 +68,7 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
   return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
 }
 
-/// Where each band begins, in any region of any face.
+/// The range of sizes at which each band begins, over all regions and faces.
 Json bands_to_json(const Job& job, const std::vector<CastFace>& crowd) {
   const auto size = [&](std::uint64_t level) {
     return rounded(size_of_iterations(job.smoothing.kind(), level, job.inputs.edge_length_mm));
@@ -146,7 +146,7 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   return face;
 }
 
-/// Where shapes take skin through skin that neither the template nor the face at rest does.
+/// For each shape: skin intersections that neither the template nor the face at rest has.
 Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results) {
   Json shapes = Json::object();
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
@@ -163,7 +163,7 @@ Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results)
   return shapes;
 }
 
-/// Two blanks a level, as the whole report has.
+/// Indents by two spaces per level, like the rest of the report.
 std::string indented(const Json& json, std::size_t levels) {
   std::string text;
   for (const char c : json.dump(2, ' ', false, Json::error_handler_t::replace)) {
@@ -173,7 +173,7 @@ std::string indented(const Json& json, std::size_t levels) {
   return text;
 }
 
-/// All but the faces.
+/// The report without the faces.
 Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const Json& casting,
              const std::vector<FaceResult>& faces, std::size_t sheets,
              const std::vector<std::string>& warnings) {
@@ -210,7 +210,7 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cas
                        const Json& casting, const FaceFileLists& lists,
                        const std::vector<FaceResult>& faces, std::size_t sheets,
                        const std::vector<std::string>& warnings) {
-  // Warnings may name files whose names are not UTF-8.
+  // Replace invalid UTF-8: warnings may contain any file names.
   std::string head = summary(job, prepared, cast, casting, faces, sheets, warnings)
                          .dump(2, ' ', false, Json::error_handler_t::replace);
   head.resize(head.size() - std::string_view("\n}").size());

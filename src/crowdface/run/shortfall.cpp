@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// With one digit that counts: 3,480 is about 3,000.
+/// Rounds to one significant digit: 3,480 becomes 3,000.
 std::uint64_t about(double count) {
   const double unit = std::pow(10, std::floor(std::log10(count)));
   return static_cast<std::uint64_t>(std::round(count / unit) * unit);
@@ -21,7 +21,7 @@ std::string asked_of(const Config& config, Reason reason) {
   return describe(reason, config.diversity, config.believability);
 }
 
-/// What a user can change, most promising first.
+/// Changes that may help the user, most promising first.
 std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   std::vector<std::string> advice;
   if (remedy.largest_mm) {

@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-/// As one word of the shell.
+/// Quotes a text as one word for the shell.
 std::string shell_word(std::string_view text) {
   std::string word = "'";
   for (const char c : text) {
@@ -37,7 +37,7 @@ std::string assign(std::string_view name, std::string_view value) {
   return concat(name, '=', shell_word(value), '\n');
 }
 
-/// Seconds of one processor for a face: measured costs a byte, a vertex and a pixel.
+/// Processor time for one face in seconds, from measured costs per byte, vertex and pixel.
 double face_seconds(const Config& config, const Inputs& inputs) {
   constexpr double kByte = 3.3e-9, kBlendVertex = 5e-8, kJudgeVertex = 3.6e-6;
   constexpr double kPixel = 6.5e-7, kPictureVertex = 6e-8;
@@ -53,7 +53,7 @@ double face_seconds(const Config& config, const Inputs& inputs) {
   return seconds;
 }
 
-/// How many tasks of at most so many seconds.
+/// The number of tasks (1 … `most`) so that each takes at most `seconds_a_task`.
 std::uint64_t tasks_for(double seconds, double seconds_a_task, std::uint64_t most) {
   const double tasks = std::min(std::ceil(seconds / seconds_a_task), static_cast<double>(most));
   return std::max<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1);
@@ -187,7 +187,7 @@ std::string task_script(const TaskJob& job) {
   script += assign("scratch", job.scratch);
   script += concat("prepares=", job.prepares, " shards=", job.shards,
                    " processors=", job.processors, "\n");
-  // An eighth is left for what the task's own memory is not.
+  // Leave an eighth of the task's memory to other processes.
   const std::string memory =
       job.memory == 0 ? "" : concat("--memory '", job.memory / 8 * 7 / 1024, " KiB'");
   script += concat("memory=(", memory, ")\n");
@@ -215,7 +215,7 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   std::string script(kHead);
   script += "set -euo pipefail\n";
   script += assign("folder", job.directory.submitted().string());
-  // A command for the shell of whichever machine it comes to.
+  // The command that the shell of any machine runs.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
   script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
   script += concat(
@@ -229,7 +229,7 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
                              std::uint64_t processors) {
   constexpr double kSeconds = 600;
-  constexpr std::uint64_t kMost = 1000;  // as Slurm's arrays have unless a site says more
+  constexpr std::uint64_t kMost = 1000;  // default limit of Slurm's job arrays
   const double all = face_seconds(config, inputs) * static_cast<double>(faces);
   return tasks_for(all / static_cast<double>(processors), kSeconds, std::min(kMost, faces));
 }

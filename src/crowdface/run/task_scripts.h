@@ -41,8 +41,9 @@ struct EngineOptions {
   std::vector<std::string> more;     ///< further arguments for the engine, passed unchanged
 };
 
-/// Numbers of tasks such that each runs for minutes, from measured times per head and face
-/// (docs/farm.md). \param faces  number of faces in the crowd
+/// Number of tasks of each kind, such that a task that makes faces runs for about ten minutes and a
+/// task that prepares heads for about one, from measured times (docs/farm.md).
+/// \param faces  number of faces in the crowd
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
                              std::uint64_t processors);
 std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors);

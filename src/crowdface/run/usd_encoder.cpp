@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \param file_of  a texture as layers name it.
+/// \param file_of  returns the path that layers use for a texture
 template <class FileOf>
 UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   UsdaSurface surface;
@@ -40,7 +40,7 @@ UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   return surface;
 }
 
-/// An attachment as a prim.
+/// The prim name and materials of an attachment.
 struct PrimLook {
   std::string prim;
   std::vector<UsdaPart::Material> materials;
@@ -95,7 +95,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
   using Form = DressedForm<UsdaTemplate, UsdaPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
-    // A level of detail is coarse on purpose.
+    // Levels of detail are not subdivided: they are coarse on purpose.
     const Subdivision subdivision =
         level.whole() ? source.config.output.subdivision : Subdivision::kNone;
     encoders.push_back(encoder_by(

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The materials of what a face wears, which files name.
+/// Copies the material files that the face's attachments refer to.
 void write_attachment_materials(const Job& job, const CastFace& face, const fs::path& folder) {
   for (const std::string& name : face.attachments) {
     for (const MaterialFile& material : job.inputs.attachments.at(name).materials.files) {
