@@ -15,18 +15,18 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastOpen = 0.04;       // a vertex that sees less is inside
-constexpr double kOpennessOfSkin = 0.25;  // from here on the scan counts in full
+constexpr double kLeastOpen = 0.04;       // vertices below this openness are inside
+constexpr double kOpennessOfSkin = 0.25;  // the scan has full weight from this openness on
 constexpr std::size_t kMostScanPoints = 8000;
-constexpr int kBendSteps = 3;              // in each round
+constexpr int kBendSteps = 3;              // steps per round
 constexpr double kHiddenStiffnessMm = 10;  // least stiffness where the scan shows nothing
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
-/// What one vertex, or one point of the scan, found.
+/// The correspondence found for a vertex of the skin or for a point of the scan.
 struct Pull {
   bool found = false;
-  Eigen::Vector3d normal, offset;  ///< of the scan; from the skin to it
+  Eigen::Vector3d normal, offset;  ///< normal of the scan; vector from the skin to the scan
   double weight = 0;
 };
 
@@ -44,7 +44,7 @@ double spread_of(const std::vector<Pull>& pulls, double reach) {
   return outlier_distance(std::move(distances), reach);
 }
 
-/// Everything that stays the same while one skin is bent onto one scan.
+/// Data that stays constant while one skin is bent onto one scan.
 class Bending {
  public:
   Bending(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
@@ -95,7 +95,7 @@ class Bending {
     scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / count;
   }
 
-  /// The rims where the skin and the scan end, not those of holes.
+  /// Selects the outer boundaries of skin and scan, without small holes.
   void choose_rims() {
     const auto ends = long_rims(scan_.scan().triangles, scan_.scan().positions, kEndMm);
     if (ends.empty()) return;
@@ -105,7 +105,7 @@ class Bending {
     }
   }
 
-  /// Where the scan ends about where the skin does, the two ends are put on each other.
+  /// Adds data terms that align the skin's boundary with the scan's boundary where they are close.
   void ask_rims(const Positions& current, double reach, Wishes& wishes) const {
     if (!scan_end_grid_) return;
     for (const std::uint32_t v : skin_end_) {
@@ -144,7 +144,7 @@ class Bending {
     }
   }
 
-  /// What the scan nearest to each vertex asks of it.
+  /// Adds data terms from each vertex of the skin to the closest point of the scan.
   void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) {
     const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
     std::vector<Pull> pulls(visible_.size());
@@ -167,7 +167,7 @@ class Bending {
     }
   }
 
-  /// What points of the scan ask of the skin nearest to them.
+  /// Adds data terms from sampled points of the scan to the closest point of the skin.
   void ask_skin(const Positions& current, double reach, double tangential, Wishes& wishes) {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Pull> pulls(scan_points_.size());
@@ -212,13 +212,13 @@ class Bending {
   Eigen::VectorXd areas_;
   SparseMatrix laplacian_;
   Eigen::VectorXd scan_areas_;
-  std::vector<double> visible_;  ///< 0 … 1: how much the scan counts
+  std::vector<double> visible_;  ///< 0 … 1: weight of the scan
   std::vector<std::uint32_t> scan_points_;
-  std::vector<std::uint32_t> found_on_scan_;  ///< #skin: triangles found last
-  std::vector<SurfaceHit> found_on_skin_;     ///< one for each of scan_points_
+  std::vector<std::uint32_t> found_on_scan_;  ///< #skin: triangle found in the last query
+  std::vector<SurfaceHit> found_on_skin_;     ///< #scan_points_
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
-  double scan_weight_ = 0;  ///< vertices of the scan for each of scan_points_
+  double scan_weight_ = 0;  ///< number of scan vertices per sampled point
 };
 
 }  // namespace

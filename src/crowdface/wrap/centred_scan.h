@@ -8,13 +8,14 @@
 
 namespace crowdface {
 
-/// A scan and its landmarks moved so that the middle of the scan's box is the origin, and rounded to steps of about a
-/// millionth of the box. Wrapping makes choices, such as the nearest triangle, that hang on the last digits of numbers,
-/// and later choices on those before: where the scan stands is not to decide them.
+/// A scan and its landmarks, translated so that the centre of the scan's bounding box is the
+/// origin, and rounded to about a millionth of the box. Wrapping makes discrete choices, such as
+/// the nearest triangle, that depend on the last digits of coordinates and accumulate. Without
+/// centring and rounding, the result would depend on the scan's position.
 struct CentredScan {
   Scan scan;
   std::vector<WrapLandmark> landmarks;
-  Eigen::Vector3d middle;  ///< in the scan's file
+  Eigen::Vector3d middle;  ///< centre of the bounding box in the scan file
 };
 CentredScan centred(const Scan& scan, std::vector<WrapLandmark> landmarks);
 

@@ -18,16 +18,19 @@ namespace crowdface {
 namespace {
 
 constexpr double kReachMm = 3;
-constexpr double kStiffnessEdges = 0.5;  ///< in edges of the skin: what is finer is taken for noise
+/// In edge lengths of the skin; finer relief counts as noise.
+constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
-constexpr double kNoWall = 0.7;  // cosine of the scan's normal with the skin's at least
+constexpr double kNoWall = 0.7;  // least cosine between the normals of scan and skin
 constexpr double kLeastOpenness = 0.15;
-constexpr double kUnasked = 1e-4;  ///< weight of staying where the scan says nothing
+constexpr double kUnasked = 1e-4;  ///< weight of a zero offset where there is no scan data
 constexpr int kSteps = 30;
 constexpr int kMostEvenings = 10, kEvenOnly = 3, kSweeps = 8;
-constexpr double kKeptOffset = 0.98;       ///< of an offset in each sweep
-constexpr double kLeastLeft = 0.05;        ///< of a triangle's area, seen as it faced before
-constexpr double kLeastFaceCosine = 0.05;  ///< of a triangle with the template's
+constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
+/// Least share of a triangle's area, projected on its previous normal.
+constexpr double kLeastLeft = 0.05;
+/// Least cosine between a triangle's normal and the template's.
+constexpr double kLeastFaceCosine = 0.05;
 
 constexpr std::ptrdiff_t kDetailBlock = 8192;
 
@@ -35,9 +38,9 @@ double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return parallel_dot(a.data(), b.data(), a.size(), kDetailBlock);
 }
 
-/// Solves (W + c Uᵀ U) x = W r, U x being what a value differs by from the mean of its neighbours, by
-/// conjugate gradients with the diagonal as preconditioner: enough where stiffness reaches over an
-/// edge or two.
+/// Solves (W + c Uᵀ U) x = W r, where U x is the difference between a value and the mean of its
+/// neighbours. Uses conjugate gradients with the diagonal as preconditioner, which suffices because
+/// the stiffness reaches over only an edge or two.
 class SmoothFit {
  public:
   SmoothFit(const Adjacency& adjacency, double stiffness)
@@ -86,7 +89,7 @@ class SmoothFit {
   double stiffness_;
 };
 
-/// What the scan asks of each vertex, along its normal.
+/// Target offset of each vertex along its normal.
 struct AskedOfSkin {
   Eigen::VectorXd weights, values;  ///< #skin
 };
@@ -112,7 +115,8 @@ AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Pos
   return asked;
 }
 
-/// A triangle against how it was, or against the template's if it was not turned over against that already.
+/// Whether a triangle flips relative to its state before the offsets, or relative to the template
+/// if it was not already flipped there.
 bool turns_over(const Positions& rest, const Positions& before, const Positions& normals,
                 const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
@@ -126,7 +130,7 @@ bool turns_over(const Positions& rest, const Positions& before, const Positions&
   return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
-/// Triangles that offsets turn over, of those with a vertex at which they changed.
+/// Triangles that the offsets flip, among those with a changed vertex.
 std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& rest,
                                        const Positions& before, const Positions& normals,
                                        const Eigen::VectorXd& along,
@@ -144,7 +148,8 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
   return turned;
 }
 
-/// Around triangles that offsets turn over less is asked: nothing at them, all of it where a patch ends.
+/// Reduces offsets around flipped triangles: to zero at the triangle, less towards the border of
+/// the patch.
 void hold_back(const Positions& rest, const Positions& before, const Positions& normals,
                std::span<const std::uint32_t> turned, const PatchMender& mender,
                Eigen::VectorXd& along) {
@@ -163,9 +168,9 @@ void hold_back(const Positions& rest, const Positions& before, const Positions& 
   mender.mend(turned, is_bad, change);
 }
 
-/// Neighbours that found different sheets of the scan would turn the triangles between them over: there,
-/// and as far around as it takes, offsets go between those beside.
-/// \param mender  of the skin; made when it is first needed
+/// Removes folds between neighbours that found different layers of the scan: there, and in a
+/// neighbourhood that grows as needed, replaces offsets by the mean of their neighbours.
+/// \param mender  of the skin; created on first use.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,
                     Eigen::VectorXd& along) {
@@ -186,7 +191,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
       }
     }
     std::ranges::sort(evened);
-    // In a crease even like offsets cross: less and less is asked there.
+    // In a crease, even equal offsets cross; therefore shrink the offsets a little with each sweep.
     const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {
@@ -228,7 +233,8 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     even_out_folds(skin, rest, result, normals, mender, along);
     move_along(normals, along, result);
   }
-  // On a regular mesh of edges h the mean of the neighbours is h²/4 times the Laplacian away.
+  // On a regular mesh with edge length h, the mean of the neighbours differs from the value by h²/4
+  // times the Laplacian.
   const SmoothFit fit(skin.adjacency, 16 * std::pow(kStiffnessEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
     if (smoothings == 0) normals = vertex_normals_or_zero(skin.triangles, result);

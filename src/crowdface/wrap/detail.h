@@ -6,13 +6,14 @@
 
 namespace crowdface {
 
-/// Brings a skin that lies near the scan onto it, each vertex along its own normal only, so that
-/// nothing slides: relief down to about twice the skin's edges is kept.
-/// \param rest       #skin by 3, the template's own: no triangle comes to lie turned over against it.
-/// \param positions  #skin by 3, in millimetres, where the scan stands.
-/// \param smoothings  where a skin is much finer than what it was bent by: how often normals and offsets are evened
-///                   out between neighbours in a round before the others, so that what is coarse is mended as a
-///                   whole and no normals cross in creases; else 0.
+/// Moves a skin that is close to the scan onto the scan. Each vertex moves only along its normal,
+/// so that correspondence does not slide. The result keeps relief down to about twice the skin's
+/// edge length.
+/// \param rest  #skin by 3, of the template; no triangle becomes flipped relative to it.
+/// \param positions  #skin by 3, in millimetres, in the scan's frame.
+/// \param smoothings  0, or, for a skin much finer than the skin that was bent: number of smoothing
+/// steps of normals and offsets in a preliminary round. That round corrects coarse errors as a
+/// whole, without crossing normals in creases.
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
                         const ScanSurface& scan, int smoothings);
 

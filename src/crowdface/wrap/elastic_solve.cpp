@@ -21,7 +21,7 @@ double product(const Positions& a, const Positions& b) {
   return parallel_dot(a.data(), b.data(), a.size(), 3 * kElasticBlock);
 }
 
-/// a += factor · b
+/// A += factor · b.
 void add_scaled(Positions& a, double factor, const Positions& b) {
   for (Index i = 0; i < a.size(); ++i) a.data()[i] += factor * b.data()[i];
 }
@@ -31,7 +31,8 @@ SparseMatrix with_diagonal(SparseMatrix matrix, const Eigen::VectorXd& diagonal)
   return matrix;
 }
 
-/// L D Lᵀ of a symmetric matrix; solves for three columns at once, since reading L is what takes time.
+/// L D Lᵀ factorisation of a symmetric matrix. Solves three columns at once, because reading L
+/// dominates the time.
 class Factors {
  public:
   explicit Factors(const SparseMatrix& matrix) {
@@ -67,9 +68,9 @@ class Factors {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
   using Column = SparseMatrix::InnerIterator;
 
-  SparseMatrix lower_;  ///< below the diagonal, of which all are 1
+  SparseMatrix lower_;  ///< strictly lower part; the diagonal is 1
   Eigen::VectorXd inverse_;
-  Eigen::VectorXi place_;  ///< of each row in the factors' order
+  Eigen::VectorXi place_;  ///< position of each row in the factors' order
 };
 
 }  // namespace
@@ -127,7 +128,7 @@ struct ElasticSolver::State {
   SparseMatrix stiffness;
   Factors factors;
 
-  /// (W + B) x; B is symmetric, so that a column is a row.
+  /// (W + B) x; because B is symmetric, the code reads its columns as rows.
   Positions times(const Wishes& wishes, const Positions& x) const {
     Positions y(x.rows(), 3);
     parallel_for_each(x.rows(), kElasticBlock, [&](Index i) {

@@ -12,14 +12,15 @@
 
 namespace crowdface {
 
-/// Vertices around a triangle, ring by ring.
+/// A patch of vertices around a triangle that grows by one ring at a time.
 class GrowingPatch {
  public:
   GrowingPatch(const SkinMesh& skin, const Triangle& triangle);
 
   void grow();
   std::span<const std::uint32_t> vertices() const { return vertices_; }
-  /// How much one of them has a say: 1 at the triangle, and nothing beyond the last ring.
+  /// Weight of vertex `i` of the patch: 1 at the triangle, 0 beyond the last ring; `steepness`
+  /// steepens the slope at the patch's border.
   double share(std::size_t i) const {
     return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
   }
@@ -28,25 +29,26 @@ class GrowingPatch {
  private:
   const SkinMesh& skin_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<int> rings_;  ///< of each of them
+  std::vector<int> rings_;  ///< ring of each vertex in `vertices_`
   std::vector<bool> is_in_;
   int ring_ = 0;
   double steepness_ = 1;
 };
 
-/// What is done to a patch, and how it is taken back.
+/// An operation on a patch, and its inverse.
 struct PatchChange {
   std::function<void(const GrowingPatch&)> make, undo;
 };
 
-/// Mends triangles of a skin by changes to patches around them.
+/// Repairs triangles of a skin by operations on patches around them.
 class PatchMender {
  public:
-  /// \param rest  #skin by 3, in millimetres: patches have up to twelve rings, or reach some 15 mm of it.
+  /// \param rest  #skin by 3, in millimetres: patches grow to at most twelve rings or about 15 mm
+  /// in `rest`.
   PatchMender(const SkinMesh& skin, const Positions& rest);
 
-  /// Makes a change, around each of some triangles that is bad still, to the smallest patch in which that leaves
-  /// fewer bad triangles than there were; none if there is none.
+  /// For each bad triangle, applies the operation to the smallest patch for which it reduces the
+  /// number of bad triangles. Leaves the triangle unchanged if there is no such patch.
   void mend(std::span<const std::uint32_t> triangles,
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 
@@ -55,7 +57,7 @@ class PatchMender {
                    const PatchChange& change) const;
 
   const SkinMesh& skin_;
-  FacesAround around_;  ///< of its triangles
+  FacesAround around_;  ///< triangles around each vertex of the skin
   int most_rings_ = 0;
 };
 

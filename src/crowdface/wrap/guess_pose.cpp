@@ -12,14 +12,14 @@
 namespace crowdface {
 namespace {
 
-/// Columns are where side, up and front point.
+/// A matrix whose columns are the directions of side, up and front.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
   Eigen::Matrix3d frame;
   frame << up.cross(front), up, front;
   return frame;
 }
 
-/// Along the columns of a frame.
+/// The bounding box in the axes of a frame.
 Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool>& used,
                               const Eigen::Matrix3d& frame) {
   Eigen::AlignedBox3d extent;
@@ -32,7 +32,7 @@ Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool
 
 ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
                   const ScanSurface& scan, const PoseHint& hint) {
-  constexpr std::array kLower = {0.0, 0.12, -0.12};  // shares of the head's height
+  constexpr std::array kLower = {0.0, 0.12, -0.12};  // offsets as shares of the head's height
   const Eigen::Matrix3d from = frame_of(axes.up, axes.front), to = frame_of(hint.up, hint.front);
   const Eigen::AlignedBox3d head =
       extent_of(rest, std::vector<bool>(static_cast<std::size_t>(rest.rows()), true), from);
@@ -41,8 +41,8 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
   const ShapeFitOptions options{.reach_mm = {40, 30, 20, 12}, .steps = 4};
   ShapeFit best;
   best.residual = 1e300;
-  // Width is what scans agree in; of height they show more or less. The top of the head, and where the
-  // face is farthest in front, are put on each other.
+  // Scale by the width, because scans show different parts of the height. Align the top of the
+  // head, and the foremost point of the face.
   for (const double wider : {1.0, 0.85, 1.15}) {
     for (const double lower : kLower) {
       Similarity pose;

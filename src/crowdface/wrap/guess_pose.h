@@ -10,23 +10,24 @@
 
 namespace crowdface {
 
-/// Which way the head on a scan looks, where no landmarks tell: unit vectors in the scan's frame.
+/// The orientation of the head in a scan without landmarks: unit vectors in the scan's frame.
 struct PoseHint {
   Eigen::Vector3d up, front;
-  std::optional<ReliefMatch> face = {};  ///< of the scan, if it was found before
+  std::optional<ReliefMatch> face = {};  ///< face of the scan, if already known
 };
 
-/// The similarity from a template to a scan without landmarks. If a face is found on both by its relief, the faces are laid
-/// on each other and closest points do the rest; otherwise tops of heads are, in several sizes and places, and the pose is the
-/// one from which closest points come nearest.
-/// \param rest     of the skin, in millimetres
+/// Estimates the similarity from a template to a scan without landmarks. If the relief shows a face
+/// on both, the function aligns the faces and refines with closest points. Otherwise it aligns the
+/// tops of the heads with several scales and offsets, refines each pose with closest points, and
+/// returns the pose with the smallest distances.
+/// \param rest  of the skin, in millimetres
+/// \param hint  may contain the face of the scan
 /// \param face  of the template's skin, found by its relief
-/// \param hint  with the face of the scan
 Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
                       const ScanSurface& scan, const PoseHint& hint,
                       const std::optional<ReliefMatch>& face);
 
-/// The similarity that lays the face found on a template on the face found on a scan.
+/// The similarity that aligns the face found on a template with the face found on a scan.
 Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_scan);
 
 }  // namespace crowdface

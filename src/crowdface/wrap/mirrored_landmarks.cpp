@@ -13,10 +13,10 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastMm = 6;  ///< people differ by as much
+constexpr double kLeastMm = 6;  ///< natural variation between people
 constexpr double kTimesWorse = 2.5;
 
-/// Median distance after a similarity, mm.
+/// Median distance of the landmarks after the best similarity, in mm.
 double residual_of(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
   const Similarity pose = pose_of_landmarks(positions, landmarks);
   std::vector<double> off;
@@ -65,7 +65,7 @@ std::vector<WrapLandmark> with_sides_exchanged(const std::vector<WrapLandmark>& 
 
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks) {
-  constexpr std::size_t kFewest = 5;  // four points in general position do not tell
+  constexpr std::size_t kFewest = 5;  // four points in general position are not enough
   if (landmarks.size() < kFewest) return;
   const double as_they_are = residual_of(positions, landmarks);
   if (!(as_they_are > kLeastMm)) return;

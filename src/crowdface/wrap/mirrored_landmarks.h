@@ -7,9 +7,10 @@
 
 namespace crowdface {
 
-/// \throws InvalidInput if landmarks fit several times better after a reflection: because the scan is mirrored, or because
-/// names of left and right are exchanged; whichever fits better is named.
-/// \param positions  mm, of what the landmarks' rows are of; at least four landmarks
+/// \throws InvalidInput if the landmarks fit several times better after a reflection, because the
+/// scan is mirrored or because left and right names are exchanged; the message names the better
+/// explanation. Fewer than five landmarks cannot show a reflection and pass.
+/// \param positions  in millimetres; the landmarks' vertices are rows of it.
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks);
 

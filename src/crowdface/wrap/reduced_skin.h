@@ -8,25 +8,25 @@
 
 namespace crowdface {
 
-/// A skin of fewer vertices that stands for a large one while it is bent.
+/// A skin with fewer vertices that replaces a large one during deformation.
 struct ReducedSkin {
   SkinMesh mesh;  ///< its `vertices` are rows of the large skin
-  /// Where each vertex of the large skin lies on the small one.
+  /// Position of a vertex of the large skin on the small one: triangle and barycentric coordinates.
   struct Place {
     std::uint32_t triangle;
     std::array<float, 3> shares;
   };
   std::vector<Place> places;  ///< #large
-  int smoothings = 0;         ///< that even out what is carried up
+  int smoothings = 0;         ///< number of smoothing steps after interpolation
 
-  /// Values of the small skin's vertices (#small by 3) between which those of the large one's lie, and
-  /// evened out so that the edges of the small one do not show.
+  /// Interpolates values from the small skin's vertices (#small by 3) to those of the large skin,
+  /// and smooths them so that the small skin's edges do not show.
   Positions carry(const Positions& values, const SkinMesh& large) const;
-  /// The same of one value a vertex, not evened out.
+  /// Interpolates one value per vertex, without smoothing.
   std::vector<double> carry(const std::vector<double>& values) const;
 };
 
-/// Reduces a skin to about so many vertices, which are some of its own.
+/// Reduces a skin to about `vertices` vertices, a subset of its own.
 /// \param positions  #skin by 3
 ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::size_t vertices);
 

@@ -22,8 +22,9 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMostMedianMm = 15;   // of the landmarks after the similarity
-constexpr double kMostDistanceMm = 3;  // 95 % of the visible skin
+// largest median distance of landmarks after the similarity
+constexpr double kMostMedianMm = 15;
+constexpr double kMostDistanceMm = 3;  // 95th percentile over the visible skin
 constexpr double kMostFarShare = 0.02, kMostWithoutData = 0.15, kLeastWithData = 0.02;
 constexpr std::size_t kFewHeads = 8;
 
@@ -37,7 +38,8 @@ bool seen(const WrapTemplate& shape, Index v) {
   return shape.skin.openness[static_cast<std::size_t>(v)] > kSeen;
 }
 
-/// \param regions, region  only of that one; null: of all the skin
+/// Distances of the visible vertices with scan data.
+/// \param regions, region  restrict the result to one region; null: the whole skin
 std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result,
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
   std::vector<double> distances;
@@ -83,10 +85,10 @@ nlohmann::ordered_json spread_json(const std::vector<double>& values) {
 constexpr double kMostFaceOffMm = 25;
 
 constexpr int kSidePx = 320;
-constexpr double kScaleEndMm = 2;  // where the heat map's scale ends
+constexpr double kScaleEndMm = 2;  // end of the heat map's scale
 constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
 
-/// Eyeballs are shown as such, lashes and tear lines not at all.
+/// Shows eyeballs in their own style; hides lashes and tear lines.
 Surfaces surfaces_of(const WrapTemplate& shape) {
   std::vector<SurfaceKind> of_component(shape.parts.classes.size(), SurfaceKind::kSkin);
   for (const Part& part : shape.parts.parts) {

@@ -11,31 +11,33 @@
 
 namespace crowdface {
 
-/// Distances from a wrapped skin to the scan over vertices that the scan shows, mm.
+/// Statistics of the distances from a wrapped skin to the scan, in mm, over the vertices that the
+/// scan covers.
 struct WrapDistances {
   double median = 0, percentile_95 = 0;
 };
 WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result);
-/// The share of the visible skin for which the scan has nothing.
+/// The share of the visible skin without scan data.
 double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 
-/// What the user should look at, a sentence each that says what to do.
-/// \param regions      that are named where much of one is far from the scan.
-/// \param model_heads  how many heads the model has; 0: there is none.
+/// Warnings for the user; one sentence each, with advice.
+/// \param regions  the warnings name those regions of which a large share is far from the scan.
+/// \param model_heads  number of heads in the model; 0: no model.
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_heads);
 
-/// \throws InvalidInput, saying what to do, if the result is no wrap of this scan.
+/// \throws InvalidInput, with advice, if the result is not a valid wrap of this scan.
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                      const SkinRegions& regions);
 
-/// What stands in the report beside what was measured.
+/// Facts for the report that are not measurements.
 struct WrapFacts {
-  std::string template_file, scan_file, inputs, mesh;  ///< the last two: digests
-  double output_scale = 1;  ///< what the head was multiplied with, so that it has the scan's size
-  /// How far landmarks lie from where a similarity of all others puts them, mm; those without are not told.
+  std::string template_file, scan_file, inputs, mesh;  ///< `inputs` and `mesh` are digests
+  double output_scale = 1;  ///< factor applied to the head, so that it has the scan's size
+  /// Distance of each landmark, in mm, from its position predicted by a similarity fitted to the
+  /// other landmarks. Has no entry for landmarks without a prediction.
   std::map<std::string, double> left_out_mm;
-  /// See unseen_landmarks; of none: not asked for.
+  /// See `unseen_landmarks`; empty: not requested.
   std::map<std::string, double> unseen_mm = {};
 };
 
@@ -44,8 +46,8 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                const WrapResult& result, const SkinRegions& regions,
                                const std::vector<std::string>& warnings);
 
-/// The scan above, the wrapped head in the middle, its distance to the scan below, each from three
-/// sides, as a PNG file.
+/// A PNG file with three rows: the scan, the wrapped head, and its distance to the scan; each from
+/// three sides.
 std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
                          const HeadFrame& frame, const std::string& title);
 

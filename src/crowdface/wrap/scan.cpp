@@ -15,7 +15,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Those that have exactly one triangle, ascending.
+/// Edges with exactly one triangle, ascending.
 std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
   std::vector<Edge> edges, rim;
   edges.reserve(3 * triangles.size());
@@ -34,7 +34,7 @@ bool degenerate(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/// Of each triangle, twice the area of all that hang together with it.
+/// For each triangle, twice the area of its connected component.
 std::vector<double> areas_of_pieces(const Scan& scan) {
   Grouping groups(static_cast<std::size_t>(scan.positions.rows()));
   for (const Triangle& t : scan.triangles) {

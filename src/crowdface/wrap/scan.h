@@ -8,31 +8,33 @@
 
 namespace crowdface {
 
-/// A surface as a scanner or another program left it: any unit, any pose, any triangles.
+/// A surface from a scanner or another program: any unit, any pose, any triangles.
 struct Scan {
   Positions positions;                  ///< #V by 3
-  std::vector<Triangle> triangles;      ///< wound so that they look outwards
-  std::vector<std::string> notes = {};  ///< what was mended or left out, a sentence each
+  std::vector<Triangle> triangles;      ///< oriented outwards
+  std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
 };
 
-/// #V: whether a triangle has the vertex.
+/// #V: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
 
-/// The vertices of rims that are at least this long, ascending: where a surface ends.
+/// The vertices of boundary loops that are at least `least_length` long, ascending: where a surface
+/// ends.
 std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double least_length);
 
-/// The scan without pieces of less than this share of the largest one's area, and without triangles
-/// that name a vertex twice. Vertices stay, so that their numbers do.
+/// Removes connected components with less than `least_share` of the largest component's area, and
+/// triangles with a repeated vertex. Keeps all vertices, so that vertex indices do not change.
 Scan without_small_pieces(const Scan& scan, double least_share);
 
-/// Of a modelled head, one with eyeballs, without what lies over skin and eyes: lashes, tear lines, shells for shadows.
-/// Other scans as they are.
+/// For a modelled head with eyeballs, removes the surfaces over skin and eyes: lashes, tear lines,
+/// shadow shells. Returns other scans unchanged.
 Scan without_shells(const Scan& scan);
 
-/// One vertex for all that stand in one place: STL files repeat each corner, others do along the
-/// borders of textures. The first of each place is kept; the others lose their triangles to it. A surface that hangs
-/// together without that stays as it is: lashes and eyes that touch its vertices are none of it.
+/// Merges vertices with equal positions: STL files repeat every corner, other formats repeat
+/// vertices at texture seams. Triangles then refer to the first vertex at each position. If merging
+/// hardly enlarges the largest connected component, the scan stays unchanged, so that lashes and
+/// eyes that touch the skin stay separate.
 void weld(Scan& scan);
 
 }  // namespace crowdface

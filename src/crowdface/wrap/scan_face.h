@@ -8,9 +8,10 @@
 
 namespace crowdface {
 
-/// The face of a scan, found by its relief (see match_relief).
-/// \param hint  how it stands, within some 35°; without it all turns are searched
-/// \return nothing if no part has the relief of a face
+/// Finds the face of a scan by its relief (see `match_relief`).
+/// \param hint  the orientation, accurate to about 35°; without a hint the function searches all
+/// orientations
+/// \return nothing if no part of the scan has the relief of a face
 std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<PoseHint>& hint);
 
 }  // namespace crowdface

@@ -16,12 +16,13 @@
 namespace crowdface {
 namespace {
 
-constexpr double kClosed = 0.4;     // of the template's opening between the lids
-constexpr double kMiddle = 0.4;     // of an eyeball's radius: where lids are widest apart
-constexpr double kOpenMouthMm = 3;  // farther apart than the template's lips
-constexpr double kHairMm = 10;      // heads of people without hair differ by less
+constexpr double kClosed = 0.4;  // relative to the template's lid opening
+// in eyeball radii: half width of the region where lids are widest apart
+constexpr double kMiddle = 0.4;
+constexpr double kOpenMouthMm = 3;  // more than between the template's lips
+constexpr double kHairMm = 10;      // heads without hair differ by less
 constexpr double kMostFar = 0.05;
-constexpr std::size_t kFewest = 20;  // vertices of a region
+constexpr std::size_t kFewest = 20;  // least number of vertices in a region
 
 std::optional<double> median(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
@@ -29,7 +30,7 @@ std::optional<double> median(std::vector<double> values) {
   return value_of_rank(std::move(values), rank);
 }
 
-/// How far the upper lid is above the lower one in the middle of an eye.
+/// Height of the upper lid above the lower lid at the middle of an eye.
 std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
                                   const HeadAxes& axes, const Positions& rest,
                                   const Positions& positions) {

@@ -12,19 +12,19 @@ namespace crowdface {
 inline constexpr double kFarFromScanMm =
     3;  ///< farther off the scan than this skin does not lie on it
 
-/// Parts of the skin that a report speaks of one by one.
+/// Regions of the skin that a report lists separately.
 struct SkinRegions {
   std::vector<std::string> names;
-  std::vector<std::size_t> of_vertex;  ///< #skin, < #names; or empty: there are none
+  std::vector<std::size_t> of_vertex;  ///< #skin indices into `names`; empty: no regions
 
-  /// Whether a vertex of the skin is of the region with this name.
+  /// Whether a vertex of the skin belongs to the region `name`.
   bool is(std::uint32_t vertex, const std::string& name) const;
 };
 
-/// What about a scan makes it a bad one, told by where the template came to lie on it: closed eyes (lids
-/// that came together before an eyeball), an open mouth (lips that came apart), hair (a skull that
-/// stands out beyond the template's, once their faces lie on each other, or stays far from the scan).
-/// A sentence each that says what to do; without regions eyes alone are looked at.
+/// Finds defects of a scan from the wrapped template: closed eyes (lids that meet in front of an
+/// eyeball), an open mouth (parted lips), hair (a skull that is larger than the template's after
+/// the faces are aligned, or that stays far from the scan). Returns one sentence per defect, with
+/// advice. Without regions the function checks only the eyes.
 std::vector<std::string> scan_faults(const WrapTemplate& shape, const WrapResult& result,
                                      const SkinRegions& regions);
 

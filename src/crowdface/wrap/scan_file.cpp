@@ -16,7 +16,7 @@ namespace crowdface {
 
 namespace {
 
-constexpr double kFarthest = 1e9;  // as landmarks may be
+constexpr double kFarthest = 1e9;  // same limit as for landmarks
 
 bool has_area(const Scan& scan) {
   return std::ranges::any_of(scan.triangles, [&](const Triangle& triangle) {
@@ -24,7 +24,8 @@ bool has_area(const Scan& scan) {
   });
 }
 
-/// Coordinates of a map in single precision are steps and no surface.
+/// Rejects scans in map coordinates stored in single precision: rounding turns the surface into
+/// steps.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
   constexpr double kMostOfSize = 1e-3;
   const std::vector<bool> used = used_vertices(scan);
@@ -47,7 +48,8 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
                    "(PLY, OBJ)"));
 }
 
-/// A fan of slivers is a surface to no search: near their vertex they all lie everywhere.
+/// Rejects a fan of slivers, which defeats the spatial search: near the common vertex the boxes of
+/// all triangles overlap.
 void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
   constexpr std::uint32_t kManyTriangles = 4096;
   std::vector<std::uint32_t> triangles_at(static_cast<std::size_t>(scan.positions.rows()), 0);
@@ -62,7 +64,8 @@ void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
                      " triangles at one vertex, at (", at.x(), ", ", at.y(), ", ", at.z(), ")"));
 }
 
-/// Vertices that no triangle has may be anywhere, and vertices that are no place take their triangles along.
+/// Handles positions that are not finite: moves unused vertices to an arbitrary finite position,
+/// and removes triangles that use such vertices.
 void leave_out_unplaced(Scan& scan) {
   const auto is_placed = [&](std::uint32_t v) { return scan.positions.row(v).allFinite(); };
   if (scan.positions.allFinite()) return;

@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-/// Reads the geometry of a scan, in any format of `read_mesh`. Vertices that stand in one place are welded; their numbers
-/// are those of the file (of an STL file: of its corners in order; of a glTF file: of its primitives one after the other).
+/// Reads the geometry of a scan in any format of `read_mesh`. Merges vertices with equal positions,
+/// and keeps the vertex indices of the file (for STL: the corners in order; for glTF: the
+/// primitives one after the other).
 /// \throws MissingInput; InvalidInput naming file, what was expected and what was found.
 Scan read_scan(const std::filesystem::path& path);
 

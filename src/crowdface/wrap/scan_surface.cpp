@@ -9,11 +9,11 @@
 namespace crowdface {
 namespace {
 
-/// Dust and hair clips: below this share of the largest piece's area nothing is part of a face. An
-/// eyeball has about a hundredth of a head's.
+/// Least share of the largest component's area; smaller components are dust or hair clips. An
+/// eyeball has about a hundredth of a head's area.
 constexpr double kLeastShare = 0.001;
 
-constexpr double kRounded = 1e-9;  ///< a corner's share of a place on the opposite edge
+constexpr double kRounded = 1e-9;  ///< barycentric coordinate that counts as zero
 
 }  // namespace
 
@@ -30,7 +30,7 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
   place.triangle = hit.triangle;
   place.point = hit.point;
   place.distance = hit.distance;
-  bool rim = true;  // all corners that have a share lie on it
+  bool rim = true;  // all corners with a nonzero coordinate are on the boundary
   for (std::size_t k = 0; k < 3; ++k) {
     place.normal += hit.shares[k] * normals_.row(corners[k]).transpose();
     if (hit.shares[k] > kRounded && !rim_[corners[k]]) rim = false;

@@ -9,29 +9,31 @@
 
 namespace crowdface {
 
-inline constexpr double kLeastCosine = 0.5;  ///< of normals that face alike: within 60°
+/// Least cosine between compatible normals: within 60°.
+inline constexpr double kLeastCosine = 0.5;
 
-/// A scan made ready to be asked for the surface nearest to a place.
+/// A scan prepared for closest-point queries.
 class ScanSurface {
  public:
-  /// Loose crumbs are left out.
+  /// Ignores small loose components.
   explicit ScanSurface(const Scan& scan);
   ScanSurface(const ScanSurface&) = delete;
   ScanSurface& operator=(const ScanSurface&) = delete;
 
   struct Place {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< between those of the vertices, unit
+    /// Interpolated from the vertex normals, unit.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     double distance = 0;
-    bool found = false;  ///< something within reach, and not on a rim
+    bool found = false;  ///< a point is within reach and not on the scan's boundary
     bool on_rim = false;
     std::uint32_t triangle = kNoIndex;
   };
-  /// The nearest place whose surface faces within `least_cosine` of a unit vector.
-  /// \param guess  the triangle of a place that may be it, or kNoIndex.
+  /// The closest point whose surface normal is within `least_cosine` of the unit vector `facing`.
+  /// \param guess  a triangle that is probably the closest, or kNoIndex.
   Place nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing, double least_cosine,
                 double reach, std::uint32_t guess = kNoIndex) const;
-  /// The nearest place whatever way it faces.
+  /// The closest point regardless of the surface normal.
   Place nearest(const Eigen::Vector3d& point, double reach, std::uint32_t guess = kNoIndex) const;
 
   const Scan& scan() const { return scan_; }
@@ -47,11 +49,12 @@ class ScanSurface {
   SurfaceTree tree_;
 };
 
-/// From how far off what a scan tells counts little: three standard deviations of normal noise, by the median, and half
-/// the reach at least. \param distances  none negative; may be empty
+/// The distance beyond which scan data is downweighted as an outlier: three standard deviations of
+/// normal noise, estimated from the median, but at least half the reach.
+/// \param distances  not negative; may be empty
 double outlier_distance(std::vector<double> distances, double reach);
 
-/// y = s R x + t undone: x = Rᵀ (y − t) / s.
+/// The inverse of y = s R x + t: x = Rᵀ (y − t) / s.
 Similarity inverse(const Similarity& motion);
 
 }  // namespace crowdface

@@ -15,16 +15,16 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostProbes = 3000;  ///< vertices asked in each step
-constexpr double kKept = 0.8;              ///< of the probes that found something
+constexpr std::size_t kMostProbes = 3000;  ///< vertices sampled in each step
+constexpr double kKept = 0.8;              ///< share of the correspondences that is kept
 constexpr Index kPoseUnknowns = 7;
-constexpr double kGrowth = 0.02;  ///< by which a scale still changes once a model is fitted
+constexpr double kGrowth = 0.02;  ///< standard deviation of the scale once a model is fitted
 
-/// A vertex and what it found on the scan, in millimetres of the template.
+/// A vertex and its closest point on the scan. Lengths are in the scan's unit.
 struct Match {
   std::uint32_t vertex = kNoIndex;
-  Eigen::Vector3d offset;  ///< from where the vertex is to what it found
-  Eigen::Vector3d normal;  ///< of the scan there
+  Eigen::Vector3d offset;  ///< from the vertex to the closest point
+  Eigen::Vector3d normal;  ///< scan normal at the closest point
   double distance;
 };
 
@@ -59,8 +59,8 @@ void leave_out_farthest(std::vector<Match>& matches) {
   std::erase_if(matches, [&](const Match& match) { return match.distance > most; });
 }
 
-/// The normal equations of one step: turn, shift, growth, then coefficients. Rows are gathered first,
-/// since products of matrices are fast.
+/// The normal equations of one step: rotation, translation, scale, then coefficients. Rows are
+/// collected first, because one matrix product is faster than many updates.
 class Equations {
  public:
   explicit Equations(Index modes)
@@ -69,7 +69,7 @@ class Equations {
         rows_(kPoseUnknowns + modes, kMostRows),
         values_(kMostRows) {}
 
-  /// |W (J · unknowns − value)|² with J 3 by #unknowns.
+  /// Adds |W (J · unknowns − value)|² with J 3 by #unknowns.
   void add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& jacobian, const Eigen::Vector3d& value,
            const Eigen::Matrix3d& weight) {
     rows_.middleCols<3>(count_) = (weight * jacobian).transpose();
@@ -90,7 +90,7 @@ class Equations {
   static constexpr Index kMostRows = 384;
 
   void take_up() {
-    if (count_ == 0) return;  // Eigen divides by it
+    if (count_ == 0) return;  // Eigen divides by the count
     matrix_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.leftCols(count_));
     right_ += rows_.leftCols(count_) * values_.head(count_);
     count_ = 0;
@@ -103,7 +103,7 @@ class Equations {
   Index count_ = 0;
 };
 
-/// How a point moves with the unknowns, 3 by #unknowns; lengths in the scan's unit.
+/// Derivative of a point with respect to the unknowns, 3 by #unknowns; lengths in the scan's unit.
 Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian_of(const ShapeModel& model, const ShapeFit& fit,
                                                      std::uint32_t vertex,
                                                      const Eigen::Vector3d& arm) {
@@ -134,7 +134,8 @@ void apply(const Eigen::VectorXd& step, const Eigen::Vector3d& middle, ShapeFit&
   fit.coefficients += step.tail(fit.coefficients.size());
 }
 
-/// One step of Gauss and Newton. \return how many places were found.
+/// One Gauss–Newton step.
+/// \return number of correspondences.
 std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                  const std::vector<WrapLandmark>& landmarks,
                  const std::vector<std::uint32_t>& probes, double reach_mm,
@@ -145,7 +146,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                                             scan, probes, reach_mm * fit.pose.scale, found);
   if (matches.size() < probes.size() / 50 + 3) return 0;
   leave_out_farthest(matches);
-  const double mm = fit.pose.scale;  // in the scan's unit
+  const double mm = fit.pose.scale;  // one millimetre in the scan's unit
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Match& match : matches) middle += placed.row(match.vertex).transpose();
   middle /= static_cast<double>(matches.size());
@@ -170,10 +171,11 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                   std::sqrt(for_landmarks) * Eigen::Matrix3d::Identity());
   }
   for (Index k = 0; k < modes; ++k) equations.hold(kPoseUnknowns + k, -fit.coefficients(k), 1);
-  if (modes > 0) {  // people differ in size: that is the model's business
+  if (modes > 0) {  // the model, not the pose, explains differences in size
     equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kGrowth * kGrowth));
   }
-  // Where the surface says nothing of a turn (a ball), nothing is turned.
+  // A small weight keeps rotations at zero that the surface does not determine (for example on a
+  // sphere).
   for (Index k = 0; k < kPoseUnknowns; ++k) equations.hold(k, 0, 1e-9);
   apply(equations.solve(), middle, fit);
   return matches.size();

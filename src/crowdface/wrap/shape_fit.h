@@ -11,23 +11,23 @@
 
 namespace crowdface {
 
-/// One place marked on both.
+/// A landmark marked on both template and scan.
 struct WrapLandmark {
   std::string name;
-  std::uint32_t vertex = 0;  ///< row of the skin (of the template, before wrapping)
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< on the scan
-  bool by_shape = false;                            ///< found by the program, picked by nobody
+  std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< position on the scan
+  bool by_shape = false;  ///< found by the program, not picked by the user
 };
 
-/// The similarity that carries a template's landmarks nearest to the scan's.
-/// \param positions  of what the landmarks' rows are of; at least three landmarks
+/// The similarity that best maps a template's landmarks to the scan's, in least squares.
+/// \param positions  the landmarks' vertices are rows of it; needs at least three landmarks
 Similarity pose_of_landmarks(const Positions& positions,
                              const std::vector<WrapLandmark>& landmarks);
 
-/// A point after a similarity.
+/// Applies a similarity to a point.
 Eigen::Vector3d carried(const Similarity& by, const Eigen::Vector3d& point);
 
-/// Where a head stands on a scan, and which of the model's heads it is.
+/// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {
   Similarity pose;               ///< from the template to the scan
   Eigen::VectorXd coefficients;  ///< #modes, in standard deviations
@@ -35,19 +35,20 @@ struct ShapeFit {
 };
 
 struct ShapeFitOptions {
-  std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< one round each
-  int steps = 4;                                        ///< in each round
-  /// How many independent measurements of 1 mm error a whole scan amounts to: the more, the less the
-  /// coefficients are held near 0.
+  std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< one value per round
+  int steps = 4;                                        ///< number of steps in each round
+  /// Number of independent measurements with an error of 1 mm that are equivalent to a whole scan.
+  /// Larger values hold the coefficients less strongly near 0.
   double measurements = 7;
-  double tangential = 0.1;       ///< weight along the surface, against 1 across it
-  double landmark_weight = 0.2;  ///< share of the landmarks against the surface
+  /// Weight of offsets along the surface, relative to 1 along the normal.
+  double tangential = 0.1;
+  double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
 };
 
-/// The similarity, and the coefficients of the model, that carry the skin nearest to the scan: point
-/// to plane (Chen & Medioni 1992), farthest fifth left out, landmarks along.
-/// \param model  of the skin, in millimetres; without modes only the pose is found.
-/// \param start  where to begin.
+/// Finds the similarity and the model coefficients that best fit the skin to the scan: point to
+/// plane (Chen & Medioni 1992), without the farthest fifth of the points, with landmarks.
+/// \param model  of the skin, in millimetres; without modes the function finds only the pose.
+/// \param start  initial values.
 ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                    const std::vector<WrapLandmark>& landmarks, const ShapeFit& start,
                    const ShapeFitOptions& options = {});

@@ -40,11 +40,12 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
     }
   }
   const SymmetricEigen eigen = symmetric_eigen(gram);
-  constexpr double kNothing = 1e-9;  // of the largest: heads that are alike give no direction
+  // relative to the largest eigenvalue: identical heads give no mode
+  constexpr double kNothing = 1e-9;
   for (Index k = 0; k + 1 < count; ++k) {
     if (eigen.values(k) <= kNothing * eigen.values(0)) break;
     Positions mode = Positions::Zero(model.mean.rows(), 3);
-    // Σ_i v_i difference_i is √λ long; a standard deviation is √(λ / (count − 1)).
+    // Σ_i v_i difference_i has length √λ; a standard deviation is √(λ / (count − 1)).
     for (Index i = 0; i < count; ++i) {
       mode += eigen.vectors(i, k) * differences[static_cast<std::size_t>(i)];
     }

@@ -8,20 +8,22 @@
 
 namespace crowdface {
 
-/// How the heads of a topology differ: their mean and principal directions.
+/// The variation among heads of a topology: mean and principal components.
 struct ShapeModel {
-  Positions mean;                ///< #V by 3
-  std::vector<Positions> modes;  ///< #V by 3 each, as long as one standard deviation, longest first
+  Positions mean;  ///< #V by 3
+  /// #V by 3 each, scaled to one standard deviation, largest first
+  std::vector<Positions> modes;
 
   /// mean + Σ c_k modes_k
   Positions shape(const Eigen::VectorXd& coefficients) const;
 };
 
-/// Of heads that stand in one place (#V by 3 each, at least one): as many modes as heads less one.
-/// Source: Blanz & Vetter 1999, "A morphable model for the synthesis of 3D faces".
+/// Builds a model of aligned heads (#V by 3 each, at least one). The number of modes is the number
+/// of heads minus one. Source: Blanz & Vetter 1999, "A morphable model for the synthesis of 3D
+/// faces".
 ShapeModel make_model(const std::vector<Positions>& heads);
 
-/// The same model, and of each of its heads the mirror image: has twice the modes.
+/// The model extended by the mirror image of each head; has twice the modes.
 ShapeModel with_mirror_images(const ShapeModel& model, const MirrorMap& map);
 
 }  // namespace crowdface

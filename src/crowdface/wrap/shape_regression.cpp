@@ -15,17 +15,18 @@
 namespace crowdface {
 namespace {
 
-constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;  ///< by which the pose may be off
+/// Standard deviations of the pose.
+constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;
 constexpr Index kPose = 7;
 
-/// How far a vertex is displaced along a direction, as the scan or a landmark has it.
+/// A measured displacement of a vertex along a direction, from the scan or a landmark.
 struct Asked {
   std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d direction;
   double value, variance;
 };
 
-/// Visible vertices as far from each other as so many can be.
+/// Selects visible vertices by farthest-point sampling.
 std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& positions,
                                          std::size_t most) {
   std::vector<std::uint32_t> visible, places;
@@ -51,7 +52,8 @@ class Regression {
   Regression(const ShapeModel& model, const RegressionOptions& options)
       : model_(model), options_(options), middle_(model.mean.colwise().mean().transpose()) {}
 
-  /// #V by 3: the likely displacements from the mean.
+  /// Derivative of a vertex with respect to translation, rotation and scale of the head, each
+  /// scaled by its standard deviation.
   Positions displacements(const std::vector<Asked>& asked) const {
     const auto count = static_cast<Index>(asked.size()),
                modes = static_cast<Index>(model_.modes.size());
@@ -103,7 +105,8 @@ class Regression {
   }
 
  private:
-  /// How a vertex moves when the whole head is turned, moved or grows.
+  /// Derivative of a vertex with respect to translation, rotation and scale of the head, in
+  /// standard deviations.
   Eigen::Matrix<double, kPose, 3> pose_modes(Index vertex) const {
     const Eigen::Vector3d arm = row3(model_.mean, vertex) - middle_;
     Eigen::Matrix<double, kPose, 3> modes;
@@ -128,7 +131,7 @@ class Regression {
   Eigen::Vector3d middle_;
 };
 
-/// What the scan asks of places of the skin where it is now.
+/// Measures displacements from sampled skin vertices to the scan.
 std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
                             const Positions& positions, const ScanSurface& scan,
                             const std::vector<std::uint32_t>& places, double reach,
@@ -146,7 +149,7 @@ std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
   std::vector<double> distances;
   for (const Asked& one : asked) distances.push_back(std::abs(one.variance));
   const double spread = outlier_distance(std::move(distances), reach);
-  for (Asked& one : asked) {  // what is far off the others counts little
+  for (Asked& one : asked) {  // outliers get a large variance
     const double share = 1 + one.variance * one.variance / (spread * spread);
     one.variance = noise_mm * noise_mm * share * share;
   }

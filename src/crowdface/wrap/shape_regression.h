@@ -11,21 +11,22 @@
 namespace crowdface {
 
 struct RegressionOptions {
-  double local_share = 0.15;  ///< of the heads' variance: only places near each other share it
-  double reach_mm = 45;       ///< how near
-  /// What heads differ by besides, smooth over the same reach: a few heads span too little. Standard
-  /// deviation along each axis.
+  /// Share of the heads' variance that is correlated only between nearby points.
+  double local_share = 0.15;
+  double reach_mm = 45;  ///< correlation length of the local variation
+  /// Standard deviation, along each axis, of a smooth variation beyond the model, with the same
+  /// reach. A few heads span too little of the possible shapes.
   double smooth_mm = 1.8;
-  double noise_mm = 1, landmark_mm = 3;  ///< of what the scan and the landmarks say
-  std::size_t places = 800;              ///< of the skin that are asked for
-  std::vector<double> search_mm = {10, 8, 6, 5, 4, 4, 4};  ///< one round each
+  double noise_mm = 1, landmark_mm = 3;  ///< standard deviations of scan and landmarks
+  std::size_t places = 800;              ///< number of sampled vertices of the skin
+  std::vector<double> search_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round
 };
 
-/// The most likely head, given the model and that places all over the skin lie on the scan: Gaussian
-/// process regression (Lüthi et al. 2018). The scan says how far it is along its normal, nothing of where
-/// along the surface a place belongs: that follows from how heads differ.
-/// \param model      of the skin, where the scan stands, in millimetres
-/// \param positions  #skin by 3: near the scan already.
+/// The most likely head, given the model and the observation that points of the skin lie on the
+/// scan: Gaussian process regression (Lüthi et al. 2018). The scan gives distances along its normal
+/// only; the correspondence along the surface follows from the model.
+/// \param model  of the skin, in the scan's frame, in millimetres
+/// \param positions  #skin by 3: an initial fit close to the scan.
 Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Positions& positions,
                         const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
                         const RegressionOptions& options = {});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRays = 48;
 
-/// Directions spread evenly over the sphere, along a spiral of the golden angle.
+/// Evenly distributed directions on the sphere: a golden-angle spiral.
 std::array<Eigen::Vector3f, kRays> directions() {
   constexpr double kGoldenAngle = 2.39996322972865332;
   std::array<Eigen::Vector3f, kRays> all;

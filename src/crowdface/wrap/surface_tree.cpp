@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kMostInLeaf = 4;
-constexpr std::size_t kDeepestTree = 64;  // of a tree that is halved at every level
+constexpr std::size_t kDeepestTree = 64;  // enough for a tree that halves at every level
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastArea = 0.025;  // validity counts those below 0.02
+constexpr double kLeastArea = 0.025;  // the validity check counts triangles below 0.02
 
 bool is_folded(const Positions& rest, const Positions& positions, const Triangle& t) {
   const Eigen::Vector3d was = area_vector(rest, t), is = area_vector(positions, t);

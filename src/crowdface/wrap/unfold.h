@@ -5,16 +5,17 @@
 
 namespace crowdface {
 
-/// The triangles of a wrapped skin that are turned by more than a right angle against the template's,
-/// or have hardly any of their area left.
-/// \param rest      #skin by 3, the template's own.
-/// \param positions #skin by 3, wrapped.
+/// Finds triangles of a wrapped skin that are rotated by more than a right angle relative to the
+/// template, or that have lost nearly all their area.
+/// \param rest  #skin by 3, of the template.
+/// \param positions  #skin by 3, wrapped.
 std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Positions& rest,
                                             const Positions& positions);
 
-/// Turns folded triangles back: around each the smallest patch that mends it is laid as the template is, by the
-/// similarity that carries the template's patch there, less and less towards the patch's rim.
-/// \return how many triangles are still folded.
+/// Repairs folded triangles. Around each, the smallest patch that resolves the fold is blended
+/// towards the template's shape, transformed by the similarity that best aligns the template's
+/// patch; the blend decreases to the patch's border.
+/// \return number of triangles that are still folded.
 Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions);
 
 }  // namespace crowdface

@@ -23,10 +23,12 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMirroredShare = 0.9;  ///< of the vertices: with fewer a head is no mirror image
-constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< the latter in medians
+/// Least share of mirrored vertices in a symmetric head.
+constexpr double kMirroredShare = 0.9;
+constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier is in medians
 
-/// Landmarks by rows of the skin.
+/// Converts landmarks from rows of the template to rows of the skin; drops landmarks outside the
+/// skin.
 std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
                                   const std::vector<WrapLandmark>& landmarks) {
   std::vector<WrapLandmark> result;
@@ -37,7 +39,7 @@ std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
   return result;
 }
 
-/// How far the landmarks are off after a similarity.
+/// Distances of the landmarks after a similarity.
 std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similarity& pose,
                                            const std::vector<WrapLandmark>& landmarks) {
   std::vector<LandmarkResidual> result;
@@ -49,8 +51,8 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   return result;
 }
 
-/// How far they are off in the end. A misplaced one is held where it belongs by the surface and by the
-/// others, and so ends far from where it was picked.
+/// Adds the final distances and marks outliers. The surface and the other landmarks hold a
+/// misplaced landmark at its true position, so it ends far from its picked position.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;
@@ -84,11 +86,12 @@ void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& resu
   result.without_data.assign(on_rim.begin(), on_rim.end());
 }
 
-/// A large skin, its model and its landmarks, as its reduced skin has them.
+/// The reduced skin's shape, model and landmarks.
 struct Small {
   Positions rest;
   std::optional<ShapeModel> model;
-  std::vector<WrapLandmark> landmarks;  ///< moved along with the vertex that stands for theirs
+  /// Shifted by the offset between the original vertex and the nearest reduced vertex.
+  std::vector<WrapLandmark> landmarks;
 };
 
 Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
@@ -188,8 +191,8 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   BendOptions bend;
   if (used != nullptr) {
     wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks);
-    // Once a model has found the person what is left is smaller, and places lie so near to theirs that
-    // what holds them along the surface would rather keep them off.
+    // After the model fit the remaining differences are small, and correspondences are close to
+    // correct. A tangential weight would then hold points in wrong positions.
     bend = {.stiffness_mm = {10, 5, 2.5},
             .tangential_first = 0,
             .tangential_last = 0.05,

@@ -13,13 +13,13 @@
 
 namespace crowdface {
 
-/// How far a landmark of the template is from that of the scan.
+/// Distance between a landmark of the template and the same landmark of the scan.
 struct LandmarkResidual {
   std::string name;
   double pose_mm = 0;     ///< after the similarity
   double final_mm = 0;    ///< after the wrap
-  bool by_shape = false;  ///< as of the landmark
-  bool outlier = false;   ///< in the end far beyond the others: most likely misplaced
+  bool by_shape = false;  ///< see `WrapLandmark::by_shape`
+  bool outlier = false;   ///< final distance far above the others: probably misplaced
 };
 
 struct WrapResult {
@@ -28,32 +28,34 @@ struct WrapResult {
   std::vector<LandmarkResidual> landmarks;
   double pose_residual_mm = 0;     ///< median distance after the similarity
   Eigen::VectorXd distance_mm;     ///< #skin: from the wrapped skin to the scan
-  std::vector<bool> without_data;  ///< #skin: nothing of the scan is near, or only its rim
-  Index flipped = 0;               ///< triangles of the skin
-  /// How far the template's place between the eyes ends from that of the face which the scan's relief shows, mm; nothing
-  /// if no such face is found on one of them, or enough landmarks were picked.
+  std::vector<bool> without_data;  ///< #skin: no scan data nearby, or only the scan's boundary
+  Index flipped = 0;               ///< number of flipped triangles in the skin
+  /// Distance in mm between the point between the eyes of the wrapped template and that of the face
+  /// found by the scan's relief. Nothing if one of the two faces was not found, or if enough
+  /// landmarks were picked.
   std::optional<double> face_off_mm;
 };
 
-/// The model of whole heads at the rows of the template that are skin; where the template is nearly its own
-/// mirror image, with the heads' mirror images.
+/// Restricts a model of whole heads to the rows of the template's skin. If the template is nearly
+/// symmetric, adds the mirror images of the heads.
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 
-inline constexpr std::size_t kFewestLandmarks = 4;  ///< that tell how a scan stands
+inline constexpr std::size_t kFewestLandmarks = 4;  ///< landmarks needed to determine the pose
 
-/// Bends the template's skin onto the scan; eyes, teeth and lashes follow.
-/// \param model      of the template's skin, in its frame and in millimetres; or nullptr.
-/// \param landmarks  rows of the whole template, places in the scan's frame; those beyond the skin are
-///                   left out.
-/// \throws InvalidInput if there are fewer than kFewestLandmarks and no hint, or nothing of the scan is
-/// where the landmarks say.
+/// Deforms the template's skin onto the scan; eyes, teeth and lashes follow.
+/// \param model  of the template's skin, in its frame and in millimetres; or nullptr.
+/// \param landmarks  vertices of the whole template, positions in the scan's frame; the function
+/// ignores landmarks outside the skin.
+/// \throws InvalidInput if there are fewer than kFewestLandmarks and no hint, or if the scan has no
+/// data near the landmarks.
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
-/// How far each landmark ends from where it was picked when the wrap does not know it, in mm: an estimate of how well
-/// places correspond where none was picked, the error of picking along. One more wrap for each of up to eleven
-/// landmarks, four more for others; nothing where too few would be left.
-/// \param shape, model, scan, landmarks, hint  as wrap takes them
+/// Leave-out validation: the distance in mm of each landmark from its picked position when the wrap
+/// does not use this landmark. The distance estimates the error of correspondence where no landmark
+/// was picked, plus the picking error. Needs one more wrap per landmark for up to eleven landmarks,
+/// and four more wraps for twelve and more; empty if too few landmarks would remain.
+/// \param shape, model, scan, landmarks, hint  as for `wrap`
 std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,
                                                const Scan& scan,
                                                const std::vector<WrapLandmark>& landmarks,

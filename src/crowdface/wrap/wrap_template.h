@@ -11,7 +11,8 @@
 
 namespace crowdface {
 
-/// A template, sorted into skin and parts that follow it; made once for any number of scans.
+/// A template separated into skin and parts that follow the skin; built once for any number of
+/// scans.
 struct WrapTemplate {
   Topology topology;
   Adjacency adjacency;
@@ -21,25 +22,27 @@ struct WrapTemplate {
   Positions positions;  ///< #V by 3, in millimetres
   SkinMesh skin;
   std::optional<ReliefMatch> face;     ///< nothing if the skin does not have the relief of a face
-  std::optional<ReducedSkin> reduced;  ///< what a skin of many vertices is bent by
+  std::optional<ReducedSkin> reduced;  ///< replaces a skin of many vertices during deformation
 };
 
 struct TemplateOptions {
-  /// Skins of more vertices are bent by way of one with about `reduced_vertices`.
+  /// Skins with more than `most_vertices` vertices are deformed through a reduced skin with about
+  /// `reduced_vertices` vertices.
   std::size_t most_vertices = 20000, reduced_vertices = 12000;
 };
 
-/// Finds skin and parts. \param positions  #V by 3, in millimetres.
-/// \param face  where the face is if that is known; otherwise it is looked for
-/// \throws InvalidInput if there is no skin to speak of.
+/// Finds skin and parts.
+/// \param positions  #V by 3, in millimetres.
+/// \param face  the face, if known; otherwise the function searches for it.
+/// \throws InvalidInput if the template has hardly any skin.
 WrapTemplate make_template(const Topology& topology, const Positions& positions,
                            const HeadAxes& axes, const TemplateOptions& options = {},
                            const std::optional<ReliefMatch>& face = {});
 
-/// The template as far as its face is looked for.
+/// The inputs for finding the face on the template.
 HeadShape head_shape(const WrapTemplate& shape);
 
-/// Triangles in the way of a look at the skin: all but lashes and tear lines.
+/// The triangles that occlude the skin: all but lashes and tear lines.
 std::vector<Triangle> solid_triangles(const WrapTemplate& shape);
 
 }  // namespace crowdface
