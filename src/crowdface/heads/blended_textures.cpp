@@ -30,7 +30,7 @@ struct FirstWorn {
   Index face = 0;
 };
 
-/// Lays each polygon out as the first head with a texture there does.
+/// Assigns an image to each polygon: that of the first head with a texture there.
 std::vector<FirstWorn> lay_out(const HeadsTextures& found, TextureLayout& layout) {
   layout.tile = found.tile;
   layout.of_face.assign(found.tile.size(), kNoIndex);
@@ -220,7 +220,7 @@ std::shared_ptr<const TextureMap> compose(
 }
 
 /// Sets the size of each image in the layout.
-/// \param sizes  of all files
+/// \param sizes  size of each file
 /// \param rows   #heads by #pictures, see rows_in_pictures
 void choose_sizes(const HeadsTextures& found, const std::map<fs::path, ImageSize>& sizes,
                   const std::vector<std::vector<std::vector<std::uint32_t>>>& rows,

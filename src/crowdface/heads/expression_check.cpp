@@ -24,7 +24,7 @@ constexpr double kShare = 0.9;  ///< the compared deviation is this quantile ove
 /// A box around a facial feature. Unit: distance from mouth to eyes.
 struct Box {
   const char* name;
-  double height;      ///< of the centre, above the mouth
+  double height;      ///< height of the centre above the mouth
   double up, across;  ///< half extents
 };
 constexpr Box kBoxes[] = {{"mouth", 0, 0.4, 0.5}, {"eyes", 1, 0.25, 0.75}};

@@ -16,7 +16,7 @@ namespace crowdface {
 /// An attachment placed on a face.
 struct WornAttachment {
   const Attachment* item;
-  Positions positions;  ///< of the attachment's vertices
+  Positions positions;  ///< the attachment's vertices on the face
   /// one per face shape: displacements of the attachment's vertices
   std::vector<Displacements> moves = {};
 };
@@ -31,7 +31,7 @@ class FaceAttachments {
   FaceAttachments(const Config& config, const Inputs& inputs, std::span<const CastFace> faces);
 
   /// The attachments of a face, in the order of its recipe. The result refers to the inputs.
-  /// \param positions  of the face, #V by 3
+  /// \param positions  the face's vertices, #V by 3
   /// \param moves      displacements of the face, one per shape of the inputs; empty: the face at
   ///                   rest
   std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions,

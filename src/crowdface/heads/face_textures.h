@@ -22,7 +22,7 @@ class FaceTextures {
   /// \param inputs  must outlive this object.
   FaceTextures(const Config& config, const Inputs& inputs);
   bool any() const { return !pictures_.empty(); }
-  /// Size of own_pictures.
+  /// Number of images in own_pictures.
   std::size_t picture_count() const { return pictures_.size(); }
   /// Blends one image of a face, so that callers need not hold several. Thread-safe.
   /// \param picture  index into own_pictures

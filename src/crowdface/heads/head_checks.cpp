@@ -106,7 +106,7 @@ void check_stance(const Config& config, const Inputs& inputs) {
         " say: set up: ", name_of(found->up), " and front: ", name_of(found->front),
         " (faces.align: none takes them as they are)"));
   }
-  // of humans: from a child's 45 mm to about 85 mm, with a margin
+  // eyes to mouth: 45 mm (child) to about 85 mm, with a margin
   constexpr double kLeastMm = 35, kMostMm = 120;
   const double mm = marks->face() * mm_per(config.faces.units);
   if (mm >= kLeastMm && mm <= kMostMm) return;
@@ -128,9 +128,8 @@ void check_stance(const Config& config, const Inputs& inputs) {
 
 std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
-  constexpr double kMostMm = 1,
-                   // of the median distance between a head and its nearest head
-      kMostOfOthers = 0.4;
+  // kMostOfOthers: fraction of the median distance between a head and its nearest head.
+  constexpr double kMostMm = 1, kMostOfOthers = 0.4;
   const std::vector<Head>& heads = inputs.faces.heads;
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;

@@ -34,7 +34,7 @@ struct HeadTextures {
   std::vector<TextureCoat> coats;  ///< #heads, for renders; empty if surfaces have plain colours
   /// hash of the files read, and of the texture that each polygon of each head uses
   Digest digest;
-  std::vector<std::string> warnings;  ///< about missing files
+  std::vector<std::string> warnings;  ///< messages about missing files
 
   bool blend() const { return !names.empty(); }
   bool any() const { return blend() || !coats.empty(); }
@@ -73,7 +73,7 @@ class OwnCoat {
     std::size_t number = 0;  ///< index among the images of its kind
   };
   TextureCoat coat_;
-  std::vector<Place> places_;  ///< of all images
+  std::vector<Place> places_;  ///< one per image, see `add`
   int most_px_;
 };
 

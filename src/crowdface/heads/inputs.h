@@ -73,7 +73,7 @@ struct Inputs {
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has any.
   std::vector<ColourRows> colours;
   Digest colours_digest;
-  FaceMaterials materials;  ///< of the first head's polygons
+  FaceMaterials materials;  ///< the first head's, per polygon
   Adjacency adjacency;
   Components components;
   PartList parts;   ///< empty for `parts: none`

@@ -28,8 +28,8 @@ struct Prepared {
   std::vector<Trajectory> trajectories;     ///< #heads, of `traced`
   std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
   std::shared_ptr<const LevelNodes> nodes;  ///< the nodes that `mixing` refers to
-  KeptPatches patches;                      ///< of all heads' fields, unless `levels: exact`
-  std::optional<ChebyshevFilter> filter;    ///< for `levels: exact`
+  KeptPatches patches;                      ///< all heads' fields; empty with `levels: exact`
+  std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`
   std::size_t from_cache = 0;               ///< number of heads found in the cache
 };
 

@@ -72,7 +72,7 @@ class FaceBuilder {
   mutable std::shared_ptr<const MirrorMap> mirror_;
   /// The masks, zero at vertices of parts that get other positions anyway.
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;             ///< for fitted levels
+  std::optional<CrowdBlender> blender_;             ///< unless `levels: exact`
   std::optional<SkinContacts> contacts_;            ///< always set after construction
   std::vector<std::vector<double>> contact_masks_;  ///< #contacts by #regions; rows sum to one
   bool keeps_contacts_;

@@ -36,11 +36,11 @@ struct FaceMesh {
   std::span<const Displacements> moves = {};  ///< one per shape, or none
   std::span<const WornAttachment> worn = {};  ///< attachments
   const ColourRows* colours = &kNoColours;    ///< #V vertex colours; no rows if there are none
-  const Positions* points = &kNoRows;         ///< that follow the face; no rows at levels of detail
-  const Positions* joints = &kNoRows;         ///< positions of the rig's joints
+  const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
+  const Positions* joints = &kNoRows;  ///< positions of the rig's joints
   std::span<const std::string_view> images = {};  ///< files of the face's own textures, or none …
   std::span<const std::string> image_names = {};  ///< … and their paths relative to the mesh
-  std::string material_file = {};                 ///< the face's own; empty: the target's
+  std::string material_file = {};  ///< the face's own material file; empty: the target's
 };
 
 /// The data from which encoders are made. It must outlive the encoders and everything that they

@@ -36,7 +36,7 @@ std::string_view name_of(Engine engine);
 /// Options that only some engines use.
 struct EngineOptions {
   std::string partition, time;       ///< Slurm; empty: the site's default
-  std::uint64_t grace_seconds = 60;  ///< from the signal to the time limit
+  std::uint64_t grace_seconds = 60;  ///< time between the termination signal and the time limit
   std::vector<std::string> hosts;    ///< GNU parallel: ssh hosts; empty: this machine
   std::vector<std::string> more;     ///< further arguments for the engine, passed unchanged
 };
