@@ -73,7 +73,7 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
   }
 }
 
-/// Of textures beside the file only the names are told, in place of their bytes.
+/// For external textures, stores only the file names in `beside`, not the bytes.
 void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::string>& beside) {
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
     const aiMaterial& material = *scene.mMaterials[m];
@@ -82,7 +82,8 @@ void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::str
       aiString name;
       if (material.GetTexture(type, 0, &name) != aiReturn_SUCCESS) continue;
       const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
-      const bool is_inside = texture != nullptr && texture->mHeight == 0;  // an image file
+      // a compressed image file
+      const bool is_inside = texture != nullptr && texture->mHeight == 0;
       beside.emplace_back(is_inside ? "" : name.C_Str());
       mesh.textures.push_back(
           {material.GetName().C_Str(), kind,

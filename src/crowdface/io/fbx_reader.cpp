@@ -14,7 +14,8 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
   static auto* const read = reinterpret_cast<ReadFbx*>(
       function_of_own_library("libcrowdface_meshes.so", "crowdface_read_fbx",
                               "FBX files need (Assimp)", "FBX files cannot be read"));
-  // Assimp 5.2 writes beyond its memory where text of a picture ends in more signs than base64 has.
+  // Assimp 5.2 writes out of bounds if the base64 text of an image ends in more padding characters
+  // than base64 allows.
   if (!bytes.starts_with("Kaydara FBX") && bytes.find("===") != bytes.npos) {
     throw InvalidInput(concat(path.string(),
                               ": expected sound pictures in the FBX file, found text that is no "

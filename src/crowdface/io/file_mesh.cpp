@@ -8,11 +8,11 @@
 namespace crowdface {
 namespace {
 
-/// The places of vertices that a format split become those of one vertex.
+/// Merges the copies of each split vertex.
 void join_vertices(FileMesh& mesh) {
   const auto count = static_cast<std::size_t>(mesh.positions.rows());
   const bool has_ids = !mesh.vertex_ids.empty();
-  std::vector<std::uint32_t> joined(count);  // of each vertex, the one that it becomes
+  std::vector<std::uint32_t> joined(count);  // index of the merged vertex for each vertex
   std::map<std::array<double, 4>, std::uint32_t> of_place;
   std::uint32_t next = 0;
   for (std::size_t v = 0; v < count; ++v) {
@@ -37,7 +37,7 @@ void join_vertices(FileMesh& mesh) {
   mesh.topology.vertex_count = next;
 }
 
-/// Texture coordinates that corners of one vertex share become one row: what differs is a seam.
+/// Merges equal texture coordinates at corners of the same vertex; unequal ones form a seam.
 void join_uvs(FileMesh& mesh) {
   Topology& topology = mesh.topology;
   std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> rows;

@@ -13,11 +13,11 @@ namespace {
 using namespace std::string_view_literals;
 
 struct Known {
-  std::string_view begin;  ///< of the file, in lower case
+  std::string_view begin;  ///< start of the file, in lower case
   std::string_view what;
 };
 
-/// Told by the first bytes as they are.
+/// Formats recognised by their exact first bytes.
 constexpr std::array kBinary = {
     Known{"PK\x03\x04"sv,
           "a ZIP archive, as usdz files are: unpack it and name the mesh in it, or export GLB"},
@@ -38,7 +38,8 @@ constexpr std::array kBinary = {
     Known{"\xff\xd8\xff"sv, "a picture"},
     Known{"%PDF"sv, "a PDF document"}};
 
-/// Told by how the text begins, in any case, after blanks and a byte-order mark.
+/// Formats recognised by the start of the text, ignoring case, leading whitespace and a byte-order
+/// mark.
 constexpr std::array kText = {
     Known{"<!doctype"sv,
           "a web page, which a browser saved instead of the file: download the raw file"},

@@ -16,14 +16,14 @@ using namespace gltf;
 
 namespace {
 
-/// Turns `up` to +Y and `front` to +Z: x, y, z and w of a unit quaternion.
+/// The unit quaternion (x, y, z, w) that rotates `up` to +Y and `front` to +Z.
 std::array<double, 4> rotation_to_gltf(Axis up, Axis front) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
   turn(1, up.index) = up.sign;
   turn(2, front.index) = front.sign;
   turn.row(0) = turn.row(1).cross(turn.row(2));
   const Eigen::Quaterniond q(turn);
-  return {q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w() + 0.0};  // no negative zero
+  return {q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w() + 0.0};  // avoids negative zero
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ std::string texture_coordinates(const SplitVertices& split, const TextureCoordin
   for (const std::uint32_t uv : split.uvs) {
     const bool has_one = uv != kNoIndex;
     append_number(bytes, has_one ? to_single(uvs(uv, 0)) : 0.0F);
-    append_number(bytes, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v goes down
+    append_number(bytes, has_one ? to_single(1 - uvs(uv, 1)) : 0.0F);  // glTF's v points down
   }
   return bytes;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The container is 28 bytes around a JSON text and a buffer, and written here, so that faces share
-// all but two arrays; through tinygltf each face would copy its whole buffer several times (see
-// tests/benchmarks/io_bench.cpp).
+// The container is 28 bytes around a JSON text and a buffer. This file writes the container itself,
+// so that faces share all but two arrays; with tinygltf each face would copy its whole buffer
+// several times (see tests/benchmarks/io_bench.cpp).
 #include "crowdface/io/glb_template.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 using namespace gltf;
 using namespace glb;
 
-/// The triangles of one material, in the faces' order.
+/// The triangles of one material, in the order of the faces.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions& options) {
@@ -45,7 +45,7 @@ std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions&
 std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32_t>& ids) {
   std::string bytes;
   bytes.reserve(split.vertices.size() * sizeof(float));
-  // The specification forbids unsigned int here, and 16 bits are too few.
+  // glTF forbids unsigned int for this attribute, and 16 bits are too few.
   for (const std::uint32_t vertex : split.vertices) {
     append_number(bytes, static_cast<float>(ids.empty() ? vertex : ids[vertex]));
   }
@@ -84,8 +84,8 @@ Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, 
   return attributes;
 }
 
-/// One primitive a material; materials without triangles are left out.
-/// \param overlay  the accessor of the places on it, if there is one
+/// Adds one primitive per material; leaves out materials without triangles.
+/// \param overlay  accessor of the overlay coordinates, if there is one
 void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>& groups,
                     const Json& attributes, std::optional<std::size_t> overlay,
                     const GlbOptions& options) {
@@ -111,8 +111,8 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
   if (!materials.empty()) scene["materials"] = std::move(materials);
 }
 
-/// Images come last in the buffer; how long they are, and where they lie, is filled in for each file.
-/// \param overlay  the view that holds it, if there is one
+/// Adds images, which come last in the buffer. Their sizes and offsets are set for each file.
+/// \param overlay  buffer view of the overlay image, if there is one
 void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOptions& options) {
   for (const std::string& type : options.image_types) {
     add_image(scene, scene["bufferViews"].size(), type);
@@ -121,7 +121,9 @@ void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOption
   if (overlay) add_image(scene, *overlay, "image/png");
 }
 
-/// \param size  of the buffer without them. \return its size with them.
+/// Sets the sizes and offsets of the images.
+/// \param size  buffer size without the images.
+/// \return buffer size with the images.
 std::size_t place_images(Json& scene, std::size_t size, std::span<const std::string_view> images) {
   Json& views = scene["bufferViews"];
   for (std::size_t i = 0; i < images.size(); ++i) {
@@ -135,7 +137,8 @@ std::size_t place_images(Json& scene, std::size_t size, std::span<const std::str
   return size;
 }
 
-/// One row a split vertex: first all rows, then those of the further split vertices again.
+/// Writes one vector per split vertex: first all rows, then the rows of the additional split
+/// vertices.
 void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
   const auto further = static_cast<Index>(split.size());
   parallel_blocks(rows.rows() + further, kRowsPerBlock, [&](Index begin, Index end) {
@@ -339,7 +342,7 @@ Positions read_glb_positions(const std::filesystem::path& path, Index vertices) 
   need(chunks.has_value());
   const Json scene = Json::parse(chunks->json, nullptr, false);
   const Json generator = scene.value(Json::json_pointer("/asset/generator"), Json());
-  // Positions come first in the buffer.
+  // The positions are first in the buffer.
   need(generator == "crowdface" &&
        static_cast<std::size_t>(vertices) <= chunks->binary.size() / kVectorSize);
   return read_singles(chunks->binary.data(), vertices, kVectorSize, path.string());

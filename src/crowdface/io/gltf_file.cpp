@@ -18,8 +18,9 @@ namespace {
 using namespace gltf;
 using GltfJson = GltfFile::Json;
 
-constexpr double kFarthestNode = 1e6;  ///< of what a matrix holds: a thousand kilometres
-constexpr std::size_t kOften = 4;      ///< numbers that may be read of a byte
+/// Largest absolute value in a matrix: a thousand kilometres.
+constexpr double kFarthestNode = 1e6;
+constexpr std::size_t kOften = 4;  ///< how many numbers may be read per byte
 
 std::size_t size_of_type(int type) {
   if (type == kUnsignedByte || type == kByte) return 1;
@@ -27,7 +28,7 @@ std::size_t size_of_type(int type) {
   return 4;
 }
 
-/// What an integer is divided by that stands for a number up to 1.
+/// The divisor of normalized integers of a type.
 double full_of_type(int type) {
   if (type == kUnsignedByte) return 255;
   if (type == kByte) return 127;
@@ -54,7 +55,7 @@ std::string decoded_base64(std::string_view text) {
   return out;
 }
 
-/// %20 and the like.
+/// Decodes percent escapes such as %20.
 std::string decoded_uri(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -196,7 +197,8 @@ std::string_view GltfFile::view(std::size_t number) {
   return part(json);
 }
 
-/// A mesh may stand at many nodes, and many names may stand for the same numbers.
+/// Limits the total number of values read. A mesh may be used by many nodes, and several accessors
+/// may share the same data.
 void GltfFile::require_room(std::size_t more) {
   if (more > room_) {
     fail("its meshes and skins have more numbers than its buffers have bytes, several times over");
@@ -254,7 +256,8 @@ std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
                          json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
   } else {
     if (json.contains("sparse")) {
-      view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());  // makes room
+      // enlarges the limit
+      view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());
     }
     if (count > room_ / width) require_room(room_ + 1);
     require_room(count * width);
@@ -310,7 +313,7 @@ std::vector<std::uint32_t> GltfFile::parents() const {
   return parents;
 }
 
-/// From the roots down, each node once.
+/// Processes nodes from the roots down, each once.
 std::vector<Eigen::Matrix4d> GltfFile::worlds(const std::vector<std::uint32_t>& parents) const {
   const Json& nodes = scene_.at("nodes");
   std::vector<Eigen::Matrix4d> worlds(parents.size());

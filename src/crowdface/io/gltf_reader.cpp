@@ -22,20 +22,20 @@ using GltfJson = GltfFile::Json;
 
 constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
 
-/// The rows that a primitive's triangles name, and the triangles, corner by corner.
+/// The vertex attributes that a primitive uses, and the corners of its triangles.
 struct Primitive {
   std::vector<double> places, uvs, colours;
   std::size_t colour_width = 3;
   std::vector<std::uint32_t> ids, corners;
 };
 
-/// How a texture lies on its coordinates (KHR_texture_transform).
+/// The transform of texture coordinates (KHR_texture_transform).
 struct UvTransform {
   std::size_t set = 0;
   double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
 };
 
-/// The vertices of an accessor among all.
+/// The range of an accessor's vertices among all vertices.
 struct Rows {
   std::uint32_t first = 0, count = 0;
 };
@@ -52,7 +52,7 @@ class GltfMeshReader {
     std::vector<bool> shown = nodes_of_scene(parents);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       if (!shown[n] || !nodes[n].contains("mesh")) continue;
-      // Where a mesh is bound to joints its node's place counts for nothing (glTF 2.0, section 3.7.3).
+      // The transform of a skinned mesh's node has no effect (glTF 2.0, section 3.7.3).
       const bool bound = nodes[n].contains("skin");
       add_mesh(nodes[n], bound ? Eigen::Matrix4d::Identity() : worlds[n]);
     }
@@ -126,7 +126,7 @@ class GltfMeshReader {
     ++piece_;
   }
 
-  /// \param known  the vertices of each accessor that another primitive of the node has named
+  /// \param known  the vertex ranges of accessors used by earlier primitives of the node
   void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& place,
                      const std::string& material, std::map<std::size_t, Rows>& known) {
     const GltfJson& attributes = json.at("attributes");
@@ -217,7 +217,7 @@ class GltfMeshReader {
       if (has_uvs) {
         const double u = part.uvs[2 * i] * uv.scale_x, v = part.uvs[2 * i + 1] * uv.scale_y;
         uvs_.push_back(cos * u + sin * v + uv.x);
-        uvs_.push_back(1 - (-sin * u + cos * v + uv.y));  // v upwards, as in OBJ
+        uvs_.push_back(1 - (-sin * u + cos * v + uv.y));  // converts to v upwards, as in OBJ
       }
       for (std::size_t c = 0; c < 3; ++c) {
         colours_.push_back(has_colours ? srgb_of_linear(part.colours[part.colour_width * i + c])
@@ -282,7 +282,7 @@ class GltfMeshReader {
     }
   }
 
-  /// \param from  what may name a texture as `key`
+  /// \param from  JSON object that may contain a texture reference under `key`
   void add_texture(const GltfJson& from, const char* key, const std::string& material,
                    TextureKind kind) {
     if (!from.contains(key)) return;
@@ -309,7 +309,7 @@ class GltfMeshReader {
   GltfFile file_;
   FileMesh mesh_;
   std::vector<double> points_, uvs_, colours_;
-  std::vector<std::uint32_t> uv_rows_;  ///< of vertices
+  std::vector<std::uint32_t> uv_rows_;  ///< texture coordinate of each vertex
   std::uint32_t piece_ = 0;
   bool any_colours_ = false, has_ids_ = true;
 };

@@ -18,7 +18,7 @@ namespace {
 
 using Json = GltfFile::Json;
 
-constexpr std::size_t kLongestJointName = 1000;  ///< of a joint, bytes
+constexpr std::size_t kLongestJointName = 1000;  ///< bytes
 
 class RigReader {
  public:
@@ -47,7 +47,7 @@ class RigReader {
       const Json& mesh = file_.scene().at("meshes").at(nodes[n].at("mesh").get<std::size_t>());
       std::optional<std::size_t> skin;
       if (nodes[n].contains("skin")) skin = nodes[n].at("skin").get<std::size_t>();
-      // Primitives may share their vertices.
+      // Primitives may share vertices; read each accessor once.
       std::map<std::size_t, bool> read;
       for (const Json& primitive : mesh.at("primitives")) {
         const auto positions = primitive.at("attributes").at("POSITION").get<std::size_t>();
@@ -98,10 +98,11 @@ class RigReader {
     }
   }
 
-  /// What the numbers in JOINTS_n mean.
+  /// The joints that the indices in JOINTS_n refer to.
   struct Skin {
     std::vector<std::uint32_t> joints;
-    std::vector<Eigen::Matrix4d> at_rest;  ///< #joints, from a mesh's own axes
+    /// #joints: transforms from the mesh's axes in the rest pose
+    std::vector<Eigen::Matrix4d> at_rest;
   };
   const Skin& skin_of(std::size_t number) {
     const auto [known, is_new] = skins_.try_emplace(number);
@@ -167,7 +168,7 @@ class RigReader {
 
   GltfFile file_;
   std::vector<std::uint32_t> parents_;   ///< #nodes
-  std::vector<Eigen::Matrix4d> worlds_;  ///< #nodes, each at rest
+  std::vector<Eigen::Matrix4d> worlds_;  ///< #nodes: rest pose
   std::vector<std::uint32_t> joint_of_;  ///< #nodes
   std::map<std::size_t, Skin> skins_;
   std::vector<Eigen::Vector3d> points_;

@@ -21,7 +21,8 @@ namespace {
 
 using std::filesystem::path;
 
-/// \return the format's name in OpenImageIO; files that no decoder should see are refused.
+/// Rejects files that are unsafe to decode.
+/// \return the format's name in OpenImageIO.
 std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
   std::string format = image_format(bytes);
   if (limits.jpeg && bytes.starts_with("\xFF\xD8\xFF")) format = "jpeg";
@@ -42,7 +43,7 @@ const ImageCodec& codec_of(std::string_view format) {
   return format == "png" ? png_codec() : image_codec();
 }
 
-/// A picture that is open, and what its header says.
+/// An open image and its header.
 struct OpenPicture {
   const ImageCodec& codec;
   PictureFacts facts;
@@ -75,16 +76,18 @@ void check_size(const path& file, const PictureFacts& spec, const ImageLimits& l
   }
 }
 
-/// Of a PNG that libpng has opened, whose header is sound; before its palette is resolved.
+/// Bits per pixel before a palette is resolved. Expects a valid PNG header that libpng has
+/// accepted.
 std::uint64_t png_bits_per_pixel(std::string_view bytes) {
-  constexpr std::uint64_t kSamples[8] = {1, 0, 3, 1, 2, 0, 4, 0};  // of each colour type
+  // samples per pixel for each PNG colour type
+  constexpr std::uint64_t kSamples[8] = {1, 0, 3, 1, 2, 0, 4, 0};
   const auto depth = static_cast<unsigned char>(bytes[24]);
   return depth * kSamples[static_cast<unsigned char>(bytes[25]) & 7U];
 }
 
-/// Memory is taken for all pixels before the first is decoded, so a header may not claim more than
-/// the file can hold. TIFFs are looked at before they are opened (tiff_defect); OpenEXR and JPEG have
-/// no such bound, only that of all images' memory.
+/// Rejects PNG headers that claim more pixels than the file can contain, because memory for all
+/// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`);
+/// OpenEXR and JPEG have no such bound, only the memory limit for all images.
 void check_png_claim(const path& file, std::string_view bytes, const PictureFacts& spec) {
   constexpr std::uint64_t kMostOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
   const std::uint64_t bits = png_bits_per_pixel(bytes);
@@ -99,7 +102,8 @@ void check_png_claim(const path& file, std::string_view bytes, const PictureFact
 
 void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {
   if (spec.deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
-  // Only OpenEXR has a window to lie in; the offsets of others say where the picture was cut from.
+  // Only OpenEXR has display windows; offsets in other formats record where the image was cropped
+  // from.
   const bool has_windows = format == "openexr";
   if (!has_windows && (spec.width != spec.full_width || spec.height != spec.full_height)) {
     refuse_file(file, concat("expected all of the picture, found ", spec.width, " x ", spec.height,
@@ -128,7 +132,7 @@ void* make_room(const path& file, const PictureFacts& facts, Image& image) {
   refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
 }
 
-/// Bytes that the pixels take, those of integers in their own type.
+/// Bytes of the decoded pixels; integers keep their own type.
 std::uint64_t pixel_bytes(const PictureFacts& facts) {
   const bool bytes = facts.values == PictureFacts::Values::kBytes;
   const bool words = facts.values == PictureFacts::Values::kWords;
@@ -136,9 +140,9 @@ std::uint64_t pixel_bytes(const PictureFacts& facts) {
 }
 
 std::mutex taking;
-std::uint64_t taken = 0;  ///< bytes, by all images
+std::uint64_t taken = 0;  ///< bytes reserved for all images
 
-/// \pre  the mutex is held.
+/// \pre  the caller holds the mutex.
 std::uint64_t free_of(std::uint64_t most) {
   return most - std::min(taken, most);
 }
@@ -157,7 +161,7 @@ void check_finite(const path& file, const Image& image) {
   }
 }
 
-/// \param values  how many there are.
+/// \param values  number of values in the image.
 std::string encode(const std::string& format, const PictureToEncode& picture, std::size_t values) {
   const auto [form, width, height, channels, pixels] = picture;
   require(width > 0 && height > 0 &&
@@ -166,13 +170,13 @@ std::string encode(const std::string& format, const PictureToEncode& picture, st
           "an image of ", width, " x ", height, " pixels and ", channels, " channels from ", values,
           " values");
   std::string bytes, error;
-  if (!codec_of(format).encode(picture, bytes, error)) {  // of pixels of ours
+  if (!codec_of(format).encode(picture, bytes, error)) {  // pixels of this program
     throw IoError(concat(format, ": cannot be encoded (is there too little memory?): ", error));
   }
   return bytes;
 }
 
-/// Opens a file and refuses what should not be decoded.
+/// Opens a file and rejects what must not be decoded.
 OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   const ImageCodec& codec = codec_of(format);
@@ -186,13 +190,14 @@ OpenPicture open_checked(const path& file, const MappedFile& mapped, const Image
   return opened;
 }
 
-/// The display window of a picture whose data window is another: zero where it has no pixels.
+/// Copies the pixels from the data window to the display window; pixels outside the data window are
+/// zero.
 template <class T>
 std::vector<T> in_display_window(const std::vector<T>& pixels, const PictureFacts& facts) {
   const auto channels = static_cast<std::size_t>(facts.channels);
   const auto width = static_cast<std::size_t>(facts.full_width);
   std::vector<T> out(width * static_cast<std::size_t>(facts.full_height) * channels, T{});
-  using Place = std::int64_t;  // windows may lie anywhere
+  using Place = std::int64_t;  // windows may have any offset
   const Place left = std::max(facts.x, facts.full_x);
   const Place right =
       std::min(Place{facts.x} + facts.width, Place{facts.full_x} + facts.full_width);
@@ -273,7 +278,7 @@ Image read_image(const path& file, const ImageLimits& limits) {
   try {
     return decode(file, mapped, limits);
   } catch (const InvalidInput&) {
-    // Decoders tell a lack of memory as damage; what is damaged is so every time.
+    // Decoders report a lack of memory as damage. Decode again: damaged data fails again.
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {

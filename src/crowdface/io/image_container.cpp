@@ -15,7 +15,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// Whether the chunks of a PNG run unbroken to its end mark: libpng is content without the last.
+/// Whether the chunks of a PNG are contiguous up to the IEND chunk. libpng accepts files without
+/// it.
 bool png_is_whole(std::string_view bytes) {
   std::size_t at = 8;
   while (at + 12 <= bytes.size()) {
@@ -26,8 +27,8 @@ bool png_is_whole(std::string_view bytes) {
   return false;
 }
 
-/// Whether a JPEG's pixels run to its end mark: the decoder makes up what is missing. Before them come
-/// segments, each a mark of two bytes and its length; among them is no other mark of an end.
+/// Whether the data of a JPEG reaches the end marker; the decoder invents missing data. The scan
+/// data follows segments, each a two-byte marker and a length, which contain no end marker.
 bool jpeg_is_whole(std::string_view bytes) {
   constexpr char kStartOfScan = '\xDA';
   std::size_t at = 2;
@@ -38,23 +39,24 @@ bool jpeg_is_whole(std::string_view bytes) {
   return false;
 }
 
-/// One attribute of an OpenEXR header.
+/// An attribute of an OpenEXR header.
 struct Attribute {
   std::string_view name, type, value;
 };
 
-/// The attributes of the headers of an OpenEXR file, one after the other. Each is a name and a type,
-/// both ended by a zero, the size of its value as 32 bits, and the value; an empty name ends a
-/// header.
+/// Iterates over the attributes in the headers of an OpenEXR file. An attribute is a
+/// zero-terminated name, a zero-terminated type, the 32-bit size of the value, and the value. An
+/// empty name ends a header.
 class ExrHeader {
  public:
+  // skips magic number and version
   explicit ExrHeader(std::string_view bytes)
-      : bytes_(bytes), at_(std::min<std::size_t>(8, bytes.size())) {}  // magic number and version
+      : bytes_(bytes), at_(std::min<std::size_t>(8, bytes.size())) {}
 
   bool at_end() const { return at_ < bytes_.size() && bytes_[at_] == '\0'; }
   void skip_end() { ++at_; }
 
-  /// \return nothing if it is not whole.
+  /// \return nothing if the attribute is truncated.
   std::optional<Attribute> next() {
     Attribute attribute;
     attribute.name = text();
@@ -80,7 +82,7 @@ class ExrHeader {
   std::size_t at_;
 };
 
-/// Bytes of the types whose size is fixed.
+/// Sizes in bytes of the types with fixed size.
 constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
     {"box2f", 16},      {"box2i", 16},    {"chromaticities", 32},
     {"compression", 1}, {"double", 8},    {"envmap", 1},
@@ -91,7 +93,7 @@ constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
     {"keycode", 28},    {"lineOrder", 1}, {"timecode", 8},
     {"rational", 8},    {"tiledesc", 9},  {"deepImageState", 1}};
 
-/// Channels one after the other, each a name ended by a zero and 16 bytes; an empty name ends them.
+/// A channel list: zero-terminated names, each followed by 16 bytes; an empty name ends the list.
 bool is_channel_list(std::string_view value) {
   constexpr std::size_t kOfChannel = 16;
   while (!value.empty() && value.front() != '\0') {
@@ -102,7 +104,7 @@ bool is_channel_list(std::string_view value) {
   return value.size() == 1;
 }
 
-/// Width and height, and four bytes a pixel.
+/// A preview: width, height, and four bytes per pixel.
 bool is_preview(std::string_view value) {
   if (value.size() < 8) return false;
   const std::uint64_t width = number_at<std::uint32_t>(value.data());
@@ -112,7 +114,7 @@ bool is_preview(std::string_view value) {
          width * height == pixels;
 }
 
-/// Texts one after the other, each after its length.
+/// A list of strings, each preceded by its length.
 bool is_list_of_texts(std::string_view value) {
   while (value.size() >= 4) {
     const auto length = number_at<std::uint32_t>(value.data());
@@ -123,8 +125,8 @@ bool is_list_of_texts(std::string_view value) {
   return value.empty();
 }
 
-/// Whether a value has the size that its attribute says. The decoder goes by one or the other, as
-/// its type has it, and would read what follows from another place than we do.
+/// Whether the size of a value agrees with its type. Depending on the type, the decoder uses either
+/// size, and would continue at another position than this parser.
 bool has_its_size(const Attribute& attribute) {
   for (const auto& [type, size] : kFixedTypes) {
     if (attribute.type == type) return attribute.value.size() == size;
@@ -136,7 +138,8 @@ bool has_its_size(const Attribute& attribute) {
   return true;
 }
 
-/// The decoder makes a table of all lines of the window, and lines of its width.
+/// The decoder allocates a table with an entry for each row of the window, and buffers as wide as
+/// the window.
 std::string window_defect(const Attribute& attribute, int max_side) {
   if (attribute.type != "box2i" || attribute.value.size() != 16) return {};
   const auto side = [&](std::size_t axis) {

@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// Empty if the bytes are no text of that encoding.
+/// Converts to UTF-8; empty if the bytes are not valid in that encoding.
 std::string converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = ::iconv_open("UTF-8", encoding);
   // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open says -1 for failure

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 constexpr const char* kBlanks = " \t\r";
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
-/// What stands from each word of a text to its end, the longest first: a name may hold blanks, and
-/// options come before it. Of more words than any line has, the last ones.
+/// All suffixes of a text that begin at a word, longest first: a file name may contain spaces, and
+/// follows the options. Limited to the last 32 words.
 std::vector<std::string_view> tails_of(std::string_view text) {
   constexpr std::size_t kMostTails = 32;
   std::vector<std::string_view> tails;
@@ -39,7 +39,8 @@ std::vector<std::string_view> tails_of(std::string_view text) {
   return tails;
 }
 
-/// Stays below the folder it starts from. (The system would cut a name short at a NUL.)
+/// Whether a path stays below its starting folder. (A NUL is rejected because the operating system
+/// would truncate the name there.)
 bool stays_inside(const fs::path& relative) {
   if (relative.native().find('\0') != std::string::npos) return false;
   const fs::path normal = relative.lexically_normal();
@@ -52,8 +53,8 @@ std::string with_forward_slashes(std::string_view text) {
   return path;
 }
 
-/// Whether a file of this name beside meshes could be one that crowdface writes there: a mesh, or an
-/// array of their common topology.
+/// Whether a file with this name beside meshes could be one of crowdface's own files: a mesh, or an
+/// array of the common topology.
 bool is_name_of_ours(const fs::path& relative) {
   const fs::path normal = relative.lexically_normal();
   const bool is_mesh = std::ranges::any_of(
@@ -62,22 +63,23 @@ bool is_name_of_ours(const fs::path& relative) {
   return is_mesh || folder == "topology" || folder == kBlendedFolder;
 }
 
-/// Why a file of this name is not copied; empty if it is.
+/// The reason why a file with this name is not copied; empty if it is copied.
 std::string_view objection_to(const fs::path& relative) {
   if (!stays_inside(relative)) return "lies outside the head's folder";
   if (is_name_of_ours(relative)) return "has a name that belongs to crowdface's own files";
-  if (!is_utf8(relative.native())) return "has a name that is not UTF-8";  // for ledger and report
+  // because ledger and report are UTF-8
+  if (!is_utf8(relative.native())) return "has a name that is not UTF-8";
   return {};
 }
 
-/// Reads material files and notes what they name.
+/// Reads material files and collects the files that they name.
 class Collector {
  public:
   explicit Collector(const fs::path& mesh) : mesh_(mesh), folder_(mesh.parent_path()) {}
 
   void add_library(const std::string& argument) {
     throw_if_interrupted();
-    // A name may hold blanks, or the line may name several files: whichever exists.
+    // The argument may be one name with spaces, or a list of names; use whichever exists.
     if (exists(argument)) return take_library(argument);
     for (const std::string& name : words_of(argument)) take_library(name);
   }
@@ -90,7 +92,7 @@ class Collector {
     return std::move(files_);
   }
   std::map<TextureKind, std::map<std::string, fs::path>> take_textures() {
-    // Faces without a material can have but the only one there is.
+    // With a single material, faces without a material use it.
     for (auto& [kind, of_material] : of_kind_) {
       if (materials_.size() == 1 && of_material.size() == 1) {
         of_material.emplace("", of_material.begin()->second);
@@ -100,14 +102,14 @@ class Collector {
   }
 
  private:
-  /// Names of one kind, those beyond a limit left out.
+  /// Names of one kind, up to a limit.
   struct Names {
     std::set<fs::path> known;
     bool full = false;
   };
   enum class Seen { kNew, kBefore, kTooMany };
 
-  /// \param where  the file that names it
+  /// \param where  the file that contains the name
   Seen see(const fs::path& relative, std::string_view what, const fs::path& where, Names& names) {
     if (names.known.contains(relative)) return Seen::kBefore;
     if (names.known.size() < input_limits().textures) {
@@ -184,8 +186,8 @@ class Collector {
     }
   }
 
-  /// The longest name at the end of a statement that a file has, or a first tile. If none has: all of
-  /// it, or after options its last word.
+  /// The longest suffix of the statement that names an existing file or the first tile of one. If
+  /// there is none: the whole text or, after options, the last word.
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;
@@ -199,7 +201,8 @@ class Collector {
       if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
-    // A path of another machine, or in the encoding of another system: what lies beside the head under that name.
+    // The path may come from another machine, or have the encoding of another system: look for the
+    // file name beside the head.
     for (const std::string_view tail : tails) {
       std::vector<std::string> names = legacy_readings(tail);
       names.emplace_back(tail);
@@ -228,14 +231,16 @@ class Collector {
   }
 
   fs::path mesh_, folder_;
-  std::set<std::string> materials_;  ///< that all libraries define
+  std::set<std::string> materials_;  ///< materials defined in all libraries
   Names libraries_, textures_;
   std::set<fs::path> destinations_;
-  std::map<std::string, fs::path> textures_of_;  ///< by what a statement says; of one library
+  /// By text of the statement; valid for one library.
+  std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
-  /// What a texture's name stands for.
+  /// The uses and files of one texture name.
   struct Taken {
-    std::set<std::optional<TextureKind>> kinds;  ///< that it is named as; nothing: of none of ours
+    /// Kinds of the statements that name the texture; nothing for unknown statements.
+    std::set<std::optional<TextureKind>> kinds;
     std::vector<std::size_t> files;
   };
   std::map<TextureKind, std::map<std::string, fs::path>> of_kind_;

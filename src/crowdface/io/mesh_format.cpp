@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of each: word, ending, key in the report; faces, material file; normals; shapes, attachments, textures; reading.
+// Columns: format, name, extension, report key; has faces, material file; normals; shapes,
+// attachments, textures; reader.
 constexpr std::array<MeshFormatTraits, kMeshFormats> kTraits = {
     {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kOnLevels,
       Beside::kOwnFiles, Beside::kOwnFiles, Beside::kOwnFiles,

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// By the first bytes; readers look at these, too.
+/// File extension for the first bytes of an image; readers also go by the content.
 std::string_view image_ending(std::string_view bytes) {
   return bytes.starts_with("\x89PNG")          ? ".png"
          : bytes.starts_with("\xff\xd8")       ? ".jpg"
@@ -34,8 +34,8 @@ std::string material_name_of(std::string name) {
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
                                 const std::string& name) {
   make_directories(folder);
-  std::map<std::string_view, std::string> files;  // by their bytes
-  std::map<std::string, std::string> statements;  // by material
+  std::map<std::string_view, std::string> files;  // file names by content
+  std::map<std::string, std::string> statements;  // statements by material
   for (const MaterialRange& range : mesh.materials) statements[material_name_of(range.name)];
   for (const MeshTexture& texture : mesh.textures) {
     const auto [file, is_new] = files.try_emplace(texture.bytes);

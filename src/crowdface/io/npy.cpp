@@ -16,8 +16,8 @@
 namespace crowdface {
 namespace {
 
-/// The header as NumPy writes it: padded, so that the numbers begin at a multiple of 64 bytes.
-/// \param type  as Python has it: "'<f4'".
+/// A header as NumPy writes it, padded so that the data begins at a multiple of 64 bytes.
+/// \param type  in Python syntax: "'<f4'".
 std::string npy_header(std::string_view type, const std::string& shape) {
   std::string dictionary =
       concat("{'descr': ", type, ", 'fortran_order': False, 'shape': (", shape, "), }");
@@ -44,12 +44,12 @@ void write_indices(const std::vector<std::uint32_t>& indices, const std::filesys
   }
   EncodedFile file;
   file.add(npy_header("'<i4'", concat(indices.size(), ",")));
-  const auto bytes = std::as_bytes(std::span(indices));  // kNoIndex is −1
+  const auto bytes = std::as_bytes(std::span(indices));  // kNoIndex becomes −1
   file.refer_to({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   file.write(path);
 }
 
-/// Names of up to 64 ASCII characters as a NumPy array of text.
+/// Encodes names of up to 64 ASCII characters as a NumPy array of strings.
 std::string names_npy(std::span<const std::string> names) {
   constexpr std::size_t kLongest = 64;
   std::string bytes = npy_header("'<U64'", concat(names.size(), ","));
@@ -115,8 +115,8 @@ EncodedFile encode_npy(std::span<const Displacements> shapes, const std::string&
 Positions read_npy(const std::filesystem::path& path) {
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
-  // Its own header tells how many rows there are, if it is one of ours: whatever rows those bytes
-  // leave room for must give that very header.
+  // Check that crowdface wrote the file: compute the number of rows from the file size; the file
+  // must begin with exactly the header for that number.
   constexpr std::size_t kHeader = 128;
   const auto rows = static_cast<Index>((bytes.size() - std::min(bytes.size(), kHeader)) / 12);
   const std::string header = positions_header(rows);

@@ -30,7 +30,7 @@ double number_of(const char* at) {
 }
 
 using ReadNumber = double (*)(const char*);
-/// \param type  "f4", as NumPy names it
+/// \param type  NumPy's name: "f4"
 ReadNumber reader_of(std::string_view type) {
   if (type == "f4") return number_of<float>;
   if (type == "f8") return number_of<double>;
@@ -46,7 +46,7 @@ ReadNumber reader_of(std::string_view type) {
   return nullptr;
 }
 
-/// What stands behind a key of the header's dictionary.
+/// The text after a key in the header's dictionary.
 std::string_view value_of(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == header.npos) return {};
@@ -72,7 +72,7 @@ std::optional<std::vector<std::size_t>> shape_of(std::string_view header) {
   return shape;
 }
 
-/// From the first index fastest to the last.
+/// Converts from Fortran order to C order.
 std::vector<double> turned(const std::vector<double>& values,
                            const std::vector<std::size_t>& shape) {
   std::vector<double> out(values.size());
@@ -109,7 +109,7 @@ NpyArray parse_npy(std::string_view bytes, const std::string& name) {
   const std::string_view header = bytes.substr(begin, length);
   std::string_view data = bytes.substr(begin + length);
   const std::string_view type = value_of(header, "'descr'");
-  constexpr std::size_t kTypeText = 5;  // '<f4'
+  constexpr std::size_t kTypeText = 5;  // length of '<f4' with quotes
   const ReadNumber read = type.size() >= kTypeText && type[0] == '\'' && type[4] == '\''
                               ? reader_of(type.substr(2, 2))
                               : nullptr;

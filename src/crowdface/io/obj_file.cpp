@@ -17,16 +17,16 @@
 namespace crowdface {
 namespace {
 
-/// Reads a text that lies in memory, without copying it.
+/// A stream buffer that reads a text in memory without copying it.
 class ViewBuffer : public std::streambuf {
  public:
   explicit ViewBuffer(std::string_view text) {
-    char* begin = const_cast<char*>(text.data());  // a get area is never written to
+    char* begin = const_cast<char*>(text.data());  // the stream only reads the get area
     setg(begin, begin, begin + text.size());
   }
 };
 
-/// Material files are none of the mesh reader's business.
+/// Ignores material files; the mesh reader does not need them.
 class NoMaterials : public tinyobj::MaterialReader {
  public:
   bool operator()(const std::string&, std::vector<tinyobj::material_t>*,
@@ -59,7 +59,7 @@ void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
   clear_if_all_none(result.corner_normals);
 }
 
-/// The loader must have seen what the scan saw; if not, one of the two is wrong about the file.
+/// Checks that the loader and the scan agree on the file; otherwise one of them has an error.
 void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
   const Topology& topology = result.topology;
   const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);
@@ -76,16 +76,17 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
-/// What the scan tells better than the loader.
+/// Takes the values that the scan determines better than the loader.
 void take_places(ObjScan scan, ObjFile& result) {
-  result.positions = std::move(scan.positions);  // correctly rounded, which the loader's are not
+  // correctly rounded; the loader's positions are not
+  result.positions = std::move(scan.positions);
   result.material_libraries = std::move(scan.material_libraries);
   result.materials = std::move(scan.materials);
   result.groups = std::move(scan.groups);
   result.notes.insert(result.notes.end(), scan.notes.begin(), scan.notes.end());
 }
 
-/// The scan of a text, which becomes another one if it has to.
+/// Scans the text; if the scan fails, mends the text and scans the result.
 ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
   const std::string name = obj.path.string();
   try {

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// The three numbers of a corner, as they are written; missing ones are empty.
+/// The three indices of a corner as text; missing ones are empty.
 struct CornerWords {
   std::array<std::string_view, 3> words;
   explicit CornerWords(std::string_view corner) {
@@ -46,7 +46,7 @@ class Mender {
   void join_lines(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     while (!text.empty() && (text.back() == '\0' || text.back() == '\x1a')) text.remove_suffix(1);
-    std::string plain;  // lines that end in LF or CR LF
+    std::string plain;  // text with lines that end in LF or CR LF
     if (text.find('\r') != text.npos) {
       plain.reserve(text.size());
       for (std::size_t i = 0; i < text.size(); ++i) {
@@ -77,7 +77,7 @@ class Mender {
     return line;
   }
 
-  /// How many there are, and whether all corners' normals are.
+  /// Counts the rows, and checks whether the normals of all corners are valid.
   void count() {
     std::uint64_t normals_so_far = 0;
     for (int pass = 0; pass < 2; ++pass) {
@@ -106,7 +106,7 @@ class Mender {
 
   static bool is_face(std::string_view statement) { return statement == "f" || statement == "fo"; }
 
-  /// The words behind the statement, without a comment.
+  /// The words after the statement, without a comment.
   static std::vector<std::string_view> words_after(std::string_view line) {
     std::vector<std::string_view> words;
     for (std::size_t at = 0;;) {
@@ -128,7 +128,7 @@ class Mender {
                        [](std::string_view word) { return parse_double(word).has_value(); });
   }
 
-  /// The row that an index names; nothing if it names none.
+  /// The row that an index refers to; nothing if there is none.
   static std::optional<std::uint64_t> row_of(std::string_view word, std::uint64_t total,
                                              std::uint64_t so_far) {
     const bool relative = word.starts_with('-');
@@ -165,7 +165,7 @@ class Mender {
     out += line;
   }
 
-  /// The line as it is, if there is nothing else to say.
+  /// Appends the line unchanged if it needs no repair.
   static void add_words(std::string_view statement, const std::vector<std::string_view>& words,
                         std::size_t most, std::string_view line, std::string& out) {
     const bool is_sound = words.size() <= most && line.find('#') == line.npos;
@@ -248,7 +248,7 @@ class Mender {
     return notes;
   }
 
-  std::string text_;  ///< every statement a line
+  std::string text_;  ///< the text with one statement per line
   std::vector<bool> bad_uvs_;
   std::uint64_t normals_ = 0, uvs_so_far_ = 0;
   bool drops_normals_ = false;

@@ -13,12 +13,14 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostCorners = 255;  // the loader counts corners in a byte
+constexpr std::size_t kMostCorners = 255;  // the loader counts corners in one byte
 constexpr std::uint64_t kMostPerVertex = 8;
-constexpr std::size_t kLongestObjName = 1000;  // of a material, a group, a list of material files
-constexpr double kLargestCoordinate = 1e7;     // beyond, single precision keeps no tenth of a unit
+// of a material name, a group name, or a list of material files
+constexpr std::size_t kLongestObjName = 1000;
+// beyond this, single precision cannot resolve a tenth of a unit
+constexpr double kLargestCoordinate = 1e7;
 
-/// Splits a line into its words without copying.
+/// Splits a line into words without copying.
 void split_words(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
   for (std::size_t i = 0; i < line.size();) {
@@ -41,7 +43,7 @@ std::string_view rest_after(std::string_view line, std::string_view word) {
   return rest;
 }
 
-/// Calls visit(line) for each, without what ends it.
+/// Calls visit(line) for each line, without its line end.
 template <class Visit>
 void for_each_line(std::string_view text, const Visit& visit) {
   for (std::size_t begin = 0; begin < text.size();) {
@@ -58,13 +60,13 @@ std::string_view without_blanks_before(std::string_view line) {
   return line;
 }
 
-/// Whether a line without blanks before it is of a statement.
+/// Whether a line without leading blanks begins with a statement.
 bool is_of(std::string_view line, std::string_view statement) {
   return line.size() > statement.size() && line.starts_with(statement) &&
          is_blank(line[statement.size()]);
 }
 
-/// Counts lines, so that indices can be checked as they come, and hashes what tells the mesh.
+/// Counts lines, so that indices can be checked in one pass, and hashes what defines the mesh.
 class Outliner {
  public:
   void look_at(std::string_view whole_line) {
@@ -97,7 +99,7 @@ class Outliner {
   }
 
  private:
-  /// Lines that follow each other are hashed together.
+  /// Hashes consecutive lines together.
   void take(std::string_view line) {
     constexpr std::ptrdiff_t kLongestEnd = 2;  // CR LF
     const std::ptrdiff_t gap = run_.empty() ? -1 : line.data() - (run_.data() + run_.size());
@@ -113,7 +115,7 @@ class Outliner {
     if (!run_.empty()) hasher_.add(run_);
     run_ = {};
   }
-  /// Relative indices count from here.
+  /// Hashes the current counts, because relative indices count from here.
   void mark_place() { hasher_.add(outline_.vertices).add(outline_.normals); }
 
   ObjOutline outline_;
@@ -131,7 +133,7 @@ class Scanner {
       fail("expected plain text, found a byte-order mark; save the file as UTF-8 without BOM");
     }
     require_at_most(input_limits().vertices, total_.vertices, "vertices");
-    // A vertex may have several of these, but not without end.
+    // A vertex may have several texture coordinates and normals, but not arbitrarily many.
     require_at_most(kMostPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
     require_at_most(kMostPerVertex * input_limits().vertices, total_.normals, "normals");
     require_at_most(input_limits().faces, total_.faces, "faces");
@@ -165,7 +167,7 @@ class Scanner {
         concat(name_, ": expected at most ", most, ' ', what, " (--limit), found ", found));
   }
 
-  /// A line of a mesh that is known.
+  /// Whether a line belongs to a known mesh and can be skipped.
   bool passes_over(std::string_view line) {
     line = without_blanks_before(line);
     if (is_of(line, "vt")) return true;
@@ -200,7 +202,7 @@ class Scanner {
     }
   }
 
-  /// Programs add statements of their own, which readers pass over.
+  /// Programs add their own statements, which readers ignore.
   void other_statement(std::string_view statement) {
     if (!is_name(lower_case(statement))) {
       fail(concat("expected an OBJ statement, found ", quoted(statement)));
@@ -274,7 +276,8 @@ class Scanner {
     ++seen_.normals;
   }
 
-  /// A 1-based or relative index, checked against what exists (or, relative, what came before).
+  /// Checks a 1-based index against the number of rows, or a relative index against the number of
+  /// rows so far.
   void check_index(std::string_view digits, std::string_view what, std::uint64_t total,
                    std::uint64_t so_far) const {
     const bool relative = digits.starts_with('-');
@@ -308,7 +311,8 @@ class Scanner {
     scan_.corner_count += static_cast<Index>(words_.size()) - 1;
   }
 
-  /// v, v/vt, v//vn or v/vt/vn. \return which of the four, as bits: 1 texture, 2 normal.
+  /// Checks a corner: v, v/vt, v//vn or v/vt/vn.
+  /// \return which of the four forms, as bits: 1 texture coordinate, 2 normal.
   int corner(std::string_view word) const {
     const std::size_t first = word.find('/');
     const std::size_t second = first == word.npos ? word.npos : word.find('/', first + 1);
@@ -335,7 +339,7 @@ class Scanner {
   ObjLines lines_;
   ObjOutline total_, seen_;  ///< counts in the whole text, and in the lines checked so far
   ObjScan scan_;
-  std::string_view first_other_;  ///< statement that is none of OBJ
+  std::string_view first_other_;  ///< first statement that OBJ does not define
   std::size_t first_other_line_ = 0;
 };
 

@@ -21,7 +21,7 @@ char* copy(std::string_view text, char* out) {
   return out + text.size();
 }
 
-/// Three coordinates, and red, green and blue behind them.
+/// Writes three coordinates, then red, green and blue.
 char* write_coloured(char* out, const Positions& rows, const ColourRows& colours, Index i) {
   constexpr double kMostByte = 255, kSteps = 1e4;
   for (Index c = 0; c < 3; ++c) {
@@ -35,13 +35,13 @@ char* write_coloured(char* out, const Positions& rows, const ColourRows& colours
   return out;
 }
 
-/// The x y z of a `v` or `vn` line.
+/// The location of x y z in a `v` or `vn` line.
 struct Coordinates {
   std::string_view text;  ///< empty if the line is another
   bool is_normal = false;
 };
 
-/// \param whole  with all that stands behind the coordinates of a `v` line
+/// \param whole  include everything after the coordinates of a `v` line
 Coordinates coordinates_of(std::string_view line, bool whole) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (whole) {
@@ -67,7 +67,7 @@ Coordinates coordinates_of(std::string_view line, bool whole) {
   return {line.substr(begin, at - begin), is_normal};
 }
 
-/// Whoever made the target of this text has seen as many rows as there are.
+/// Checks that the text has the numbers of rows that the target was read with.
 void require_counts(const ObjFile& target, std::uint32_t vertices, Index expected,
                     std::uint32_t normals) {
   bool fits = static_cast<Index>(vertices) == expected;
@@ -80,7 +80,7 @@ void require_counts(const ObjFile& target, std::uint32_t vertices, Index expecte
                             normals));
 }
 
-/// The three numbers of a row in the place of three others, with the old blanks between them.
+/// Writes the three numbers of a row in place of three others, keeping the old blanks.
 char* write_like(std::string_view old, char* out, const Positions& rows, Index i) {
   std::size_t at = 0;
   for (Index c = 0; c < 3; ++c) {
@@ -102,7 +102,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
       topology_(topology),
       vertices_(topology.vertex_count),
       colours_(colours) {
-  // Normals that no face uses are text like any other.
+  // Normals that no face uses are ordinary text.
   const bool has_normals = !target.corner_normals.empty();
   std::uint32_t vertices = 0, normals = 0;
   std::vector<Place> places;  // vertices and normals may be interleaved
@@ -132,8 +132,8 @@ void ObjTemplate::add_block(const std::vector<Place>& places) {
   block.begin = blocks_.empty() ? 0 : blocks_.back().end;
   block.end = places.back().begin + places.back().length;
   block.buffer = buffer_size_;
-  // New numbers at their longest beside the old text, without the digits of vertices: a normal that no face
-  // uses keeps its own.
+  // Upper bound: new numbers at maximum length plus the old text without the digits of vertices.
+  // Digits of normals count, because a normal that no face uses keeps its text.
   std::size_t old_text = block.end - block.begin;
   for (const Place& place : places) {
     if (place.is_normal) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared library that image_codec.h tells of.
+// The OpenImageIO codec in its own shared library; see image_codec.h.
 #include <memory>
 #include <vector>
 
@@ -52,8 +52,8 @@ PictureFacts facts_of(const OIIO::ImageSpec& spec) {
   return facts;
 }
 
-/// Decoders get the bytes as they are mapped: those that read files themselves take a disk that fails for
-/// a file that is damaged.
+/// Decoders receive the mapped bytes: decoders that read files themselves report a failing disk as
+/// a damaged file.
 void* open(const std::string& format, const std::string& file, std::string_view bytes,
            PictureFacts& facts, std::string& error) {
   auto picture = std::make_unique<Picture>(bytes);
@@ -64,7 +64,7 @@ void* open(const std::string& format, const std::string& file, std::string_view 
     return nullptr;
   }
   OIIO::ImageSpec wish, spec;
-  wish.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
+  wish.attribute("oiio:UnassociatedAlpha", 1);  // keeps colours where alpha is 0
   input->threads(1);
   if (!input->set_ioproxy(&picture->memory)) {
     error = "this build reads no " + format + " from memory";
@@ -75,13 +75,14 @@ void* open(const std::string& format, const std::string& file, std::string_view 
     return nullptr;
   }
   facts = facts_of(spec);
-  // Other formats have an order of channels, whatever they are called.
+  // In other formats the order of channels is fixed, whatever their names.
   if (format == "openexr") facts.channel_names = spec.channelnames;
   return picture.release();
 }
 
-/// Strips of a TIFF are decoded a row at a time: when the decoder takes several at once, it hides that
-/// one of them is damaged. (Where planes lie apart it does not, and rows would be read again for each.)
+/// Whether to decode the strips of a TIFF row by row: when the decoder reads several strips at
+/// once, it hides damage of one of them. (With separate planes the decoder reports damage, and
+/// reading by rows would decode the rows again for each plane.)
 bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
   return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
          spec.get_string_attribute("planarconfig") != "separate";
@@ -102,7 +103,7 @@ bool read(void* picture, void* pixels, std::string& error) {
   } else {
     read = input.read_image(0, 0, 0, -1, type, pixels);
   }
-  // Of some damage the decoder says only that it was there.
+  // For some damage the decoder returns success but sets its error flag.
   read = read && !input.has_error();
   if (!read) error = input.geterror();
   return read;
@@ -112,13 +113,14 @@ void close(void* picture) {
   delete static_cast<Picture*>(picture);
 }
 
-/// \return the writer's name in OpenImageIO.
+/// \return name of the writer in OpenImageIO.
 const char* describe(Form form, OIIO::ImageSpec& spec) {
   if (form == Form::kExr) {
     spec.set_format(OIIO::TypeDesc::HALF);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "linear");
-    spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the time of writing
+    // otherwise the writer stores the current time
+    spec.attribute("DateTime", "2000:01:01 00:00:00");
     return "openexr";
   }
   spec.attribute("compression", "jpeg:92");

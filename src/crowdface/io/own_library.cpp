@@ -21,10 +21,10 @@
 namespace crowdface {
 namespace {
 
-/// What the library that is being started is needed for.
+/// The purpose of the library that is being loaded, for messages.
 std::atomic<const char*> starting_for{"run"};
 
-// Only what a signal handler may call.
+// Calls only async-signal-safe functions.
 [[noreturn]] void end_without_libraries(int /*signal*/) {
   const auto say = [](const char* text) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -40,13 +40,14 @@ constexpr unsigned kLongestStart = 60;  ///< seconds
 std::atomic<bool> guarded = false;
 volatile std::sig_atomic_t starting = 0;
 
-/// Called by exit(), which libgfortran calls where it gets no memory to start.
+/// Called by exit(), which libgfortran calls if it cannot allocate memory during start.
 void end_if_starting() {
   if (starting != 0) end_without_libraries(0);
 }
 
-/// While it lives, a library that ends the program because it gets no memory to start does so in our words;
-/// likewise one that waits for ever, as a logger among them does for a thread that could not start.
+/// During its lifetime, a library that ends the program for lack of memory while it is being loaded
+/// does so with a message of this program; likewise a library that hangs, for example a logger
+/// waiting for a thread that could not start.
 class StartOfLibraries {
  public:
   explicit StartOfLibraries(const char* needs) {
@@ -83,7 +84,7 @@ void* open_library(const std::string& name, int flags, const char* needs, const 
   if (guarded) start.emplace(needs);
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
-  } catch (...) {  // leaves the loader locked, so that nothing can be undone
+  } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
     if (guarded) end_without_libraries(0);
     throw IoError(concat(without, ": the libraries for them threw as they started"));
   }
@@ -97,7 +98,8 @@ void guard_start_of_libraries() {
 
 void* function_of_own_library(const char* library, const char* function, const char* needs,
                               const char* without) {
-  // Programs of others are linked with it; ours finds it where it is installed, beside itself.
+  // Third-party programs are linked with the library. This program loads the library from its
+  // folder relative to the executable.
   void* opened = open_library(library, RTLD_NOLOAD, needs, without);
   std::string why;
   if (opened == nullptr) {

@@ -12,8 +12,8 @@
 namespace crowdface {
 namespace {
 
-/// Where the name of a file begins behind a statement's options and their values (numbers, on, off, or
-/// the letter of a channel).
+/// Position of the file name after a statement's options and their values (numbers, on, off, or a
+/// channel letter).
 std::size_t start_of_name(const std::string& rest) {
   std::size_t name = 0;
   bool in_options = false;
@@ -26,7 +26,7 @@ std::size_t start_of_name(const std::string& rest) {
     in_options = true;
     name = at + word.size();
   }
-  return 0;  // all of it is a name
+  return 0;  // the whole text is a name
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ std::string OwnMaterials::text(const Replacements& textures) const {
     const auto file = of_kind->second.find(material);
     return file == of_kind->second.end() ? nullptr : &file->second;
   };
-  std::map<std::string, std::string> old_colours;  // what a material names so far
+  std::map<std::string, std::string> old_colours;  // texture paths of each material so far
   std::map<std::string, std::set<TextureKind>> there;
   for (const Line& line : lines_) {
     const std::optional<TextureKind> kind = texture_kind_of(line.word);

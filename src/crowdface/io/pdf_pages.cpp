@@ -16,7 +16,7 @@ constexpr double kPixelsAnInch = 150;
 constexpr double kPointsAnInch = 72;
 constexpr double kLongestSide = 14400;  // points, PDF 1.4's limit
 
-/// A PNG's rows as they are packed in it, which PDF's Flate filter with PNG predictors unpacks too.
+/// The compressed rows of a PNG. PDF's Flate filter with PNG predictors uses the same encoding.
 struct PackedPicture {
   std::uint32_t width = 0, height = 0;
   std::string data;
@@ -36,7 +36,7 @@ PackedPicture unwrap(const std::string& png) {
     if (kind == "IHDR" && length == kHeader) {
       picture.width = big_endian_at(png.data() + content);
       picture.height = big_endian_at(png.data() + content + 4);
-      // Eight bits, RGB, no interlacing.
+      // Requires eight bits, RGB, no interlacing.
       check(png[content + 8] == 8 && png[content + 9] == 2 && png[content + 12] == 0);
     } else if (kind == "IDAT") {
       picture.data.append(png, content, length);
@@ -47,7 +47,7 @@ PackedPicture unwrap(const std::string& png) {
   return picture;
 }
 
-/// Objects one after the other, with the table that says where each begins.
+/// Writes numbered objects and the table of their offsets.
 class PdfWriter {
  public:
   void object(const std::string& content) {

@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 constexpr Index kLinesPerBlock = 8192;
-/// "vn " and three numbers with what stands between.
+/// Longest line: "vn " and three numbers with separators.
 constexpr std::size_t kLongestLine = 3 + 3 * (kLongestSingle + 1);
 
 void append_single(std::string& out, double value) {

@@ -23,11 +23,11 @@ double number_in(const std::array<char, 8>& raw) {
   return static_cast<double>(number);
 }
 
-/// What a number is, as long as it takes in a binary file.
+/// A number type and its size in binary files.
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  double full;  ///< what stands for 1 where it is a colour
+  double full;  ///< value of full intensity if the number is a colour
   double (*read)(const std::array<char, 8>&);
 };
 constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},
@@ -44,7 +44,7 @@ constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std
 struct Property {
   std::string name;
   Type type;
-  std::optional<Type> count = {};  ///< of a list: of its count
+  std::optional<Type> count = {};  ///< for a list: type of its count
 };
 
 struct Element {
@@ -55,7 +55,7 @@ struct Element {
 
 constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
-/// Reads a PLY file from its first byte to its last.
+/// Reads a whole PLY file.
 class PlyReader {
  public:
   PlyReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -88,7 +88,7 @@ class PlyReader {
     throw InvalidInput(concat(name_, ": expected a PLY file, found that ", found));
   }
 
-  /// Lines of the header end in LF, CR LF or CR, all of them like the first.
+  /// Reads a header line. Lines end in LF, CR LF or CR, all like the first line.
   std::string_view line() {
     const char last = ends_in_cr_ ? '\r' : '\n';
     const std::size_t end = bytes_.find(last, at_);
@@ -150,7 +150,7 @@ class PlyReader {
     return type.read(raw);
   }
 
-  /// Normals and qualities may be no numbers.
+  /// Reads a word as a number. Normals and quality values may be non-numeric.
   double word() {
     const std::size_t begin = bytes_.find_first_not_of(" \t\r\n", at_);
     if (begin == std::string_view::npos) fail("it ends too soon");
@@ -231,7 +231,7 @@ class PlyReader {
   }
 
   void read_faces(const Element& element) {
-    if (element.properties.empty()) return;  // however many there are
+    if (element.properties.empty()) return;  // regardless of the element count
     const bool faces = element.name == "face", strips = element.name == "tristrips";
     for (std::uint64_t f = 0; f < element.count; ++f) {
       std::vector<std::int64_t> corners;
@@ -300,7 +300,7 @@ class PlyReader {
     }
   }
 
-  /// Corners that have none of their own have those of their vertices.
+  /// Uses the texture coordinates of vertices at corners without their own.
   void finish_uvs() {
     Topology& topology = mesh_.topology;
     if (!topology.corner_uvs.empty()) {
@@ -308,7 +308,7 @@ class PlyReader {
       mesh_.uvs.resize(static_cast<Index>(corner_uvs_.size() / 2), 2);
       std::copy(corner_uvs_.begin(), corner_uvs_.end(), mesh_.uvs.data());
     } else if (has_vertex_uvs_ && mesh_.uvs.allFinite()) {
-      // Programs split vertices at seams, as only these can have texture coordinates.
+      // Programs split vertices at seams if only vertices can have texture coordinates.
       topology.corner_uvs = topology.corner_vertices;
       mesh_.pieces.assign(static_cast<std::size_t>(topology.vertex_count), 0);
     } else if (has_vertex_uvs_) {

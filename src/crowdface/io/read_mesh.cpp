@@ -34,8 +34,8 @@ Index rows_of(const NpyArray& array) {
   return static_cast<Index>(array.rows());
 }
 
-/// Faces that lie beside arrays of positions: as crowdface writes them (topology/corners.npy, offsets.npy, …), or as an
-/// array of triangles or quads.
+/// Reads faces stored beside an array of positions: either the files that crowdface writes
+/// (topology/corners.npy, offsets.npy, …) or an array of triangles or quads.
 void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
   Topology& topology = mesh.topology;
   const auto index_of = [&](double number, Index rows, const fs::path& file) {
@@ -95,7 +95,7 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
   }
 }
 
-/// Positions, and faces if some lie beside.
+/// Reads positions, and faces if there is a file with faces beside.
 FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   const NpyArray array = parse_npy(bytes, path.string());
   const bool is_list = array.shape.size() == 3 && array.shape[0] != 1;
@@ -115,7 +115,7 @@ FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   return mesh;
 }
 
-/// What the file is, whatever it is called; its ending if that does not show.
+/// The format by content, whatever the file's name; by extension if the content is ambiguous.
 std::string kind_of(std::string_view bytes, const fs::path& path) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ".ply";
   if (bytes.starts_with("glTF")) return ".glb";

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kTurned = "its faces looked inward (inside out) and are turned round";
 
-/// An OBJ text with the corners of each face in reverse order, but for the first.
+/// The OBJ text with the corners of each face after the first in reverse order.
 std::string with_turned_faces(std::string_view text) {
   std::string turned;
   turned.reserve(text.size());

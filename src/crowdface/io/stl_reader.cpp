@@ -16,7 +16,8 @@ constexpr std::string_view kStlBlanks = " \t\r\n";
   throw InvalidInput(concat(name, ": expected an STL file, found that ", found));
 }
 
-/// Reads a text: words count in any case; what follows "solid" or "endsolid" on its line is a name.
+/// Reads text STL. Keywords are case-insensitive; the rest of a line after "solid" or "endsolid" is
+/// a name.
 class StlText {
  public:
   StlText(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -72,7 +73,7 @@ class StlText {
   FileMesh mesh_;
 };
 
-/// Binary files may begin with "solid" too; then no facet follows.
+/// Binary files may begin with "solid" too, but then no "facet" follows.
 bool is_stl_text(std::string_view bytes) {
   constexpr std::size_t kLooked = 1024;
   const std::string begin = lower_case(bytes.substr(0, kLooked));
@@ -92,7 +93,7 @@ FileMesh parse_stl(std::string_view bytes, const std::string& name) {
   if (!is_exact && is_stl_text(bytes)) return StlText(bytes, name).read();
   const std::size_t room = bytes.size() < kStlHeader ? 0 : (bytes.size() - kStlHeader) / kStlRecord;
   const std::size_t count = claimed == 0 ? room : std::min<std::size_t>(claimed, room);
-  // Of text whose beginning is none of STL the count is letters.
+  // In a text that does not begin like STL, the count is made of letters.
   if (count == 0 || (claimed > room && (bytes.size() - kStlHeader) % kStlRecord != 0)) {
     fail_stl(name, concat("it has ", bytes.size(), " bytes and claims ", claimed, " triangles"));
   }

@@ -20,7 +20,7 @@ std::vector<float> leading_numbers(std::string_view text) {
   return numbers;
 }
 
-/// The texture whose name stands at the end of a statement: of several the one with the longest.
+/// The texture whose name ends a statement; among several the one with the longest name.
 std::filesystem::path texture_at_end(std::string rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
   std::replace(rest.begin(), rest.end(), '\\', '/');

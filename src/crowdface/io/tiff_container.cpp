@@ -28,7 +28,7 @@ enum Tag : std::uint64_t {
   kTileByteCounts = 325,
 };
 
-/// The first directory: each tag with its numbers. What lies beyond the file throws.
+/// The first directory: tags and their values. Access beyond the end of the file throws.
 class Directory {
  public:
   struct BeyondTheEnd {};
@@ -42,7 +42,7 @@ class Directory {
     require_inside(begin_, count_ * entry_size());
   }
 
-  /// \return nothing if there is no such entry, or one that holds no whole numbers.
+  /// \return empty if there is no such entry, or if it does not contain integers.
   std::vector<std::uint64_t> numbers(Tag tag) const {
     for (std::uint64_t e = 0; e < count_; ++e) {
       const std::uint64_t entry = begin_ + e * entry_size();
@@ -51,7 +51,7 @@ class Directory {
     return {};
   }
 
-  /// The first number of an entry; `otherwise` without it.
+  /// The first number of an entry, or `otherwise` if there is no entry.
   std::uint64_t first(Tag tag, std::uint64_t otherwise) const {
     const std::vector<std::uint64_t> all = numbers(tag);
     return all.empty() ? otherwise : all.front();
@@ -79,7 +79,7 @@ class Directory {
     return value;
   }
 
-  /// An entry is a tag, a type, how many there are, and these or where they stand.
+  /// An entry consists of a tag, a type, a count, and either the values or their offset.
   std::vector<std::uint64_t> values_of(std::uint64_t entry) const {
     constexpr std::uint64_t kSizes[17] = {0, 0, 0, 2, 4, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 8};
     const std::uint64_t type = number(entry + 2, 2), count = number(entry + 4, offset_size());
@@ -99,16 +99,17 @@ class Directory {
   std::uint64_t begin_ = 0, count_ = 0;
 };
 
-/// How many bytes one byte can stand for at most; nothing for a compression that is not read.
+/// Maximum number of bytes that one compressed byte can expand to; nothing for unsupported
+/// compressions.
 std::optional<std::uint64_t> most_of_one_byte(std::uint64_t compression, bool jpeg) {
   constexpr std::uint64_t kJpeg = 7;
   constexpr std::pair<std::uint64_t, std::uint64_t> kMost[] = {
-      {1, 1},         // as it is
-      {5, 2600},      // LZW's longest string, of 12 bits
-      {8, 1100},      // deflate's longest match takes 2 bits: 1032
-      {32946, 1100},  // deflate, too
+      {1, 1},         // uncompressed
+      {5, 2600},      // LZW: longest string of 12-bit codes
+      {8, 1100},      // Deflate: the longest match takes 2 bits, 1032 bytes per byte
+      {32946, 1100},  // Deflate, old code
       {32773, 64},    // PackBits: 128 from 2
-      {kJpeg, 1000},  // a block of 64 three times over, of 2 bits each
+      {kJpeg, 1000},  // JPEG: three blocks of 64 values, 2 bits each
   };
   for (const auto& [known, most] : kMost) {
     if (known == compression && (jpeg || known != kJpeg)) return most;
@@ -120,16 +121,16 @@ std::uint64_t parts_of(std::uint64_t whole, std::uint64_t part) {
   return whole / part + (whole % part != 0 ? 1 : 0);
 }
 
-/// How a picture is cut: strips are tiles as wide as the picture.
+/// The division of an image into pieces; strips are treated as tiles as wide as the image.
 struct Cut {
-  std::uint64_t width, height;  ///< of the picture
-  std::uint64_t across, down;   ///< of a piece
-  std::uint64_t bits;           ///< of a pixel, in one plane
+  std::uint64_t width, height;  ///< size of the image
+  std::uint64_t across, down;   ///< size of a piece
+  std::uint64_t bits;           ///< bits per pixel in one plane
   std::uint64_t planes;
   std::vector<std::uint64_t> begins, sizes;
 
   std::uint64_t pieces() const { return parts_of(width, across) * parts_of(height, down) * planes; }
-  /// Bytes of a piece that is unpacked; the last strip may be lower.
+  /// Uncompressed bytes of a piece; the last strip may have fewer rows.
   std::uint64_t bytes_of(std::uint64_t piece, bool tiled) const {
     const std::uint64_t row = piece % parts_of(height, down);
     const std::uint64_t rows = tiled ? down : std::min(down, height - row * down);

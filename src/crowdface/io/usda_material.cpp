@@ -12,12 +12,13 @@ namespace {
 const std::string kInner = "            ";
 const std::string kDeep = kInner + "    ";
 
-/// "(0.8, 0.6, 0.5)".
+/// Formats a colour: "(0.8, 0.6, 0.5)".
 std::string colour_text(const std::array<float, 4>& colour) {
   return concat('(', rounded(colour[0]), ", ", rounded(colour[1]), ", ", rounded(colour[2]), ')');
 }
 
-/// A file as an asset path: between @, or where its name holds one, between @@@, which may stand escaped in it.
+/// Formats a file name as an asset path: between @ or, if the name contains @, between @@@ with
+/// each @@@ in the name escaped.
 std::string asset_path(std::string_view file) {
   if (file.find('@') == file.npos) return concat('@', file, '@');
   std::string text = "@@@";
@@ -28,7 +29,8 @@ std::string asset_path(std::string_view file) {
   return text + "@@@";
 }
 
-/// A texture as a shader of its own. \param more  lines of its inputs.
+/// A shader prim for a texture.
+/// \param more  additional input lines.
 std::string texture_text(const std::string& path, std::string_view name, const std::string& file,
                          std::string_view wrap, bool is_colour, std::string_view more,
                          std::string_view output) {
@@ -41,7 +43,9 @@ std::string texture_text(const std::string& path, std::string_view name, const s
                 "\"\n", kDeep, output, '\n', kInner, "}\n");
 }
 
-/// A Material prim. \param path  of the prim. \param name  its last part.
+/// A Material prim.
+/// \param path  of the prim.
+/// \param name  last component of the path.
 std::string material_text(const std::string& path, const std::string& name,
                           const UsdaSurface& surface) {
   const auto input = [&](const std::string& file, std::string_view shader, std::string_view output,

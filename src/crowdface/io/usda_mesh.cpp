@@ -11,7 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// The values of the primvar, and for each corner which of them: one that has none gets zeros.
+/// The primvar's values and the index of each corner; corners without texture coordinates get
+/// zeros.
 std::string uv_lines(const Topology& topology, const TextureCoordinates& uvs) {
   TextureCoordinates all = uvs;
   std::vector<std::uint32_t> corners = topology.corner_uvs;
@@ -52,7 +53,7 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
         form.face_materials.empty() ? 0 : form.face_materials[static_cast<std::size_t>(f)];
     of_material[material].push_back(static_cast<std::uint32_t>(f));
   }
-  UsdaNames names, beside;  // subsets lie beside the shapes
+  UsdaNames names, beside;  // subsets and shapes are siblings
   for (std::size_t m = 0; m < of_material.size(); ++m) {
     const std::string& name = form.materials[m];
     const bool is_used = !of_material[m].empty();
@@ -83,7 +84,8 @@ void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& posit
                   kUsdaPoints));
   file.add(usda_rows(positions));
   file.add("]\n");
-  if (subdivision_ == Subdivision::kNone) {  // a subdivided surface has its own
+  // viewers compute the normals of a subdivided surface
+  if (subdivision_ == Subdivision::kNone) {
     require_finite(normals, vertices_, what);
     file.add("            normal3f[] normals = [");
     file.add(usda_rows(normals));
@@ -156,7 +158,7 @@ std::size_t UsdaMesh::memory_bytes() const {
 }
 
 std::size_t UsdaMesh::encode_bytes() const {
-  // The text of each array, and its copy in the file.
+  // Counts the text of each array and its copy in the file.
   return 2 * kLongestUsdaRow * (3 * static_cast<std::size_t>(vertices_) + target_rows_);
 }
 

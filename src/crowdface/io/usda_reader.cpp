@@ -39,7 +39,8 @@ struct Prim {
   }
 };
 
-/// A turn about axes by angles in degrees. \param order  of the turns: "XYZ" turns about x first
+/// A rotation about axes by angles in degrees.
+/// \param order  of the rotations: "XYZ" rotates about x first
 Eigen::Matrix3d turn_of(std::string_view order, const std::vector<double>& degrees) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -50,14 +51,15 @@ Eigen::Matrix3d turn_of(std::string_view order, const std::vector<double>& degre
   return turn;
 }
 
-/// The matrix of one step of a transform: "xformOp:rotateXYZ:pivot". Steps of other kinds change nothing.
+/// The matrix of one transform operation: "xformOp:rotateXYZ:pivot". Unknown operations are the
+/// identity.
 Eigen::Matrix4d matrix_of(std::string_view step, const std::vector<double>& numbers) {
   constexpr std::string_view kPrefix = "xformOp:";
   step.remove_prefix(std::min(kPrefix.size(), step.size()));
   const std::string_view kind = step.substr(0, step.find(':'));
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   const std::size_t count = numbers.size();
-  if (kind == "transform" && count == 16) return matrix_from(numbers);  // vectors are rows
+  if (kind == "transform" && count == 16) return matrix_from(numbers);  // USD uses row vectors
   if (kind == "translate" && count == 3) {
     matrix.topRightCorner<3, 1>() = Eigen::Vector3d(numbers.data());
   } else if (kind == "scale" && count == 3) {
@@ -132,7 +134,7 @@ class UsdaReader {
       token = tokens_.next();
     }
     if (!token.is('{')) fail(concat("expected the body of ", quoted(std::string(prim.name))));
-    if (!keyword.is_word("def")) {  // no prim of its own
+    if (!keyword.is_word("def")) {  // `over` and `class` define no prim
       tokens_.skip_rest();
       return;
     }
@@ -206,7 +208,7 @@ class UsdaReader {
     fail(concat("expected an index below ", count, ", found ", number));
   }
 
-  /// The row of a primvar that each corner has, and its rows; of no corners if it has none.
+  /// The values of a primvar and the row for each corner; empty if the prim has no such primvar.
   std::vector<std::uint32_t> rows_of_corners(const Prim& prim, const std::string& primvar,
                                              std::size_t width,
                                              const std::vector<std::uint32_t>& vertices) const {
@@ -293,7 +295,7 @@ class UsdaReader {
     topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
   }
 
-  /// The name of the material that a prim is bound to, or the prim's own.
+  /// The name of the material bound to the prim, or the prim's name.
   static std::string material_of(const Prim& prim) {
     const PrimProperty* binding = prim.find("material:binding");
     if (binding == nullptr || binding->texts.empty()) return std::string(prim.name);

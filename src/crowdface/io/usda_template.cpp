@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kCreator = "string creator = \"crowdface\"";
 constexpr std::string_view kIdentity = "[((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))]";
 
-/// A transform that turns `up` to +Y and `front` to +Z, unless the stage can have that up axis.
+/// A transform that rotates `up` to +Y and `front` to +Z; empty if the stage supports that up axis.
 std::string turn_of(const GlbOptions& options) {
   const Axis up = options.up;
   if (up.sign > 0 && up.index > 0) return {};
@@ -28,7 +28,7 @@ std::string turn_of(const GlbOptions& options) {
   turn(2, options.front.index) = options.front.sign;
   turn.row(0) = turn.row(1).cross(turn.row(2));
   std::string rows;
-  for (int column = 0; column < 3; ++column) {  // USD's vectors are rows
+  for (int column = 0; column < 3; ++column) {  // USD uses row vectors
     rows += concat('(', turn(0, column) + 0.0, ", ", turn(1, column) + 0.0, ", ",
                    turn(2, column) + 0.0, ", 0), ");
   }
@@ -37,10 +37,11 @@ std::string turn_of(const GlbOptions& options) {
                 "        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n");
 }
 
-/// Where the vertices of overlaid faces lie on the overlay; all others share one place.
+/// The texture coordinates of overlaid faces on the overlay; all other vertices share one
+/// coordinate.
 std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   std::vector<std::uint32_t> places(static_cast<std::size_t>(topology.vertex_count), 0);
-  std::vector<std::uint32_t> vertices = {kNoIndex};  // of each place
+  std::vector<std::uint32_t> vertices = {kNoIndex};  // vertex of each coordinate
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto at = static_cast<std::size_t>(f);
     const std::size_t material = options.face_materials.empty() ? 0 : options.face_materials[at];
@@ -54,7 +55,8 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   TextureCoordinates uvs = TextureCoordinates::Zero(static_cast<Index>(vertices.size()), 2);
   for (Index i = 1; i < uvs.rows(); ++i) {
     const auto& place = options.overlay->places[vertices[static_cast<std::size_t>(i)]];
-    uvs.row(i) << place[0] / 65535.0, 1 - place[1] / 65535.0;  // from the left and lower edge
+    // measured from the left and lower edge
+    uvs.row(i) << place[0] / 65535.0, 1 - place[1] / 65535.0;
   }
   return concat("            texCoord2f[] primvars:st1 = ", usda_uvs(uvs),
                 " (\n                interpolation = \"vertex\"\n            )\n"
@@ -62,7 +64,8 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
                 usda_list(places), '\n');
 }
 
-/// \param images  those of the materials. \param shared  see GlbOptions
+/// \param images  paths of the images.
+/// \param shared  see `GlbOptions::shared`.
 UsdaSurface surface_of(const GlbMaterial& material, std::span<const std::string> images,
                        const std::string& shared) {
   const auto file = [&](const std::optional<std::size_t>& image) {
@@ -88,7 +91,8 @@ UsdaMesh mesh_of(const Topology& topology, const TextureCoordinates& uvs, const 
   return {topology, uvs, form};
 }
 
-/// What plays blend shapes: UsdSkel wants a skeleton, of one joint that never moves.
+/// The prims that drive blend shapes: UsdSkel needs a skeleton; this one has a single joint that
+/// never moves.
 std::string skeleton_text(const std::string& root, std::span<const std::string> tokens) {
   const std::vector<std::string> weights(tokens.size(), "0");
   return concat(
