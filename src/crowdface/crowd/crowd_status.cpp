@@ -123,7 +123,7 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
   return status;
 }
 
-/// Completes the status once `done` is known.
+/// Derives the final state and the remaining time. Call this once `done` is known.
 void finish(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.faces > 0 && status.done == status.faces) {
     status.state = ShardState::kDone;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a crowd is that machines are at work on, from its folder alone.
+// The progress of a crowd on all machines, read from its folder alone.
 #pragma once
 
 #include <cstdint>

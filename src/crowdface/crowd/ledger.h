@@ -73,8 +73,8 @@ class Ledger {
   /// unfinished.
   /// \param own     the ledger to append to; created if it does not exist.
   /// \param others  ledgers of other runs, which are only read. If several ledgers list an item, no
-  ///         line takes precedence, because their order in time is unknown; any of the lines may
-  ///         prove that the item is finished.
+  ///                line takes precedence, because their order in time is unknown; any of the lines
+  ///                may prove that the item is finished.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 

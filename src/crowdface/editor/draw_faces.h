@@ -19,7 +19,7 @@ struct DrawRequest {
   std::optional<CastFace> like;  ///< draw variations of this face
   double amount = 1;  ///< how far variations move from `like` towards a freely drawn face, 0 to 1
   std::size_t count = 1;            ///< number of faces to draw
-  std::uint32_t first_attempt = 0;  ///< draws differ if this number differs
+  std::uint32_t first_attempt = 0;  ///< a different number yields different faces
 };
 
 /// Draws faces that keep the limits of the config. Without `like`, the faces also keep the minimum

@@ -34,7 +34,7 @@ class EditorLock {
  public:
   /// Takes the lock.
   /// \param folder  must exist; receives the lock file, and the file with the editor's address,
-  ///         which only its owner can read.
+  ///                which only its owner can read.
   /// \throws UsageError with the address of the other editor if there is one.
   explicit EditorLock(const std::filesystem::path& folder)
       : address_(folder / ".address"),

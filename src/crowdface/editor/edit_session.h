@@ -25,7 +25,7 @@
 namespace crowdface {
 
 /// \param given  a config, or a crowd's folder. For a folder the function loads the config in it,
-///         and the job's output goes to this folder.
+///               and the job's output goes to this folder.
 Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
                     const CacheFolder& cache);
 

@@ -31,7 +31,7 @@ class EditWorn {
   /// The attachments of a face.
   /// \param face    the edited face; determines the attachments that are drawn for it
   /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
-  ///         keeps; or empty
+  ///                keeps; or empty
   /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are drawn
   /// \throws UsageError if a kind or a name does not exist.
   std::vector<WornAttachment> worn_by(const CastFace& face, const std::string& opened,
@@ -45,7 +45,7 @@ class EditWorn {
 
   const Job& job_;
   const std::vector<CastFace>* crowd_;
-  /// Takes about a second to compute.
+  /// Attachments bound to the heads; takes about a second to compute.
   std::shared_future<std::unique_ptr<const FaceAttachments>> bound_;
   WornSurfaces surfaces_;
   ShownAttachments shown_;

@@ -47,7 +47,7 @@ class EdgeDistances {
   /// Settles vertices in the order of their distances until no vertex is open or `settled` returns
   /// true.
   /// \param may_lead  called with a distance and a vertex; returns whether the search continues
-  ///         from this vertex.
+  ///                  from this vertex.
   template <class MayLead, class Settled>
   void spread(const MayLead& may_lead, const Settled& settled);
 

@@ -153,6 +153,9 @@ class Matcher {
     return seeds;
   }
 
+  /// Matches the component of a seed with a component of b. Tries all corners of b whose vertices
+  /// have the seed's colour, and keeps the match with the smallest distance.
+  /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
     // Set if another component shares the vertex.
     const std::uint32_t known = to_b_[a_.vertex(seed)];

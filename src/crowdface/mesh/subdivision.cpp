@@ -10,7 +10,8 @@ namespace {
 
 /// The edges between corners of polygons: each edge once, in ascending order of its ends.
 struct Edges {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  ///< #E, first < second
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      ends;  ///< #E: ends of each edge, first < second
   /// #C: the edge from each corner to the next corner of its polygon.
   std::vector<std::uint32_t> of_corner;
   std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge
@@ -106,8 +107,11 @@ Positions move_vertices(const Mesh& mesh, const Edges& edges, const Positions& f
   for (Index v = 0; v < n; ++v) {
     const auto i = static_cast<std::size_t>(v);
     if (rim_count[i] == 2) {
+      // Boundary vertex: subdivision mask (1, 6, 1) / 8 of cubic B-spline curves.
       moved.row(v) = (6 * mesh.positions.row(v) + rim_sum.row(v)) / 8;
     } else if (rim_count[i] == 0 && face_count[i] > 0) {
+      // Interior vertex V with k edges: (F + 2 E + (k - 3) V) / k, where F is the mean of the face
+      // points and E the mean of the edge midpoints. All other vertices stay in place.
       const double k = edge_count[i];
       moved.row(v) = (face_sum.row(v) / face_count[i] + 2 * edge_sum.row(v) / k +
                       (k - 3) * mesh.positions.row(v)) /
@@ -127,6 +131,7 @@ Positions edge_points(const Mesh& mesh, const Edges& edges, const Positions& fac
   for (Index e = 0; e < count; ++e) {
     const auto [a, b] = edges.ends[static_cast<std::size_t>(e)];
     const Eigen::RowVector3d ends = mesh.positions.row(a) + mesh.positions.row(b);
+    // Interior edge: mean of both ends and both face points. Boundary edge: midpoint.
     const bool inside = edges.faces[static_cast<std::size_t>(e)] == 2;
     points.row(e) =
         inside ? Eigen::RowVector3d((ends + of_faces.row(e)) / 4) : Eigen::RowVector3d(ends / 2);

@@ -30,9 +30,8 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 /// Polygon f owns the corners [face_offsets[f], face_offsets[f + 1]).
 struct Topology {
   Index vertex_count = 0;
-  std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
-  /// #C: row of the texture coordinates for each corner, or kNoIndex; or empty.
-  std::vector<std::uint32_t> corner_uvs;
+  std::vector<std::uint32_t> corner_vertices;     ///< #C, each < vertex_count
+  std::vector<std::uint32_t> corner_uvs;          ///< #C rows of the UVs, or kNoIndex; may be empty
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1, ascending
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }

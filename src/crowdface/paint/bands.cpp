@@ -74,6 +74,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     const double t = std::clamp((height - low) / (step * (kBins - 1)), 0.0, 1.0);
     return (1 - t) * breadth.front() + t * breadth.back();
   };
+  // The height at which the ears protrude most.
   double most = 0;
   int at = 0;
   const auto stands_out = [&](int i) {
@@ -85,11 +86,13 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     at = i;
   }
   if (most < kLeastEar * face) return std::nullopt;
+  // The range of heights around it in which the ears protrude enough.
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kOfMost * most) --bottom;
   while (top < kBins - 1 && stands_out(top + 1) > kOfMost * most) ++top;
   EarBox ears{low + bottom * step, low + top * step, std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  // The extent of the ears from front to back and their inner rim, from the vertices in this range.
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);

@@ -17,8 +17,8 @@ class DepthMap {
   /// \param square  edge length of a square
   DepthMap(const Positions& samples, const HeadAxes& axes, double square);
 
-  /// Reduces noise: replaces each depth by the mean over three by three squares, without the
-  /// squares that do not show the surface.
+  /// Reduces noise: replaces each depth by the mean of the known depths in three by three squares.
+  /// Also fills empty squares next to the surface; the outermost squares of the grid stay unchanged.
   void soften();
 
   const Eigen::AlignedBox2d& box() const { return box_; }

@@ -134,6 +134,7 @@ class Outline {
       front = std::max(front, lower.y() + t * (upper.y() - lower.y()));
     }
   }
+  /// Interpolates linearly at heights without skin, and repeats the outermost values at the ends.
   void fill_gaps() {
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < front_.size(); ++i) {

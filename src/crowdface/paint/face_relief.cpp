@@ -133,6 +133,7 @@ class Refinement {
 
   ReliefMatch find() {
     search();
+    // A slope of the depths shows that the head is pitched: compensate the pitch and search again.
     const double pitch = std::atan(slope_up_) / kRadians;
     if (std::abs(pitch) >
         // Smaller angles come from the person's posture or from the form of the face.
@@ -159,6 +160,7 @@ class Refinement {
     }
   }
 
+  /// Tries a step of each parameter in both directions.
   void step_all(double step) {
     for (const double sign : {1.0, -1.0}) {
       const HeadAxes axes = best_.axes;
@@ -186,6 +188,7 @@ class Refinement {
     }
   }
 
+  /// Keeps a match if it agrees better than the best match and its stretch is plausible.
   void try_match(const ReliefMatch& match) {
     if (!map_ || match.axes.front != map_axes_.front || match.axes.up != map_axes_.up) {
       map_.emplace(near_, match.axes, square_).soften();
@@ -207,7 +210,7 @@ class Refinement {
   }
 
   Positions near_;
-  std::optional<DepthMap> map_;  ///< depths along map_axes_
+  std::optional<DepthMap> map_;  ///< depth map seen along map_axes_
   HeadAxes map_axes_;
   double square_ = 1, slope_up_ = 0;
   ReliefMatch best_;

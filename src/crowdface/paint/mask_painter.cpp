@@ -144,6 +144,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
       all.push_back(surface_.nearest(mirror_.image(place.position)));
     }
   }
+  // The strength is constant in the core of the brush and falls off towards its rim.
   std::vector<Touched> touched;
   std::vector<std::uint32_t> rows;
   const double core = (1 - brush.falloff) * brush.radius;
@@ -152,6 +153,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
     touched.push_back({vertex, brush.strength * soft});
     rows.push_back(vertex);
   }
+  // Saves the weights before the change, for undo.
   if (!goes_on || done_.empty()) done_.emplace_back();
   for (const std::uint32_t v : rows) done_.back().try_emplace(v, alpha_.row(v));
   switch (brush.mode) {

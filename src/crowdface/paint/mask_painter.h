@@ -34,7 +34,7 @@ class MaskPainter {
   using Alpha = RegionWeights::Alpha;
 
   /// \param positions  #V by 3, of the head to paint on. Topology and positions must outlive this
-  ///         object.
+  ///                   object.
   /// \param mirror     symmetry plane of the head.
   /// \param alpha      #V by #R.
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
@@ -46,7 +46,7 @@ class MaskPainter {
   /// Applies one brush stroke at several places. The strength at a vertex is the largest strength
   /// from any of the places.
   /// \param goes_on  whether the stroke continues the previous stroke, so that one undo covers
-  ///         both.
+  ///                 both.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,

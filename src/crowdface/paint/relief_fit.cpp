@@ -38,7 +38,7 @@ constexpr int kTerms = 6;  // terms of a fit: 1, x, y, x², y², relief
 using Coefficients = Eigen::Matrix<double, kTerms, 1>;
 using Products = Eigen::Matrix<double, kTerms, kTerms>;
 
-constexpr double kUnitMm = 40;  // unit of x and y in the terms
+constexpr double kUnitMm = 40;  // unit of x and y in the terms, in mm
 
 /// The terms of each cell, and the sum of their outer products over all cells.
 struct Terms {

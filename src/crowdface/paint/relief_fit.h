@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The depths of a mean face, and how the depths of a surface compare with them.
+// The depths of a mean face, and the comparison of the depths of a surface with the mean face.
 #pragma once
 
 #include <array>

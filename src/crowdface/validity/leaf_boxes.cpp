@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/validity/leaf_boxes.cpp"
 #include "hwy/foreach_target.h"
-// Highway's order of includes: foreach_target.h first, then what is compiled once for each target.
+// Highway requires this order: foreach_target.h first, then code compiled once for each target.
 #include <algorithm>
 #include <limits>
 

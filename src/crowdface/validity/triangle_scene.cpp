@@ -184,7 +184,7 @@ std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
-  // Enough for fewer than 2³² triangles, since each level halves their number.
+  // Size of the stack: suffices for 2³² triangles, because each level halves their number.
   constexpr std::size_t kDeepest = 40;
   std::array<std::uint32_t, kDeepest> waiting;
   std::size_t count = 0;
