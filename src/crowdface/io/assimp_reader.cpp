@@ -82,7 +82,7 @@ void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::str
       aiString name;
       if (material.GetTexture(type, 0, &name) != aiReturn_SUCCESS) continue;
       const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
-      // a compressed image file
+      // A height of 0 means a compressed image file.
       const bool is_inside = texture != nullptr && texture->mHeight == 0;
       beside.emplace_back(is_inside ? "" : name.C_Str());
       mesh.textures.push_back(

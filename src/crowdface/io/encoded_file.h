@@ -31,7 +31,7 @@ class EncodedFile {
   /// with `refer_to`.
   char* reserve(std::size_t capacity);
 
-  /// Replaces the first line that begins with `word` and a space, and removes all later such lines.
+  /// Replaces the first line that begins with `word` and a blank, and removes all later such lines.
   /// \return whether the file had such a line.
   bool replace_line(std::string_view word, std::string_view line);
 

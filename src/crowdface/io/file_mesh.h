@@ -40,7 +40,7 @@ struct FileMesh : Mesh {
 void join_split_vertices(FileMesh& mesh);
 
 /// Parses a PLY or STL file.
-/// \param name  of the file, for messages.
+/// \param name  name of the file, for messages.
 FileMesh parse_ply(std::string_view bytes, const std::string& name);
 FileMesh parse_stl(std::string_view bytes, const std::string& name);
 /// Parses glTF 2.0 (GLB or JSON text): the triangles of all nodes of the scene, transformed by

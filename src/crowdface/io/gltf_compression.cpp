@@ -10,7 +10,7 @@ namespace crowdface {
 
 std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptView& view) {
   constexpr std::size_t kMostStride = 256;
-  // the codec's largest compression ratio
+  // The codec's largest compression ratio
   constexpr std::size_t kMostTimes = 256, kTail = 4096;
   const bool attributes = view.mode == "ATTRIBUTES";
   const bool sound = view.stride > 0 && view.stride <= kMostStride && view.count > 0 &&

@@ -256,7 +256,7 @@ std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
                          json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
   } else {
     if (json.contains("sparse")) {
-      // enlarges the limit
+      // Reading a view enlarges the limit that the next check uses.
       view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());
     }
     if (count > room_ / width) require_room(room_ + 1);

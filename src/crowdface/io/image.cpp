@@ -79,7 +79,7 @@ void check_size(const path& file, const PictureFacts& spec, const ImageLimits& l
 /// Bits per pixel before a palette is resolved. Expects a valid PNG header that libpng has
 /// accepted.
 std::uint64_t png_bits_per_pixel(std::string_view bytes) {
-  // samples per pixel for each PNG colour type
+  // Samples per pixel for each PNG colour type
   constexpr std::uint64_t kSamples[8] = {1, 0, 3, 1, 2, 0, 4, 0};
   const auto depth = static_cast<unsigned char>(bytes[24]);
   return depth * kSamples[static_cast<unsigned char>(bytes[25]) & 7U];

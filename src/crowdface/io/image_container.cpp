@@ -49,7 +49,7 @@ struct Attribute {
 /// empty name ends a header.
 class ExrHeader {
  public:
-  // skips magic number and version
+  // Skips magic number and version.
   explicit ExrHeader(std::string_view bytes)
       : bytes_(bytes), at_(std::min<std::size_t>(8, bytes.size())) {}
 

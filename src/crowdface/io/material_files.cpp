@@ -67,7 +67,7 @@ bool is_name_of_ours(const fs::path& relative) {
 std::string_view objection_to(const fs::path& relative) {
   if (!stays_inside(relative)) return "lies outside the head's folder";
   if (is_name_of_ours(relative)) return "has a name that belongs to crowdface's own files";
-  // because ledger and report are UTF-8
+  // Ledger and report are UTF-8.
   if (!is_utf8(relative.native())) return "has a name that is not UTF-8";
   return {};
 }
@@ -234,7 +234,7 @@ class Collector {
   std::set<std::string> materials_;  ///< materials defined in all libraries
   Names libraries_, textures_;
   std::set<fs::path> destinations_;
-  /// By text of the statement; valid for one library.
+  /// Texture path for the text of each statement; valid within one library.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
   /// The uses and files of one texture name.

@@ -41,7 +41,7 @@ enum class FileNormals {
 /// Properties of a format: all that the program needs to plan, name, read and check its files.
 struct MeshFormatTraits {
   MeshFormat format;
-  std::string_view name;        ///< the word in the config: "points"
+  std::string_view name;        ///< name in the config: "points"
   std::string_view extension;   ///< ".npy"
   std::string_view report_key;  ///< key of the face's file in report.json
   bool has_faces;               ///< the file stores the faces, so levels of detail can be written

@@ -78,7 +78,7 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
 
 /// Takes the values that the scan determines better than the loader.
 void take_places(ObjScan scan, ObjFile& result) {
-  // correctly rounded; the loader's positions are not
+  // Scanned positions are rounded correctly; the loader's positions are not.
   result.positions = std::move(scan.positions);
   result.material_libraries = std::move(scan.material_libraries);
   result.materials = std::move(scan.materials);

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kMostCorners = 255;  // the loader counts corners in one byte
 constexpr std::uint64_t kMostPerVertex = 8;
-// of a material name, a group name, or a list of material files
+// Longest material name, group name, or list of material files, in bytes.
 constexpr std::size_t kLongestObjName = 1000;
-// beyond this, single precision cannot resolve a tenth of a unit
+// Beyond this, single precision cannot resolve a tenth of a unit
 constexpr double kLargestCoordinate = 1e7;
 
 /// Splits a line into words without copying.

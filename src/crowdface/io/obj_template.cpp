@@ -37,7 +37,7 @@ char* write_coloured(char* out, const Positions& rows, const ColourRows& colours
 
 /// The location of x y z in a `v` or `vn` line.
 struct Coordinates {
-  std::string_view text;  ///< empty if the line is another
+  std::string_view text;  ///< empty if the line is neither `v` nor `vn`
   bool is_normal = false;
 };
 

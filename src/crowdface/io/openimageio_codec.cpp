@@ -119,7 +119,7 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
     spec.set_format(OIIO::TypeDesc::HALF);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "linear");
-    // otherwise the writer stores the current time
+    // Otherwise the writer stores the current time.
     spec.attribute("DateTime", "2000:01:01 00:00:00");
     return "openexr";
   }

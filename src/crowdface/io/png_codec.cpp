@@ -64,7 +64,7 @@ void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::
   const bool known = info != nullptr && succeeds(png, [&] {
                        png_set_read_fn(png, &opened->rest, take_bytes);
                        png_read_info(png, info);
-                       // expands palettes, depths below 8 bits, and transparent colours
+                       // Expands palettes, depths below 8 bits, and transparent colours
                        png_set_expand(png);
                        png_set_swap(png);
                        png_set_interlace_handling(png);

@@ -95,7 +95,7 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
   }
 }
 
-/// Reads positions, and faces if there is a file with faces beside.
+/// Reads positions, and faces if the folder has a file of faces.
 FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   const NpyArray array = parse_npy(bytes, path.string());
   const bool is_list = array.shape.size() == 3 && array.shape[0] != 1;

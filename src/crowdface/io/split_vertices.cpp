@@ -13,7 +13,7 @@ SplitVertices split_vertices(const Topology& topology) {
   std::iota(split.vertices.begin(), split.vertices.end(), 0U);
   split.uvs.assign(count, kNoIndex);
   std::vector<bool> seen(count, false);
-  // next split vertex of the same original vertex; rarely more than two
+  // Next split vertex of the same original vertex; rarely more than two
   std::vector<std::uint32_t> next(count, kNoIndex);
   const auto find = [&](std::uint32_t vertex, std::uint32_t uv) {
     if (!seen[vertex]) split.uvs[vertex] = uv;

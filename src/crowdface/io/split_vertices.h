@@ -19,7 +19,7 @@ struct SplitVertices {
   std::vector<std::uint32_t> uvs;
   /// Triangles of all polygons in order; each polygon is a fan around its first corner.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> triangle_faces;  ///< polygon of each triangle
+  std::vector<std::uint32_t> triangle_faces;  ///< index of the polygon that contains each triangle
 };
 
 SplitVertices split_vertices(const Topology& topology);

@@ -93,7 +93,7 @@ FileMesh parse_stl(std::string_view bytes, const std::string& name) {
   if (!is_exact && is_stl_text(bytes)) return StlText(bytes, name).read();
   const std::size_t room = bytes.size() < kStlHeader ? 0 : (bytes.size() - kStlHeader) / kStlRecord;
   const std::size_t count = claimed == 0 ? room : std::min<std::size_t>(claimed, room);
-  // In a text that does not begin like STL, the count is made of letters.
+  // If the file is a text of another kind, `count` consists of letters and is meaningless.
   if (count == 0 || (claimed > room && (bytes.size() - kStlHeader) % kStlRecord != 0)) {
     fail_stl(name, concat("it has ", bytes.size(), " bytes and claims ", claimed, " triangles"));
   }

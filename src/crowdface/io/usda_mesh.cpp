@@ -84,7 +84,7 @@ void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& posit
                   kUsdaPoints));
   file.add(usda_rows(positions));
   file.add("]\n");
-  // viewers compute the normals of a subdivided surface
+  // Viewers compute the normals of a subdivided surface
   if (subdivision_ == Subdivision::kNone) {
     require_finite(normals, vertices_, what);
     file.add("            normal3f[] normals = [");

@@ -55,7 +55,7 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   TextureCoordinates uvs = TextureCoordinates::Zero(static_cast<Index>(vertices.size()), 2);
   for (Index i = 1; i < uvs.rows(); ++i) {
     const auto& place = options.overlay->places[vertices[static_cast<std::size_t>(i)]];
-    // measured from the left and lower edge
+    // Measured from the left and lower edge
     uvs.row(i) << place[0] / 65535.0, 1 - place[1] / 65535.0;
   }
   return concat("            texCoord2f[] primvars:st1 = ", usda_uvs(uvs),

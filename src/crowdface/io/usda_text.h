@@ -23,7 +23,7 @@ class UsdaNames {
   std::set<std::string> known_;
 };
 
-/// "[1, 2, 3]".
+/// Formats a list: "[1, 2, 3]".
 std::string usda_list(std::span<const std::uint32_t> numbers);
 std::string usda_list(std::span<const std::string> items);
 /// `"text"`, with special characters escaped.

@@ -65,7 +65,7 @@ std::vector<WrapLandmark> with_sides_exchanged(const std::vector<WrapLandmark>& 
 
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks) {
-  constexpr std::size_t kFewest = 5;  // four points in general position are not enough
+  constexpr std::size_t kFewest = 5;  // four points cannot reveal a reflection
   if (landmarks.size() < kFewest) return;
   const double as_they_are = residual_of(positions, landmarks);
   if (!(as_they_are > kLeastMm)) return;

@@ -10,7 +10,7 @@
 namespace crowdface {
 
 inline constexpr double kFarFromScanMm =
-    3;  ///< farther off the scan than this skin does not lie on it
+    3;  ///< skin farther than this from the scan does not fit the scan
 
 /// Regions of the skin that a report lists separately.
 struct SkinRegions {
