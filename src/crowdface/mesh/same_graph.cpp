@@ -200,6 +200,7 @@ class Matcher {
       pairs.emplace_back(v, w);
       return true;
     };
+    // Traverse corresponding polygons of a and b and cross their edges to the next polygons.
     while (fits && !open.empty()) {
       auto [c, d] = open.back();
       open.pop_back();
@@ -215,6 +216,7 @@ class Matcher {
         if (fits && e != kNoIndex) open.emplace_back(e, g);
       }
     }
+    // Undo all marks: match_from chooses among several results and applies one.
     for (const std::uint32_t f : faces) seen_[f] = false;
     for (const auto& [v, w] : pairs) {
       to_b_[v] = kNoIndex;
@@ -230,6 +232,7 @@ class Matcher {
     return sum;
   }
 
+  /// Moves b rigidly so that the matched vertices lie as close together as possible.
   void align(const Pairs& pairs) {
     Positions from(static_cast<Index>(pairs.size()), 3), to(static_cast<Index>(pairs.size()), 3);
     for (std::size_t i = 0; i < pairs.size(); ++i) {

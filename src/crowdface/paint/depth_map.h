@@ -18,7 +18,7 @@ class DepthMap {
   DepthMap(const Positions& samples, const HeadAxes& axes, double square);
 
   /// Reduces noise: replaces each depth by the mean of the known depths in three by three squares.
-  /// Also fills empty squares next to the surface; the outermost squares of the grid stay unchanged.
+  /// Also fills empty squares next to the surface. The outermost squares of the grid do not change.
   void soften();
 
   const Eigen::AlignedBox2d& box() const { return box_; }

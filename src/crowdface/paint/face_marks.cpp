@@ -257,6 +257,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
       return measure(h) - prior * off * off;
     });
   };
+  // Bridge and mouth are the deepest hollows near their expected heights.
   marks.bridge = best_near(kBridgeMm, kBridgeReachMm,
                            [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
   marks.mouth = best_near(kMouthMm, kMouthReachMm,
@@ -266,12 +267,14 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   const double slope =
       (closed.at(marks.bridge) - closed.at(marks.mouth)) / std::max(marks.bridge - marks.mouth, mm);
   marks.tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h) - slope * h; });
+  // The eyes lie at a fixed distance from the bridge, or where eyeballs near this height are.
   marks.eyes = marks.bridge - kBridgeMm * match.stretch * mm;
   double of_balls = 0;
   for (const Eigen::Vector3d& eye : head.eyeballs) {
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
   }
   if (!head.eyeballs.empty() && std::abs(of_balls - eyes) < kEyesNearMm * mm) marks.eyes = of_balls;
+  // The chin is the most convex point of the profile below the mouth.
   const double face = marks.face();
   marks.chin = outline.best(marks.mouth - kMostChin * face, marks.mouth - kLeastChin * face,
                             [&](double h) { return -outline.hollow(h, kChinWay * face); });

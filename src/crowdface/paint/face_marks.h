@@ -15,11 +15,11 @@ namespace crowdface {
 struct FaceMarks {
   HeadAxes axes;          ///< axes of the face, see ReliefMatch
   double middle = 0;      ///< position of the symmetry plane along axes.side()
-  double bridge = 0;      ///< deepest point of the bridge of the nose, between the eyes
-  double tip = 0;         ///< tip of the nose
-  double eyes = 0;        ///< centres of the eyes
-  double mouth = 0;       ///< line between the lips
-  double chin = 0;        ///< lowest point of the chin
+  double bridge = 0;      ///< height of the deepest point of the bridge of the nose
+  double tip = 0;         ///< height of the tip of the nose
+  double eyes = 0;        ///< height of the centres of the eyes
+  double mouth = 0;       ///< height of the line between the lips
+  double chin = 0;        ///< height of the most convex point of the profile of the chin
   double chin_front = 0;  ///< how far in front the chin is, along axes.front
   /// Distance from mouth to eyes, about 65 mm. It is the unit for other lengths.
   double face() const { return eyes - mouth; }

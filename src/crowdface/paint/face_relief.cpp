@@ -72,6 +72,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   const DepthMap map(samples, axes, diagonal_of(samples) / kSquares);
   const Eigen::AlignedBox2d& box = map.box();
   const double breadth = box.sizes().x();
+  // Sizes to try, in a geometric sequence; each size is searched in parallel.
   std::vector<Candidate> of_scale;
   for (double scale = kLeastShare * breadth / kReliefMm; scale < kMostShare * breadth / kReliefMm;
        scale *= grow) {
@@ -82,6 +83,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
     const double scale = best.scale;
     const double top = box.max().y() - 0.5 * kReliefTopMm * scale,
                  low = box.min().y() + kReliefTopMm * scale;
+    // All heights, and positions across up to a quarter of the breadth from the middle.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
       for (int i = -aside; i <= aside; ++i) {
@@ -279,6 +281,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::votes);
     if (match.votes <= -1) return match;
+    // The requested axes nearest to the axes of the face.
     match.view = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
