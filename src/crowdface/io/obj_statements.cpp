@@ -7,7 +7,7 @@
 namespace crowdface {
 namespace {
 
-/// Statements without geometry that this program uses; they are copied unchanged.
+/// OBJ statements whose content this program does not use; it copies them unchanged.
 constexpr std::array<std::string_view, 31> kOtherStatements = {
     "g",        "s",        "o",    "usemtl", "mtllib", "l",          "p",        "vp",
     "cstype",   "deg",      "bmat", "step",   "curv",   "curv2",      "surf",     "parm",

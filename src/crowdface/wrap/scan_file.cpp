@@ -64,8 +64,8 @@ void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
                      " triangles at one vertex, at (", at.x(), ", ", at.y(), ", ", at.z(), ")"));
 }
 
-/// Handles positions that are not finite: moves unused vertices to an arbitrary finite position,
-/// and removes triangles that use such vertices.
+/// Handles vertices with positions that are not finite: removes the triangles that use such
+/// vertices, and moves the vertices to the position of another vertex.
 void leave_out_unplaced(Scan& scan) {
   const auto is_placed = [&](std::uint32_t v) { return scan.positions.row(v).allFinite(); };
   if (scan.positions.allFinite()) return;

@@ -54,7 +54,8 @@ class SurfaceTree {
 
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;
-  std::vector<Eigen::Vector3d> facing_;     ///< mean vertex normal of each triangle
+  /// for each triangle, the mean of its corners' normals
+  std::vector<Eigen::Vector3d> facing_;
   MedianSplitTree tree_;                    ///< over the triangles with an area
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Index kFewestVertices = 100;
 
-/// Computes openness; for a large skin only at the vertices of its reduced skin.
+/// Computes the openness of the skin; for a large skin, only at the vertices of its reduced skin.
 void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
   const Positions normals = vertex_normals(shape.topology, shape.positions);
   const std::vector<Triangle> solid = solid_triangles(shape);
