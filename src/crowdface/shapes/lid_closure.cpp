@@ -20,9 +20,6 @@ namespace {
 constexpr double kWholeShare = 1.8, kNoShare = 3;
 // Keeping off acts fully up to kWholeHold from the eyeball's surface, not at all from kNoHold on.
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;
-/// Keeping off the eyeball grows from 0 to 1 over kHoldOver above kHoldFrom, in the cosine between
-/// a vertex's direction and the front. With −2 it is 1 everywhere.
-constexpr double kHoldFrom = -2, kHoldOver = 0.25;
 constexpr std::size_t kPlaces = 52;  // number of places along the opening
 constexpr double kProfile = 0.35;    // radius of a profile around its place
 constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
@@ -97,11 +94,9 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
     const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
-    const double cosine = from.dot(axes.front) / from.norm();
     Lid lid{row, v, i, 0, 0};
     lid.hold = smooth_step(kNoHold * radius_, kWholeHold * radius_,
-                           std::min(std::abs(gap_before), std::abs(gap_after))) *
-               std::clamp((cosine - kHoldFrom) / kHoldOver, 0.0, 1.0);
+                           std::min(std::abs(gap_before), std::abs(gap_after)));
     if (!places_.empty())
       lid.share = smooth_step(kNoShare * radius_, kWholeShare * radius_, from.norm());
     if (lid.share > 0 || lid.hold > 0) lids_.push_back(lid);
