@@ -211,7 +211,8 @@ class PlyReader {
         mesh_.positions(v, column) = values[place[c]];
         if (has_colours) {
           const double full = element.properties[colour[c]].type.full;
-          mesh_.colours(v, column) = std::clamp(values[colour[c]] / full, 0.0, 1.0);
+          const double share = values[colour[c]] / full;
+          mesh_.colours(v, column) = std::isnan(share) ? 0 : std::clamp(share, 0.0, 1.0);
         }
         if (has_vertex_uvs_ && c < 2) mesh_.uvs(v, column) = values[uv[c]];
       }
