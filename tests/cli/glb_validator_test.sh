@@ -36,7 +36,11 @@ const joint = scene.nodes.length;
 scene.nodes.push({ name: 'neck', children: [joint + 1] }, { name: 'jaw', translation: [0, 0.05, 0.02] });
 const face = scene.nodes.findIndex((node) => 'mesh' in node);
 scene.nodes[face].skin = 0;
-scene.skins = [{ joints: [joint, joint + 1] }];
+// A skin holds its mesh by the joints alone, so the inverse bind matrices have the scale of the mesh's node.
+const scale = scene.nodes.find((node) => 'scale' in node).scale[0];
+const held = (x, y, z) => [scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, x, y, z, 1];
+const matrices = Float32Array.from([...held(0, 0, 0), ...held(0, -0.05, -0.02)]);
+scene.skins = [{ joints: [joint, joint + 1], inverseBindMatrices: add(matrices, 5126, 'MAT4', 2) }];
 scene.scenes[0].nodes.push(joint);
 for (const primitive of scene.meshes[scene.nodes[face].mesh].primitives) {
   const { count } = scene.accessors[primitive.attributes.POSITION];

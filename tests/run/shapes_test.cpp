@@ -77,7 +77,7 @@ TEST_F(ShapesOfACrowd, ThatAreGoneLeaveNoFile) {
   fs::remove(folder_ / "shapes/other.obj");
   run("[obj]");
   EXPECT_FALSE(fs::exists(mesh(id + "+other.obj")));
-  EXPECT_TRUE(fs::exists(mesh(id + "+still.obj")));
+  EXPECT_TRUE(fs::exists(mesh(id + ".obj")));
   EXPECT_TRUE(fs::exists(mesh("mine.obj")));
   EXPECT_TRUE(verify_crowd(folder_.out()).good());
 }
