@@ -95,10 +95,11 @@ class EditCommandTest : public ::testing::Test {
     return result;
   }
   void wait_for_address() {
-    for (int i = 0; i < 600 && !std::filesystem::exists(edited(".address")); ++i) {
+    for (int i = 0; i < 600; ++i) {
+      address_ = read_text(edited(".address"));
+      if (!address_.empty()) break;  // the file is there before the address stands in it
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    address_ = read_text(edited(".address"));
     ASSERT_THAT(address_, ::testing::StartsWith("http://127.0.0.1:"));
     host_ = address_.substr(0, address_.find('/', 7));
     path_ = address_.substr(host_.size());
