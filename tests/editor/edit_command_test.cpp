@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include <Eigen/Core>  // before httplib.h, whose headers of the system clang cannot read before Eigen's
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
