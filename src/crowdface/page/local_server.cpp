@@ -62,7 +62,7 @@ HttpAnswer refuse(int status, std::string_view sentence) {
 }
 
 std::string format_answer(const HttpAnswer& answer, bool with_body, bool closes) {
-  static const std::map<int, std::string_view> kReasons = {
+  static const std::map<int, std::string_view> reasons = {
       {200, "OK"},
       {202, "Accepted"},
       {400, "Bad Request"},
@@ -74,9 +74,9 @@ std::string format_answer(const HttpAnswer& answer, bool with_body, bool closes)
       {413, "Content Too Large"},
       {415, "Unsupported Media Type"},
       {431, "Request Header Fields Too Large"}};
-  const auto reason = kReasons.find(answer.status);
+  const auto reason = reasons.find(answer.status);
   return concat(
-      "HTTP/1.1 ", answer.status, ' ', reason == kReasons.end() ? "Error" : reason->second,
+      "HTTP/1.1 ", answer.status, ' ', reason == reasons.end() ? "Error" : reason->second,
       "\r\nContent-Type: ", answer.type, "\r\nContent-Length: ", answer.bytes.size(),
       "\r\nConnection: ", closes ? "close" : "keep-alive",
       "\r\nContent-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; "
