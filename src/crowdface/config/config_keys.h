@@ -56,9 +56,9 @@ struct Key {
   Key in_starter(const StarterLines& lines) const {
     return in_starter([=](const StarterFacts&) { return lines; });
   }
-  Key taking(std::string values) const {
+  Key taking(const std::string& values) const {
     Key key = *this;
-    key.takes = std::move(values);
+    key.takes = values;
     return key;
   }
   /// Documents a value that is a mapping. \param keys  keys of that mapping; must outlive this key.

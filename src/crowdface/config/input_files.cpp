@@ -44,11 +44,11 @@ std::vector<fs::path> visible_files(const fs::path& folder,
 
 /// Returns whether the file's extension belongs to a format that may contain a mesh.
 bool may_hold_mesh(const fs::path& path) {
-  static const std::set<std::string> kEndings = {
+  static const std::set<std::string> endings = {
       ".3ds",  ".3mf",  ".abc", ".blend", ".bgeo", ".c4d", ".dae", ".gz",  ".lwo",
       ".ma",   ".max",  ".mb",  ".npz",   ".off",  ".pkl", ".stl", ".usd", ".usdc",
       ".usdz", ".vrml", ".wrl", ".x3d",   ".zip",  ".zpr", ".ztl"};
-  return kEndings.contains(lower_case(path.extension().string())) || is_head_file(path);
+  return endings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
 /// Returns whether a name matches a pattern with the wildcards `*` and `?`.

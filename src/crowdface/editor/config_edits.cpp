@@ -52,7 +52,7 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   const YamlEntry* named = root.find("edits");
   const std::string name =
       named != nullptr ? named->value.text : concat(config.stem().string(), "_edits.yaml");
-  const fs::path file = config.parent_path() / name;
+  fs::path file = config.parent_path() / name;
 
   YamlNode edits;
   // A file that the config does not name yet may contain the edits of an editor that was killed.

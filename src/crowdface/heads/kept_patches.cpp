@@ -31,8 +31,9 @@ KeptPatches kept_patches(const CacheFolder& cache, const Digest& key, Index vert
                                 [&](PatchLists& lists, const CacheEntry& entry) {
                                   lists.owner = kept.mapped = entry.file();
                                   auto patches = FieldPatches::of(lists, vertex_count, ranks);
-                                  if (patches) kept.patches = *std::move(patches);
-                                  return patches.has_value();
+                                  if (!patches) return false;
+                                  kept.patches = *std::move(patches);
+                                  return true;
                                 })
             .has_value();
     return is_there ? std::optional(std::move(kept)) : std::nullopt;

@@ -62,18 +62,17 @@ HttpAnswer refuse(int status, std::string_view sentence) {
 }
 
 std::string format_answer(const HttpAnswer& answer, bool with_body, bool closes) {
-  static const std::map<int, std::string_view> reasons = {
-      {200, "OK"},
-      {202, "Accepted"},
-      {400, "Bad Request"},
-      {403, "Forbidden"},
-      {404, "Not Found"},
-      {405, "Method Not Allowed"},
-      {409, "Conflict"},
-      {411, "Length Required"},
-      {413, "Content Too Large"},
-      {415, "Unsupported Media Type"},
-      {431, "Request Header Fields Too Large"}};
+  static const std::map<int, std::string_view> reasons = {{200, "OK"},
+                                                          {202, "Accepted"},
+                                                          {400, "Bad Request"},
+                                                          {403, "Forbidden"},
+                                                          {404, "Not Found"},
+                                                          {405, "Method Not Allowed"},
+                                                          {409, "Conflict"},
+                                                          {411, "Length Required"},
+                                                          {413, "Content Too Large"},
+                                                          {415, "Unsupported Media Type"},
+                                                          {431, "Request Header Fields Too Large"}};
   const auto reason = reasons.find(answer.status);
   return concat(
       "HTTP/1.1 ", answer.status, ' ', reason == reasons.end() ? "Error" : reason->second,

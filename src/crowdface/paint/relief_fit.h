@@ -22,7 +22,8 @@ constexpr double across_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }
 constexpr double height_mm(int cell) {
-  return kReliefTopMm - kReliefSpacingMm * (cell / kReliefColumns);
+  const int row = cell / kReliefColumns;
+  return kReliefTopMm - kReliefSpacingMm * row;
 }
 /// Depth of the mean face in a cell, relative to the tip of the nose; negative behind the tip.
 double relief_mm(int cell);
