@@ -104,7 +104,7 @@ TEST(Import, MakeHumanHeadsAreDressed) {
   import(0, "heads", {"--dress"});
   EXPECT_TRUE(fs::exists(folder / "heads/attachments/base.obj"));
   folder.write("heads/makehuman_02_skin.png", "painted over");
-  import(64, "heads", {"--dress"}, {"makehuman_02_skin.png: exists"});
+  import(64, "heads", {"--dress"}, {"makehuman_02_skin.png: already exists"});
   import(0, "fine", {"--dress", "--vertices", "1100"});
   EXPECT_EQ(read_obj(folder / "fine/attachments/base.obj").topology.vertex_count,
             read_obj(folder / "fine/makehuman_03.obj").topology.vertex_count);
@@ -132,7 +132,7 @@ TEST(Import, IctHeadsKeepTheirFileAndTiles) {
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--dress"}, {"--dress"});
   crowdface(0, {"import", "ict", "--data", kit, "-o", out, "--count", "3"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--count", "2", "--seed", "2"},
-            {"ict_01.obj: exists", "ict_02.obj: exists"});
+            {"ict_01.obj: already exists", "ict_02.obj: already exists"});
 }
 
 TEST(Import, WhatIsNotThereIs66) {

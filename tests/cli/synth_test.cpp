@@ -45,7 +45,8 @@ TEST(Synth, GoesOnAndKeepsWhatSomebodyChanged) {
   folder.write("heads/synth_01.obj", "sculpted\n");
   folder.write("heads/tags.yaml", "known better\n");
   fs::remove(folder / "heads/synth_03.obj");
-  crowdface(64, command, {"heads/synth_01.obj: exists", "heads/tags.yaml: exists", "--force"});
+  crowdface(64, command,
+            {"heads/synth_01.obj: already exists", "heads/tags.yaml: already exists", "--force"});
   EXPECT_EQ(read_text(folder / "heads/synth_01.obj"), "sculpted\n");
   EXPECT_FALSE(fs::exists(folder / "heads/synth_03.obj")) << "nothing is written on refusal";
 
