@@ -80,5 +80,13 @@ TEST(Printable, NothingReachesATerminalThatItWouldObey) {
   EXPECT_EQ(printable("\xC2\xA0\xE2\x80\x8D\xE2\x82\xAC"), "\xC2\xA0\xE2\x80\x8D\xE2\x82\xAC");
 }
 
+TEST(PercentDecoded, DecodesWholeEscapesOnly) {
+  EXPECT_EQ(percent_decoded("a%20b%c3%A9"), "a b\xc3\xa9");
+  EXPECT_EQ(percent_decoded(""), "");
+  for (const char* text : {"%", "a%2", "%g0", "%+1", "%-1", "100% wool"}) {
+    EXPECT_EQ(percent_decoded(text), std::nullopt) << text;
+  }
+}
+
 }  // namespace
 }  // namespace crowdface

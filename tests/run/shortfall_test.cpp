@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 
 #include "support/crowd_files.h"
@@ -34,6 +35,24 @@ TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
   const auto first = log.find("faces are getting scarce: number 2 of 10 took 200 candidates");
   EXPECT_NE(first, std::string::npos) << log;
   EXPECT_EQ(log.find("getting scarce", first + 20), std::string::npos) << log;
+}
+
+TEST(TellShortfall, NamesTheHeadsOfAGroupThatHasFew) {
+  Config config;
+  config.faces.names = {"ann", "bob", "cyd"};
+  config.groups.resize(2);
+  config.groups[0] = {.name = "old_men", .sampling = {.sources = {1}}};
+  config.groups[1] = {.name = "women", .sampling = {.sources = {0, 1, 2}}};
+  const auto told = [&](int group) {
+    try {
+      tell_shortfall(config, {}, {0, {}, group});
+    } catch (const Unsatisfiable& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(told(0), ::testing::HasSubstr("more heads in the group old_men: its faces are "
+                                            "mixtures of bob only"));
+  EXPECT_THAT(told(1), ::testing::Not(::testing::HasSubstr("more heads in the group")));
 }
 
 }  // namespace

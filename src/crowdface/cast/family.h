@@ -34,7 +34,7 @@ struct FamilyOptions {
   std::vector<int> inherit;
   double max_distance_mm = 2.5;  ///< from the founder, who is not in the crowd
   double min_distance_mm = 0;    ///< between members
-  /// members are as similar as twins: within 0.5 mm of a hidden child
+  /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
   bool twins = false;
   Range age = {0, 0};  ///< see apply_age
 };

@@ -78,8 +78,8 @@ class MappedFile {
   std::shared_ptr<const std::string> text_;  ///< set by of_text, instead of `mapping_`
 };
 
-/// Writes a file atomically: afterwards the complete file has its final name, or the name is
-/// unchanged. Steps: write a temporary file in the same folder (locked until it is renamed, see
+/// Writes a file atomically: afterwards `path` is the complete new file, or the function throws and
+/// `path` is as before. Steps: write a temporary file in the same folder (locked until it is renamed, see
 /// remove_leftovers), fsync, close with error check, rename, fsync the folder. The file is the
 /// concatenation of `pieces`. All output files except the log are written this way.
 /// \throws CannotCreate, IoError; the temporary file is then removed.

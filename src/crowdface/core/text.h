@@ -113,4 +113,7 @@ std::string concat(const Parts&... parts) {
   return out;
 }
 
+/// Decodes percent escapes such as "%20" (RFC 3986). Returns nothing if an escape is incomplete.
+std::optional<std::string> percent_decoded(std::string_view text);
+
 }  // namespace crowdface

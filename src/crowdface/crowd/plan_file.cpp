@@ -107,7 +107,7 @@ class LineReader {
     return value.get<std::string>();
   }
 
-  /// Reads a name that becomes part of the names of pictures and meshes.
+  /// Reads and checks a name that is used in the file names of pictures and meshes.
   std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
     std::string name = text(json, key);
     if (!is_name(name, longest)) {

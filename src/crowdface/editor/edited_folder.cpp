@@ -97,7 +97,7 @@ fs::path EditedFolder::save(const Job& job, const CastFace& face, MeshFormat for
   require_same();
   const fs::path plan = path_ / kPlan, saving = path_ / concat(kSaving, face.id);
   const std::string ending(extension_of(format));
-  const std::string before = other_lines(plan, "", job.names);
+  const std::string before = is_there(plan) ? read_file(plan) : std::string();
   const std::string others = other_lines(plan, face.id, job.names);
   write_file(saving, ending);
   write_file(plan, others + format_recipe(face, job.names, job.settings) + '\n');

@@ -69,13 +69,13 @@ constexpr std::array<char, 4> number_type() {
 struct EntryArray {
   std::string name;  ///< at most 23 bytes
   std::array<char, 4> type;
-  std::uint32_t
-      columns;  ///< contiguous numbers: those of an element, or of a row of a row-major matrix
+  /// Number of contiguous numbers per element, or per row of a row-major matrix.
+  std::uint32_t columns;
   std::uint64_t rows;
   const void* data;
   std::uint64_t bytes;
-  std::shared_ptr<const void>
-      owner;  ///< keeps the numbers alive while the entry is written; null if the caller does
+  /// Keeps the numbers alive until the entry is written; null if the caller keeps them.
+  std::shared_ptr<const void> owner;
 };
 
 /// Collects arrays to write. `arrays("name", value)` accepts a number, a std::array of numbers, a

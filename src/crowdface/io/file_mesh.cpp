@@ -57,6 +57,17 @@ void join_uvs(FileMesh& mesh) {
 
 }  // namespace
 
+void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,
+              const std::vector<double>& colours) {
+  const auto rows = static_cast<Index>(points.size() / 3);
+  mesh.topology.vertex_count = rows;
+  mesh.positions = Eigen::Map<const Positions>(points.data(), rows, 3);
+  mesh.uvs =
+      Eigen::Map<const TextureCoordinates>(uvs.data(), static_cast<Index>(uvs.size() / 2), 2);
+  if (uvs.empty()) mesh.topology.corner_uvs.clear();
+  if (!colours.empty()) mesh.colours = Eigen::Map<const Positions>(colours.data(), rows, 3);
+}
+
 void join_split_vertices(FileMesh& mesh) {
   if (mesh.pieces.empty() && mesh.vertex_ids.empty()) return;
   join_vertices(mesh);

@@ -34,6 +34,13 @@ struct FileMesh : Mesh {
   std::vector<std::string> notes;     ///< repairs and omissions, one sentence each
 };
 
+/// Gives a mesh its vertices, texture coordinates and vertex colours. Without texture coordinates,
+/// clears those of the corners.
+/// \param points, colours  three numbers per vertex; `colours` may be empty
+/// \param uvs              two numbers per texture coordinate
+void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,
+              const std::vector<double>& colours);
+
 /// Merges vertices that a format has split at seams: vertices of the same mesh with the same id or,
 /// if the file has no ids, with the same position. Merged vertices are ordered by their first
 /// copies. Texture coordinates move from vertices to polygon corners.

@@ -55,20 +55,6 @@ std::string decoded_base64(std::string_view text) {
   return out;
 }
 
-/// Decodes percent escapes such as %20.
-std::string decoded_uri(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned value = 0;
-    const bool escaped = text[i] == '%' && i + 2 < text.size() &&
-                         std::from_chars(text.data() + i + 1, text.data() + i + 3, value, 16).ptr ==
-                             text.data() + i + 3;
-    out += escaped ? static_cast<char>(value) : text[i];
-    if (escaped) i += 2;
-  }
-  return out;
-}
-
 Eigen::Matrix4d local_matrix(const GltfJson& node) {
   if (node.contains("matrix")) return matrix_from(node.at("matrix").get<std::vector<double>>());
   const auto t = node.value("translation", std::vector<double>{0, 0, 0});
@@ -141,7 +127,7 @@ std::string GltfFile::resource(const std::string& uri, const std::string& what) 
     if (comma == uri.npos) fail(concat(what, " has no data"));
     return decoded_base64(std::string_view(uri).substr(comma + 1));
   }
-  const std::filesystem::path file = decoded_uri(uri);
+  const std::filesystem::path file = percent_decoded(uri).value_or(std::string(uri));
   const bool inside = file.is_relative() && !file.lexically_normal().string().starts_with("..");
   if (!inside) fail(concat("its data lie outside its folder, at ", quoted(uri)));
   if (!is_file(path_.parent_path() / file)) {

@@ -258,13 +258,7 @@ class GltfMeshReader {
   }
 
   void finish() {
-    const auto rows = static_cast<Index>(pieces());
-    mesh_.topology.vertex_count = rows;
-    mesh_.positions = Eigen::Map<const Positions>(points_.data(), rows, 3);
-    mesh_.uvs =
-        Eigen::Map<const TextureCoordinates>(uvs_.data(), static_cast<Index>(uvs_.size() / 2), 2);
-    if (uvs_.empty()) mesh_.topology.corner_uvs.clear();
-    if (any_colours_) mesh_.colours = Eigen::Map<const Positions>(colours_.data(), rows, 3);
+    set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
     if (!has_ids_) mesh_.vertex_ids.clear();
     std::set<std::string> used;
     for (const MaterialRange& range : mesh_.materials) used.insert(range.name);

@@ -104,9 +104,8 @@ class UsdaReader {
     }
     if (mesh_.positions.rows() == 0 && points_.empty()) {
       fail(
-          "it defines no mesh itself; if it refers to other files or has variants, usdcat "
-          "--flatten "
-          "-o flat.usda FILE makes one file of all");
+          "it defines no mesh itself; if it refers to other files or has variants, run usdcat "
+          "--flatten -o flat.usda FILE and read flat.usda");
     }
     finish();
     return std::move(mesh_);
@@ -302,15 +301,7 @@ class UsdaReader {
     return binding->texts[0].substr(binding->texts[0].rfind('/') + 1);
   }
 
-  void finish() {
-    const auto rows = static_cast<Index>(points_.size() / 3);
-    mesh_.topology.vertex_count = rows;
-    mesh_.positions = Eigen::Map<const Positions>(points_.data(), rows, 3);
-    mesh_.uvs =
-        Eigen::Map<const TextureCoordinates>(uvs_.data(), static_cast<Index>(uvs_.size() / 2), 2);
-    if (uvs_.empty()) mesh_.topology.corner_uvs.clear();
-    if (any_colours_) mesh_.colours = Eigen::Map<const Positions>(colours_.data(), rows, 3);
-  }
+  void finish() { set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>()); }
 
   UsdaTokens tokens_;
   FileMesh mesh_;

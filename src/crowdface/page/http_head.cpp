@@ -19,31 +19,6 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-std::optional<int> hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return std::nullopt;
-}
-
-std::optional<std::string> decoded(std::string_view text) {
-  constexpr int kHex = 16;
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    char c = text[i];
-    if (c == '%') {
-      if (i + 2 >= text.size()) return std::nullopt;
-      const auto high = hex_digit(text[i + 1]), low = hex_digit(text[i + 2]);
-      if (!high || !low) return std::nullopt;
-      c = static_cast<char>(kHex * *high + *low);
-      i += 2;
-    }
-    if (is_control(c)) return std::nullopt;
-    result += c;
-  }
-  return result;
-}
-
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
   return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
@@ -77,8 +52,11 @@ std::optional<HttpHead> parse_http_head(std::string_view text) {
       head.method = line.substr(0, method);
       const std::string_view protocol = line.substr(version + 1);
       const std::string_view target = line.substr(method + 1, version - method - 1);
-      auto path = decoded(target.substr(0, target.find('?')));
-      if (!is_token(head.method) || !path || target.find(' ') != target.npos) return std::nullopt;
+      auto path = percent_decoded(target.substr(0, target.find('?')));
+      if (!is_token(head.method) || !path || target.find(' ') != target.npos ||
+          std::ranges::any_of(*path, is_control)) {
+        return std::nullopt;
+      }
       if (protocol != "HTTP/1.1" && protocol != "HTTP/1.0") return std::nullopt;
       head.path = std::move(*path);
       head.is_last = protocol == "HTTP/1.0";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread reads all requests and writes all answers, and waits for no client; others answer whole requests. So a
-// client that is slow, or that does not know the token, holds nothing but its own connection.
+// One thread reads all requests and writes all answers without blocking; a pool of threads computes
+// the answers to complete requests. A slow client, or one that does not know the token, therefore
+// occupies only its own connection.
 #include "crowdface/page/local_server.h"
 
 #include <algorithm>
@@ -33,10 +34,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostHeadBytes = std::size_t{16} << 10U, kMostConnections = 64, kThreads = 16;
 constexpr auto kMoment = std::chrono::milliseconds(100);
-/// For a request's head from its first byte, for its body, and for a client to take the next piece of its answer.
+/// Time limits: for the head of a request, counted from its first byte; for a request with a body;
+/// and for a client to accept more of its answer.
 constexpr auto kPatience = std::chrono::seconds(5), kPatienceWithBody = std::chrono::seconds(60);
 
-/// 128 bits of the system's as 32 hexadecimal digits.
+/// Returns 128 random bits from the operating system as 32 hexadecimal digits.
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
@@ -47,7 +49,7 @@ std::string random_token() {
   return token;
 }
 
-/// The same, in a time that does not tell how much of it is right.
+/// Compares two texts in constant time, so that the time does not reveal a matching prefix.
 bool is_same(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned differences = 0;
@@ -88,10 +90,10 @@ std::string format_answer(const HttpAnswer& answer, bool with_body, bool closes)
 
 struct Connection {
   enum class State {
-    kReading,    ///< a request, or waiting for one
-    kAnswering,  ///< a thread is at it
-    kWriting,    ///< the answer
-    kLeaving     ///< told that no more will be read, so that the client can read the answer
+    kReading,    ///< waits for a request or reads it
+    kAnswering,  ///< a thread computes the answer
+    kWriting,    ///< sends the answer
+    kLeaving  ///< has closed its sending side, so that the client can read the rest of the answer
   };
   explicit Connection(Descriptor accepted) : socket(std::move(accepted)) {}
 
@@ -99,12 +101,12 @@ struct Connection {
   State state = State::kReading;
   std::string in, out;
   std::size_t sent = 0;
-  std::optional<HttpHead> head;  ///< of the request that is read
+  std::optional<HttpHead> head;  ///< head of the request being read
   std::size_t head_bytes = 0, body_bytes = 0;
-  bool closes = false;  ///< after the answer
-  /// When a head or a body began, or when the last piece of an answer was taken.
+  bool closes = false;  ///< whether to close the connection after the answer
+  /// Time at which the head or the body began, or at which the client last accepted bytes.
   Clock::time_point since = Clock::now();
-  std::optional<HttpAnswer> answer;  ///< by a thread, under the server's mutex
+  std::optional<HttpAnswer> answer;  ///< set by a thread; guarded by the server's mutex
 };
 
 }  // namespace
@@ -115,13 +117,14 @@ struct LocalServer::State {
   std::string token = random_token();
   std::string prefix = "/" + token + "/";
   std::string address;
-  std::array<std::string, 2> hosts;  ///< that are ours
+  std::array<std::string, 2> hosts;  ///< accepted values of the Host header
 
   std::list<Connection> connections;
   std::mutex mutex;
   std::condition_variable changed;
-  std::deque<std::pair<Connection*, HttpRequest>> asked;  ///< under the mutex
-  bool stopping = false;                                  ///< likewise
+  std::deque<std::pair<Connection*, HttpRequest>>
+      asked;              ///< requests to answer; guarded by `mutex`
+  bool stopping = false;  ///< guarded by `mutex`
 
   std::optional<HttpAnswer> refusal(const HttpHead& head) const;
   bool comes_from_us(const HttpHead& head) const;
@@ -145,7 +148,7 @@ bool LocalServer::State::comes_from_us(const HttpHead& head) const {
   return reads || head.value("sec-fetch-site") == "same-origin";
 }
 
-/// What is looked at before anything of a request is read but its head.
+/// Checks a request by its head, before its body is read. Returns the refusal, if there is one.
 std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) const {
   constexpr std::size_t kLongestPath = 512;
   const std::string_view host = head.value("host");
@@ -172,7 +175,8 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// Where too many clients are connected, the one goes that has made its request wait longest.
+/// Accepts waiting clients. If there are too many connections, closes the one whose request has
+/// been incomplete for the longest time.
 void LocalServer::State::accept_clients() {
   for (;;) {
     Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -210,7 +214,7 @@ void LocalServer::State::read_from(Connection& client) {
   take_request(client);
 }
 
-/// Goes on with what of a request is there.
+/// Continues with the received part of a request: parses the head, or queues the complete request.
 void LocalServer::State::take_request(Connection& client) {
   if (!client.head) {
     constexpr std::string_view kEnd = "\r\n\r\n";
@@ -276,7 +280,7 @@ bool LocalServer::State::is_over(const Connection& client) const {
   return !client.socket.valid() || Clock::now() - client.since > patience;
 }
 
-/// Does what can be done without waiting, or waits for a moment.
+/// Waits up to kMoment for events and handles them without blocking.
 void LocalServer::State::serve_once() {
   std::vector<pollfd> waiting = {{listening.get(), POLLIN, 0}, {woken.get(), POLLIN, 0}};
   std::vector<Connection*> clients;
@@ -304,7 +308,7 @@ void LocalServer::State::serve_once() {
   if (waiting[0].revents != 0) accept_clients();
 }
 
-/// One of several threads.
+/// Answers requests until the server stops. Runs on each thread of the pool.
 void LocalServer::State::work() {
   for (;;) {
     std::unique_lock lock(mutex);
@@ -333,7 +337,7 @@ LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, i
   here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof here;
   auto* address = reinterpret_cast<sockaddr*>(&here);
-  // A port that another program listens to is not shared.
+  // SO_REUSEADDR allows a restart on the same port; it does not share a port that is in use.
   if (!state_->woken.valid() || socket < 0 ||
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
       ::bind(socket, address, size) != 0 || ::listen(socket, SOMAXCONN) != 0 ||

@@ -136,10 +136,9 @@ class Refinement {
   ReliefMatch find() {
     search();
     // A slope of the depths shows that the head is pitched: compensate the pitch and search again.
+    // Smaller angles come from the person's posture or from the form of the face.
     const double pitch = std::atan(slope_up_) / kRadians;
-    if (std::abs(pitch) >
-        // Smaller angles come from the person's posture or from the form of the face.
-        kLeastPitch) {
+    if (std::abs(pitch) > kLeastPitch) {
       ReliefMatch next = best_;
       next.axes = turned(best_.axes, best_.axes.side(), pitch);
       best_.agreement = -1;

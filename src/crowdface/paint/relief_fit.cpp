@@ -65,7 +65,7 @@ using UsedCells = std::bitset<kReliefCells>;
 /// factor of the normal matrix yields the part that only the relief explains.
 struct CellFit {
   ReliefFit fit;
-  Eigen::LLT<Products> factor;
+  Products factor = Products::Zero();  ///< lower triangle
   Coefficients explained = Coefficients::Zero();
 
   CellFit(const ReliefDepths& depths, const UsedCells& used) {
@@ -84,17 +84,20 @@ struct CellFit {
         products -= of_cell[c] * of_cell[c].transpose();
       }
     }
-    factor.compute(products);
-    explained = factor.matrixL().solve(by_depth);
+    const Eigen::LLT<Products> cholesky(products);
+    factor = cholesky.matrixLLT();
+    explained = cholesky.matrixL().solve(by_depth);
     const double by_relief = explained(kTerms - 1);
     const double without_relief = squares - explained.head<kTerms - 1>().squaredNorm();
     const bool is_flat = !(without_relief > kFlatMm * kFlatMm * count);
-    if (factor.info() != Eigen::Success || is_flat) return;
+    if (cholesky.info() != Eigen::Success || is_flat) return;
     fit.agreement = by_relief / std::sqrt(without_relief);
-    fit.amplitude = by_relief / factor.matrixLLT()(kTerms - 1, kTerms - 1);
+    fit.amplitude = by_relief / factor(kTerms - 1, kTerms - 1);
   }
 
-  Coefficients coefficients() const { return factor.matrixU().solve(explained); }
+  Coefficients coefficients() const {
+    return factor.triangularView<Eigen::Lower>().adjoint().solve(explained);
+  }
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
 /// Lids farther away than this, in the first step and in later steps, cannot be reached by the
 /// remaining motion; fractions of the radius.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
-/// A step that translates by less than this fraction of the radius is the last.
+/// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
 /// Prices of violations, as multiples of the radius. Lids that are outside in all heads have
 /// priority, then the mean gaps, then the largest depths.

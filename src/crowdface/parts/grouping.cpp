@@ -55,8 +55,8 @@ void GroupingTree::join_near(std::size_t n, const Eigen::Vector3d& place, double
   if (only == kNoIndex) only = only_group(n);
 }
 
-/// A component of the group to which all points in a node belong, as far as its children know;
-/// kNoIndex if there are several groups.
+/// Returns a component of the group that contains all points of the node, or kNoIndex if the points
+/// belong to several groups. Uses the values stored for the node's children, which may be outdated.
 std::uint32_t GroupingTree::only_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {

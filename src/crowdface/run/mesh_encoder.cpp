@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// The topology, which files with positions alone lack.
+/// The mesh topology as shared files, for formats that store positions only.
 std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) {
   const TextureCoordinates& uvs = inputs.faces.uvs;
   Hasher key;

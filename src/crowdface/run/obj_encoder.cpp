@@ -87,7 +87,8 @@ MeshEncoder whole_encoder(const MeshSource& source) {
           memory, encode};
 }
 
-/// Writes plain files at a level of detail. Targets with the same materials share a form.
+/// Returns the encoder for a level of detail: OBJ files without the layout of the target's file.
+/// Targets with the same materials share a template.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct Forms {
     std::vector<PlainObjTemplate> obj;

@@ -46,6 +46,19 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   return advice;
 }
 
+/// A line of advice if a group is made of so few heads that its faces resemble these heads.
+std::string few_heads(const Config& config, const Group& group) {
+  constexpr std::size_t kFew = 3;
+  const std::vector<Eigen::Index>& sources = group.sampling.sources;
+  if (sources.size() >= kFew) return {};
+  std::vector<std::string> names;
+  for (const Eigen::Index head : sources) {
+    names.push_back(config.faces.names[static_cast<std::size_t>(head)]);
+  }
+  return concat("\n  - more heads in the group ", group.name, ": its faces are mixtures of ",
+                join(names), " only (tags and without choose the heads)");
+}
+
 }  // namespace
 
 void ScarcityWarning::face_joined(const Rejections& thrown) {
@@ -91,8 +104,9 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
                       " candidates were thrown away for that)");
   }
   if (shortfall.kind >= 0) {
-    const auto kind = static_cast<std::size_t>(shortfall.kind);
-    message += concat("; the next one is of the group ", config.groups[kind].name);
+    const Group& group = config.groups[static_cast<std::size_t>(shortfall.kind)];
+    message += concat("; the next one is of the group ", group.name);
+    message += few_heads(config, group);
   }
   for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
   throw Unsatisfiable(message);

@@ -30,7 +30,7 @@ constexpr double kPushedAround = 0.02;  // radius of the skin that moves along
 constexpr double kFrontCell = 0.0025;
 // only skin less than this fraction of the wanted depth away is pushed
 constexpr double kTooNear = 0.25;
-// cosine of the skin's normal to the front; rims of lips face elsewhere
+// smallest cosine between the skin's normal and the front; excludes the rims of the lips
 constexpr double kFacesFront = 0.5;
 /// The triangles around the covering triangle that may be in front on a face: kSlides wide, but
 /// between kFewestRings and kMostRings rings.
@@ -234,7 +234,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
   return pushes;
 }
 
-/// Pushes skin, and the skin around it.
+/// Moves the skin at the points of `pushes`, and the skin around these points with a falloff.
 void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
                          Positions& mesh, Displacements& shape) const {
   const double reach = kPushedAround * scale * extent_;
