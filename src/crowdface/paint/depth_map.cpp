@@ -11,6 +11,7 @@ namespace crowdface {
 
 DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square)
     : square_(square) {
+  if (samples.rows() == 0) return;  // no surface anywhere
   const Eigen::Vector3d side = axes.side();
   Positions seen(samples.rows(), 3);
   for (Index i = 0; i < samples.rows(); ++i) {
