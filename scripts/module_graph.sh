@@ -3,7 +3,7 @@
 # The module graph, drawn from the includes. Includes must point downwards: a module on the same
 # floor or above is an error (exit code 1, each with file and line).
 #
-#   scripts/module_graph.sh                 prints the graph (Mermaid and a table)
+#   scripts/module_graph.sh                 prints the graph (Mermaid)
 #   scripts/module_graph.sh --write         writes it into docs/architecture.md, between the markers
 #   scripts/module_graph.sh --check         fails if what stands there is another
 #   … ROOT                                  of another source tree than this one (for tests)
@@ -104,15 +104,7 @@ graph() {
           }
         }
       }
-      print "```\n\nAn arrow that others imply is left out. All includes:\n"
-      print "| floor | module | includes |\n|---|---|---|"
-      for (i = modules; i >= 1; --i) {
-        list = ""
-        for (j = modules; j >= 1; --j) {
-          if ((module[i], module[j]) in uses) list = list (list == "" ? "" : ", ") "`" module[j] "`"
-        }
-        print "| " floor[module[i]] " | `" module[i] "` | " (list == "" ? "–" : list) " |"
-      }
+      print "```\n\nAn arrow that others imply is left out."
     }'
 }
 

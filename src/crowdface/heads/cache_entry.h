@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The format of all cache files: a header, the key, named arrays and a checksum
-// (docs/cache-format.md).
+// (docs/architecture.md, "The cache").
 #pragma once
 
 #include <array>
