@@ -7,7 +7,7 @@ namespace crowdface {
 namespace {
 
 /// Product of N, where first fit ended, and C. It was 1.6 to 6.5 in crowds of 360 to 7,700 faces
-/// (docs/casting.md).
+/// (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kFewestPlaced = 256;
 constexpr std::uint64_t kFewestTooNear = 100;  ///< in the earlier of the two complete stretches

@@ -9,7 +9,7 @@ namespace crowdface {
 /// Forecasts, while faces are placed by first fit, how many faces can keep a distance. A candidate
 /// is too near to one of n faces with probability p(n). While the crowd is sparse, p grows by C per
 /// face, where C is the probability that two candidates are too near to each other. First fit ends
-/// at about 4/C faces (docs/casting.md). Dense parts of the space fill first, and then p grows more
+/// at about 4/C faces (docs/method.md). Dense parts of the space fill first, and then p grows more
 /// slowly; so C is estimated from the recent growth of p.
 class CapacityForecast {
  public:

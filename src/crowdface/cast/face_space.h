@@ -20,7 +20,7 @@ struct FaceSpaceTables {
 
 /// A Euclidean space of faces, computed from recipes alone, so that distances need no meshes. Each
 /// face is aligned rigidly to the mean head, which matches pairwise alignment closely
-/// (docs/casting.md). The straight-line distance of two points is the root mean square distance
+/// (docs/method.md). The straight-line distance of two points is the root mean square distance
 /// over the face in millimetres.
 class FaceSpace {
  public:
