@@ -228,7 +228,7 @@ Codec<Range> range(const Codec<double>& one) {
             const std::string low = one.write(range.low, writing);
             return range.low == range.high ? low : flow_list({low, one.write(range.high, writing)});
           },
-          concat(one.takes, ", or a range `[low, high]`")};
+          concat(one.takes, ", or a range")};
 }
 
 Codec<Range> age() {
