@@ -154,7 +154,7 @@ await settled();
 assert.ok((await previewError()) < 0.1);
 await settled();
 
-// What a frame takes while something is dragged, for docs/editor.md.
+// Prints the time of a frame while something is dragged.
 console.log(await page.evaluate((name) => {
   const { editor: it } = window.crowdface;
   const { view } = it;
