@@ -11,7 +11,7 @@ int main(int argc, char** argv) try {
   const ObjFile target = read_obj(argv[1]), source = read_obj(argv[2]);
   const std::string difference = first_difference(target.topology, source.topology);
   if (!difference.empty()) throw InvalidInput(difference);
-  const FaceSet heads = {
+  const HeadSet heads = {
       target.topology, target.uvs, {{"target", target.positions}, {"source", source.positions}}};
 
   RegionRecipe whole;

@@ -107,7 +107,7 @@ void convert(const ConvertOptions& options) {
   const fs::path out = output_file(options.out);
   refuse_to_write_over({options.in}, {out});
   const auto refuse_to_replace = [&](const fs::path& file) {
-    if (options.force || !is_there(file)) return;
+    if (options.force || !path_exists(file)) return;
     throw UsageError(concat(file.string(), ": already exists; use --force to replace it"));
   };
   refuse_to_replace(out);

@@ -27,7 +27,7 @@ void declare_edit(CLI::App& command, EditorOptions& options) {
 }
 
 void edit(const EditorOptions& options) {
-  constexpr std::uint64_t kLargestPort = 65535, kMostVertices = 10'000'000;
+  constexpr std::uint64_t kLargestPort = 65535, kMaxVertices = 10'000'000;
   EditOptions edited;
   edited.cache = options.config.cache_path();
   edited.cache.trusts_seen_files = !options.hash_all;
@@ -38,7 +38,7 @@ void edit(const EditorOptions& options) {
   }
   edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   edited.preview_vertices =
-      whole_number("--preview-vertices", options.preview_vertices, 100, kMostVertices);
+      whole_number("--preview-vertices", options.preview_vertices, 100, kMaxVertices);
   if (options.benchmark) {
     print(benchmark_edit(options.config.config, options.config.overrides, edited));
     return;

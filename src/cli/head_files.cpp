@@ -26,7 +26,7 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
   Problems problems;
   std::vector<const HeadFile*> missing;
   for (const HeadFile& file : files) {
-    const bool there = is_there(file.path);
+    const bool there = path_exists(file.path);
     if (there) output_file(file.path);
     if (replace || !there) {
       missing.push_back(&file);

@@ -12,10 +12,10 @@
 
 namespace crowdface::cli {
 
-inline constexpr std::uint64_t kMostMade = 1000;  ///< largest number of heads per command
-inline constexpr int kMaskSize = 1024;            ///< width and height of masks in pixels
-inline constexpr std::uint64_t kLeastTexture = 64,
-                               kMostTexture = 8192;  ///< width and height of textures in pixels
+inline constexpr std::uint64_t kMaxMade = 1000;  ///< largest number of heads per command
+inline constexpr int kMaskSize = 1024;           ///< width and height of masks in pixels
+inline constexpr std::uint64_t kMinTexture = 64,
+                               kMaxTexture = 8192;  ///< width and height of textures in pixels
 
 /// A file in a folder of heads. Its content depends only on the command line.
 struct HeadFile {

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kFewestVertices = 1000, kMostVertices = 2'000'000;
+constexpr std::uint64_t kMinVertices = 1000, kMaxVertices = 2'000'000;
 
 struct ImportOptions : CommonOptions {
   std::string model, data, out, count = "16", seed = "1", vertices, textures;
@@ -104,7 +104,7 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   if (options.dress) {
     const std::string& most = options.textures.empty() ? "1024" : options.textures;
     dress.emplace(options.data, model,
-                  static_cast<int>(whole_number("--textures", most, kLeastTexture, kMostTexture)));
+                  static_cast<int>(whole_number("--textures", most, kMinTexture, kMaxTexture)));
   }
   const Topology& topology = model.neutral().topology;
   const int rounds =
@@ -112,7 +112,7 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
           ? 0
           : subdivision_rounds(topology,
                                static_cast<Index>(whole_number("--vertices", options.vertices,
-                                                               kFewestVertices, kMostVertices)));
+                                                               kMinVertices, kMaxVertices)));
   Index vertices = topology.vertex_count;
   const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
   const auto encode = [&](const Positions& positions, const std::string& name) {
@@ -185,7 +185,7 @@ void import_ict(const ImportOptions& options, const Wanted& wanted) {
 }
 
 void import_heads(const ImportOptions& options) {
-  const Wanted wanted{options.out, whole_number("--count", options.count, 0, kMostMade),
+  const Wanted wanted{options.out, whole_number("--count", options.count, 0, kMaxMade),
                       whole_number("--seed", options.seed, 0, UINT64_MAX)};
   if (options.model == "makehuman") {
     import_makehuman(options, wanted);

@@ -135,20 +135,20 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
 /// size; else the length that gives the face human size.
 void guess_units(const Seen& seen, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
-  constexpr double kTypicalFaceMm = 65, kLeastFaceMm = 35, kMostFaceMm = 120;
-  constexpr double kMostTimes = 3;  // largest plausible ratio to kTypicalHeightMm
+  constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
+  constexpr double kMaxTimes = 3;  // largest plausible ratio to kTypicalHeightMm
   facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
   const std::string height =
       concat("the first head is ", format_number_of(facts.head_height), " units tall");
   facts.units_reason = height;
   const double face_mm = seen.face * mm_per(facts.units);
   const double times = facts.head_height * mm_per(facts.units) / kTypicalHeightMm;
-  if (seen.face > 0 && (face_mm < kLeastFaceMm || face_mm > kMostFaceMm)) {
+  if (seen.face > 0 && (face_mm < kMinFaceMm || face_mm > kMaxFaceMm)) {
     facts.units = fitting_unit(seen.face, kTypicalFaceMm);
     facts.units_reason =
         concat(height, " and ", format_number_of(seen.face), " from the eyes to the mouth (about ",
                kTypicalFaceMm, " mm in people), and mm, cm and m do not fit");
-  } else if (seen.face == 0 && (times > kMostTimes || times < 1 / kMostTimes)) {
+  } else if (seen.face == 0 && (times > kMaxTimes || times < 1 / kMaxTimes)) {
     facts.units = fitting_unit(facts.head_height, kTypicalHeightMm);
     facts.units_reason = concat(height, ", and mm, cm and m do not fit");
   }
@@ -183,7 +183,7 @@ std::string attachments_beside(const fs::path& heads, const fs::path& config_fol
 }
 
 void refuse_existing(const fs::path& file, bool force) {
-  if (!force && is_there(file)) {
+  if (!force && path_exists(file)) {
     throw UsageError(concat(file.string(), ": already exists; use --force to replace it"));
   }
 }
@@ -191,9 +191,9 @@ void refuse_existing(const fs::path& file, bool force) {
 void init(const InitOptions& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
-  if (files.size() < kFewestHeads || files.size() > kMostHeads) {
+  if (files.size() < kMinHeads || files.size() > kMaxHeads) {
     const std::string left_out = left_out_of_heads(heads);
-    throw MissingInput(concat(heads.string(), ": expected ", kFewestHeads, " to ", kMostHeads,
+    throw MissingInput(concat(heads.string(), ": expected ", kMinHeads, " to ", kMaxHeads,
                               " heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found ", files.size(),
                               left_out.empty() ? "" : "; ", left_out));
   }

@@ -23,7 +23,7 @@
 #include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
-#include "crowdface/io/own_library.h"
+#include "crowdface/io/project_library.h"
 
 #include "cli/commands.h"
 
@@ -64,7 +64,7 @@ constexpr const char* kOutOfMemory = "out of memory; use fewer threads (--thread
 /// report failed allocations as a broken file.
 int fail(ExitCode code, std::string_view message) {
   log_error(message);
-  if (!memory_ran_out()) return static_cast<int>(code);
+  if (!is_out_of_memory()) return static_cast<int>(code);
   if (message != kOutOfMemory) log_error(kOutOfMemory);
   return static_cast<int>(ExitCode::kIoError);
 }
@@ -73,7 +73,7 @@ int fail(ExitCode code, std::string_view message) {
 int run(const Run& command) {
   try {
     command();
-    if (memory_ran_out()) throw std::bad_alloc();
+    if (is_out_of_memory()) throw std::bad_alloc();
     if (const auto failed = log_failure()) {
       throw IoError(concat("the log is incomplete: ", *failed));
     }
@@ -163,9 +163,9 @@ int run_program(int argc, char** argv) {
   // The image library may load OpenBLAS, which raises SIGINT if it cannot start threads. Nothing
   // needs these threads.
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
-  watch_for_lack_of_memory();
+  watch_for_out_of_memory();
   watch_mapped_files();
-  guard_start_of_libraries();
+  guard_library_loading();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + kVersion);

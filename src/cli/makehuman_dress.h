@@ -21,8 +21,8 @@ class MakeHumanDress {
  public:
   /// Adds eyes, lashes, teeth and tongue to the model's heads.
   /// \param model        must outlive this object.
-  /// \param most_texels  maximum width and height; larger textures are downsampled.
-  MakeHumanDress(const std::filesystem::path& package, MakeHumanHeads& model, int most_texels);
+  /// \param max_texels  maximum width and height; larger textures are downsampled.
+  MakeHumanDress(const std::filesystem::path& package, MakeHumanHeads& model, int max_texels);
 
   /// Adds a person's material file `NAME.mtl`, skin texture `NAME_skin.png`, and eye texture.
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
@@ -40,7 +40,7 @@ class MakeHumanDress {
   std::filesystem::path package_;
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;
-  int most_texels_;
+  int max_texels_;
   std::set<std::set<std::string>> tags_;               ///< sets of tags of the added persons
   std::map<std::string, std::filesystem::path> eyes_;  ///< eye textures in use, by colour
 };

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLeastSize = 64, kMostSize = 8192;
+constexpr std::uint64_t kMinSize = 64, kMaxSize = 8192;
 
 struct MaskOptions : CommonOptions {
   std::string heads, out, bands = "brow,nose,mouth", size, up, front;
@@ -92,10 +92,9 @@ void mask(const MaskOptions& options) {
   problems.throw_if_any();
   const HeadShape mean = shape_of_mean(*faces);
   const Bearing bearing = bearing_of(options, wanted, faces->topology, mean);
-  const int size =
-      options.size.empty()
-          ? mask_size(faces->topology.vertex_count)
-          : static_cast<int>(whole_number("--size", options.size, kLeastSize, kMostSize));
+  const int size = options.size.empty()
+                       ? mask_size(faces->topology.vertex_count)
+                       : static_cast<int>(whole_number("--size", options.size, kMinSize, kMaxSize));
   MaskFiles masks = encode_masks(propose_masks(*faces, mean, bearing, bands, size), out);
   std::vector<HeadFile> files;
   for (auto& [file, bytes] : masks.files) files.push_back(text_file(file, std::move(bytes)));

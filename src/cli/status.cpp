@@ -42,8 +42,8 @@ void wait(std::uint64_t seconds) {
 }
 
 void show(const StatusOptions& options) {
-  constexpr std::uint64_t kMostSeconds = 86'400;
-  const std::uint64_t every = whole_number("--every", options.every, 1, kMostSeconds);
+  constexpr std::uint64_t kMaxSeconds = 86'400;
+  const std::uint64_t every = whole_number("--every", options.every, 1, kMaxSeconds);
   const bool renew = options.watch && !options.json && ::isatty(STDOUT_FILENO) == 1;
   for (;;) {
     const CrowdStatus status = crowd_status(options.directory);

@@ -102,12 +102,12 @@ void refuse_strange_options(const SubmitOptions& options, Engine engine) {
 }
 
 std::uint64_t count_from(std::string_view option, const std::string& text, std::uint64_t fitting) {
-  constexpr std::uint64_t kMost = 9999;
-  return text.empty() ? fitting : whole_number(option, text, 1, kMost);
+  constexpr std::uint64_t kMax = 9999;
+  return text.empty() ? fitting : whole_number(option, text, 1, kMax);
 }
 
 TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
-  constexpr std::uint64_t kMostProcessors = 1024;
+  constexpr std::uint64_t kMaxProcessors = 1024;
   TaskJob tasks;
   tasks.directory.root = full_path(job.config.output.directory);
   tasks.program =
@@ -118,7 +118,7 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.cache = options.config.cache.empty() ? tasks.directory.submitted() / "cache"
                                              : full_path(options.config.cache);
   tasks.scratch = options.scratch;
-  tasks.processors = whole_number("--processors", options.processors, 1, kMostProcessors);
+  tasks.processors = whole_number("--processors", options.processors, 1, kMaxProcessors);
   tasks.memory = bytes_from("--memory", options.memory);
   tasks.prepares = count_from("--prepare-tasks", options.prepares,
                               fitting_prepares(job.inputs, tasks.processors));

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kFewestSynthetic = 5000, kMostSynthetic = 1'200'000;
+constexpr std::uint64_t kMinSynthetic = 5000, kMaxSynthetic = 1'200'000;
 
 struct SynthOptions : CommonOptions {
   std::string out, count = "8", vertices = "20000", seed = "1", mask, textures;
@@ -52,9 +52,9 @@ std::string material_file(const std::vector<MaterialRange>& materials, const std
 }
 
 void synth(const SynthOptions& options) {
-  const std::uint64_t count = whole_number("--count", options.count, 0, kMostMade);
+  const std::uint64_t count = whole_number("--count", options.count, 0, kMaxMade);
   const std::uint64_t vertices =
-      whole_number("--vertices", options.vertices, kFewestSynthetic, kMostSynthetic);
+      whole_number("--vertices", options.vertices, kMinSynthetic, kMaxSynthetic);
   const std::uint64_t seed = whole_number("--seed", options.seed, 0, UINT64_MAX);
   const fs::path directory = options.out;
   fs::path mask = directory / "regions.png";
@@ -78,7 +78,7 @@ void synth(const SynthOptions& options) {
   std::optional<SyntheticSkins> skins;
   if (!options.textures.empty()) {
     skins.emplace(
-        static_cast<int>(whole_number("--textures", options.textures, kLeastTexture, kMostTexture)),
+        static_cast<int>(whole_number("--textures", options.textures, kMinTexture, kMaxTexture)),
         painted);
     if (materials.empty()) materials.push_back({"skin", 0});
   }

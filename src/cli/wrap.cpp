@@ -42,7 +42,7 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
   task.own_landmarks.clear();
   for (const char* ending : {".yaml", ".pp", "_picked_points.pp"}) {
     const fs::path beside = scan.parent_path() / concat(scan.stem().string(), ending);
-    if (task.own_landmarks.empty() && is_there(beside)) task.own_landmarks = beside;
+    if (task.own_landmarks.empty() && path_exists(beside)) task.own_landmarks = beside;
   }
   return task;
 }
@@ -83,7 +83,7 @@ Digest inputs_of(const WrapInputs& shared, const Task& task) {
 
 /// Returns whether the task's report contains the digests of these inputs and of the existing head.
 bool is_done(const Task& task, const Digest& inputs) {
-  if (!is_there(task.report) || !is_there(task.head)) return false;
+  if (!path_exists(task.report) || !path_exists(task.head)) return false;
   const std::string report = read_file(task.report);
   return report.find(concat("\"inputs\": \"", inputs.hex(), '"')) != std::string::npos &&
          report.find(concat("\"mesh\": \"", hash_file(task.head).digest.hex(), '"')) !=
@@ -113,7 +113,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
                        "name template landmarks with --template-landmarks, or under template in "
                        "the YAML file"));
   }
-  if (landmarks.size() >= kFewestLandmarks) return landmarks;
+  if (landmarks.size() >= kMinLandmarks) return landmarks;
   auto face = find_scan_face(scan, hint);
   if (hint) {
     hint->face = std::move(face);
@@ -144,8 +144,8 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
   const double scale = pose.scale * mm_per(unit_of("--scan-units", options.scan_units));
-  constexpr double kMost = 1.5;
-  if (scale > kMost || scale < 1 / kMost) {
+  constexpr double kMax = 1.5;
+  if (scale > kMax || scale < 1 / kMax) {
     throw UsageError(concat("--scan-units ", options.scan_units, ": the head would be ",
                             format_fixed(scale, 3),
                             " times as large as the template; expected another unit, or none"));
@@ -157,13 +157,13 @@ double output_scale(const WrapOptions& options, const Similarity& pose) {
 /// empty for fewer than five landmarks.
 std::map<std::string, double> left_out(const WrapInputs& shared,
                                        const std::vector<WrapLandmark>& landmarks) {
-  constexpr std::size_t kFewest = 5;
+  constexpr std::size_t kMin = 5;
   std::map<std::string, double> result;
   std::vector<PickedLandmark> picked;
   for (const WrapLandmark& one : landmarks) {
     picked.push_back({one.name, one.vertex, one.place, std::nullopt});
   }
-  if (picked.size() < kFewest) return result;
+  if (picked.size() < kMin) return result;
   const auto pose = pose_of_picked(picked, shared.shape.positions);
   if (!pose) return result;
   for (const auto& [name, residual] : pose->residuals) result[name] = residual.mm;
@@ -175,7 +175,7 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
 std::string other_bearing(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
-  if (!shared.hint || picked >= static_cast<std::ptrdiff_t>(kFewestLandmarks)) return {};
+  if (!shared.hint || picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
   const auto face = find_scan_face(scan, std::nullopt);
   if (!face) return {};
   const Bearing found = all_bearings()[face->view];

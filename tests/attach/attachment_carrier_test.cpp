@@ -41,13 +41,13 @@ struct Heads {
   FittedSkin fitted() const { return {topology(), heads[0], skin, kUnitsPerMm}; }
 
   /// The skin above a height, so far off it along its normals.
-  Mesh cap(double least_height_cm, double off_mm) const {
+  Mesh cap(double min_height_cm, double off_mm) const {
     const Positions normals = vertex_normals(topology(), heads[0]);
     std::vector<std::uint32_t> rows(static_cast<std::size_t>(topology().vertex_count), kNoIndex);
     Mesh cap;
     std::vector<Eigen::RowVector3d> points;
     for (const std::uint32_t v : skin) {
-      if (heads[0](v, 1) < least_height_cm) continue;
+      if (heads[0](v, 1) < min_height_cm) continue;
       rows[v] = static_cast<std::uint32_t>(points.size());
       points.push_back(heads[0].row(v) + off_mm * kUnitsPerMm * normals.row(v));
     }

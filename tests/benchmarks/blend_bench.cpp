@@ -68,7 +68,7 @@ struct Crowd {
     std::iota(order.begin(), order.end(), 0U);
     patches = interpolate_fields(levels, std::vector<std::uint64_t>{1, 100}, order, 1e-6);
   }
-  FaceSet faces;
+  HeadSet faces;
   std::vector<std::uint32_t> first;
   std::vector<float> steps;
   std::vector<std::int16_t> numbers;

@@ -122,7 +122,7 @@ class Blend : public ::testing::Test {
                       bands({region({{1, 1}}, 25, 1.2), region({{0, 0.6}, {2, 0.4}}, 4)})});
   }
 
-  FaceSet faces_;
+  HeadSet faces_;
   RegionWeights one_ = whole_head(testing::grid_topology(9, 8));
   RegionWeights two_;
 };
@@ -484,7 +484,7 @@ class BlendPatches : public ::testing::Test {
 
   static constexpr Index kColumns = 40, kRows = 31;
   static constexpr double kTolerance = 0.01;
-  FaceSet faces_;
+  HeadSet faces_;
   std::vector<HeadLevels> levels_;
   FieldPatches patches_;
   RegionWeights regions_;

@@ -20,8 +20,8 @@ AttachmentDraw draw_of(std::vector<AttachmentItem> items, std::map<std::string, 
   return {7, std::move(items), std::move(none), {{"female"}, {"male", "old"}}};
 }
 
-CastFace face_of(std::uint64_t index, Index target = 0) {
-  CastFace face;
+FacePlan face_of(std::uint64_t index, Index target = 0) {
+  FacePlan face;
   face.id = "crowd_" + std::to_string(index);
   face.index = index;
   face.recipe.target = target;
@@ -29,13 +29,13 @@ CastFace face_of(std::uint64_t index, Index target = 0) {
 }
 
 /// Of a face that stands alone.
-std::vector<std::string> worn_by(const AttachmentDraw& draw, const CastFace& face) {
-  std::vector<CastFace> crowd = {face};
+std::vector<std::string> attachments_of(const AttachmentDraw& draw, const FacePlan& face) {
+  std::vector<FacePlan> crowd = {face};
   draw_attachments(draw, {}, crowd);
   return crowd[0].attachments;
 }
 
-std::size_t count(const std::vector<CastFace>& crowd, const std::string& name) {
+std::size_t count(const std::vector<FacePlan>& crowd, const std::string& name) {
   return static_cast<std::size_t>(std::count_if(crowd.begin(), crowd.end(), [&](const auto& face) {
     return std::find(face.attachments.begin(), face.attachments.end(), name) !=
            face.attachments.end();
@@ -43,17 +43,17 @@ std::size_t count(const std::vector<CastFace>& crowd, const std::string& name) {
 }
 
 /// Sampled faces, women and men by turns.
-std::vector<CastFace> crowd_of(std::uint64_t faces) {
-  std::vector<CastFace> crowd;
+std::vector<FacePlan> crowd_of(std::uint64_t faces) {
+  std::vector<FacePlan> crowd;
   for (std::uint64_t i = 1; i <= faces; ++i) {
     crowd.push_back(face_of(i, static_cast<Index>(i % 2)));
   }
   return crowd;
 }
 
-std::vector<int> groups_of(const std::vector<CastFace>& crowd) {
+std::vector<int> groups_of(const std::vector<FacePlan>& crowd) {
   std::vector<int> groups;
-  for (const CastFace& face : crowd) groups.push_back(static_cast<int>(face.recipe.target));
+  for (const FacePlan& face : crowd) groups.push_back(static_cast<int>(face.recipe.target));
   return groups;
 }
 
@@ -61,7 +61,7 @@ std::map<std::string, double> shares_of(const AttachmentDraw& draw, Index target
   constexpr std::uint64_t kFaces = 20000;
   std::map<std::string, double> shares;
   for (std::uint64_t i = 1; i <= kFaces; ++i) {
-    for (const std::string& name : worn_by(draw, face_of(i, target))) {
+    for (const std::string& name : attachments_of(draw, face_of(i, target))) {
       shares[name] += 1.0 / kFaces;
     }
   }
@@ -83,7 +83,7 @@ TEST(AttachmentDraw, FollowsSharesAndNone) {
 TEST(AttachmentDraw, GivesAtMostOneOfAKind) {
   const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
   for (std::uint64_t i = 1; i < 100; ++i) {
-    EXPECT_EQ(worn_by(draw, face_of(i)).size(), 1U);
+    EXPECT_EQ(attachments_of(draw, face_of(i)).size(), 1U);
   }
 }
 
@@ -91,20 +91,21 @@ TEST(AttachmentDraw, IsForTargetsWithAllTags) {
   const AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}},
                                        {"rim", "hair", {"male", "old"}, 1, {}},
                                        {"quiff", "hair", {"male", "young"}, 1, {}}});
-  EXPECT_THAT(worn_by(draw, face_of(1, 0)), ElementsAre("bob"));
-  EXPECT_THAT(worn_by(draw, face_of(1, 1)), ElementsAre("rim"));
+  EXPECT_THAT(attachments_of(draw, face_of(1, 0)), ElementsAre("bob"));
+  EXPECT_THAT(attachments_of(draw, face_of(1, 1)), ElementsAre("rim"));
 }
 
 TEST(AttachmentDraw, TakesAwayWhatIsExcluded) {
-  EXPECT_THAT(worn_by(draw_of({{"bob", "hair", {}, 1, {}},
-                               {"cap", "hat", {}, 1, {"hair", "round"}},
-                               {"round", "glasses", {}, 1, {}},
-                               {"patch", "eye", {}, 1, {}}}),
-                      face_of(1)),
+  EXPECT_THAT(attachments_of(draw_of({{"bob", "hair", {}, 1, {}},
+                                      {"cap", "hat", {}, 1, {"hair", "round"}},
+                                      {"round", "glasses", {}, 1, {}},
+                                      {"patch", "eye", {}, 1, {}}}),
+                             face_of(1)),
               ElementsAre("cap", "patch"));
-  EXPECT_THAT(worn_by(draw_of({{"cap", "hat", {}, 1, {"hair"}}, {"bob", "hair", {}, 1, {"cap"}}}),
-                      face_of(1)),
-              ElementsAre("cap"))
+  EXPECT_THAT(
+      attachments_of(draw_of({{"cap", "hat", {}, 1, {"hair"}}, {"bob", "hair", {}, 1, {"cap"}}}),
+                     face_of(1)),
+      ElementsAre("cap"))
       << "of two that exclude each other the first stays";
 }
 
@@ -115,12 +116,12 @@ TEST(AttachmentDraw, DependsOnIndexAndKindAlone) {
   more.insert(more.begin(), {"round", "glasses", {}, 1, {}});
   std::size_t bobs = 0;
   for (std::uint64_t i = 1; i < 200; ++i) {
-    CastFace other = face_of(i);
+    FacePlan other = face_of(i);
     other.id = "another";
     other.notes.attempt = 9;
-    const auto names = worn_by(draw_of(hair), face_of(i));
-    EXPECT_EQ(worn_by(draw_of(hair), other), names);
-    EXPECT_THAT(worn_by(draw_of(more), face_of(i)), Contains(names.at(0)));
+    const auto names = attachments_of(draw_of(hair), face_of(i));
+    EXPECT_EQ(attachments_of(draw_of(hair), other), names);
+    EXPECT_THAT(attachments_of(draw_of(more), face_of(i)), Contains(names.at(0)));
     bobs += names.at(0) == "bob" ? 1 : 0;
   }
   EXPECT_GT(bobs, 60U);
@@ -133,21 +134,21 @@ TEST(AttachmentDraw, FacesOnOneHeadTakeTurns) {
                                        {"bun", "hair", {}, 1, {}},
                                        {"mop", "hair", {}, 1, {}},
                                        {"curls", "hair", {}, 1, {}}});
-  std::vector<CastFace> crowd = crowd_of(16);
+  std::vector<FacePlan> crowd = crowd_of(16);
   draw_attachments(draw, {}, crowd);
   for (const Index head : {0, 1}) {
-    std::vector<std::string> worn;
-    for (const CastFace& face : crowd) {
-      if (face.recipe.target == head) worn.push_back(face.attachments.at(0));
+    std::vector<std::string> placed;
+    for (const FacePlan& face : crowd) {
+      if (face.recipe.target == head) placed.push_back(face.attachments.at(0));
     }
-    ASSERT_EQ(worn.size(), 8U);
-    for (std::size_t i = 0; i < worn.size(); i += 4) {
-      EXPECT_EQ(std::set<std::string>(worn.begin() + i, worn.begin() + i + 4).size(), 4U)
+    ASSERT_EQ(placed.size(), 8U);
+    for (std::size_t i = 0; i < placed.size(); i += 4) {
+      EXPECT_EQ(std::set<std::string>(placed.begin() + i, placed.begin() + i + 4).size(), 4U)
           << "head " << head << ", from its face " << i;
     }
   }
   for (const char* name : {"bob", "bun", "mop", "curls"}) EXPECT_EQ(count(crowd, name), 4U);
-  std::vector<CastFace> small = crowd_of(7);
+  std::vector<FacePlan> small = crowd_of(7);
   draw_attachments(draw, {}, small);
   for (std::size_t i = 0; i < small.size(); ++i)
     EXPECT_EQ(small[i].attachments, crowd[i].attachments) << "a larger crowd changes nobody";
@@ -156,7 +157,7 @@ TEST(AttachmentDraw, FacesOnOneHeadTakeTurns) {
 TEST(AttachmentDraw, TurnsFollowShares) {
   const AttachmentDraw draw =
       draw_of({{"bob", "hair", {}, 3, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 0, {}}});
-  std::vector<CastFace> crowd = crowd_of(80);
+  std::vector<FacePlan> crowd = crowd_of(80);
   draw_attachments(draw, {}, crowd);
   EXPECT_NEAR(static_cast<double>(count(crowd, "bob")), 60, 2);
   EXPECT_NEAR(static_cast<double>(count(crowd, "bun")), 20, 2);
@@ -166,7 +167,7 @@ TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
   const AttachmentDraw draw =
       draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
   const auto sisters = [](const std::string& family) {
-    std::vector<CastFace> faces(3, face_of(1));
+    std::vector<FacePlan> faces(3, face_of(1));
     for (std::size_t i = 0; i < faces.size(); ++i) {
       faces[i].index.reset();
       faces[i].id = family + std::to_string(i);
@@ -174,28 +175,29 @@ TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
     }
     return faces;
   };
-  std::vector<CastFace> alone = sisters("kin");
+  std::vector<FacePlan> alone = sisters("kin");
   draw_attachments(draw, {}, alone);
-  std::set<std::string> worn;
-  for (const CastFace& face : alone) worn.insert(face.attachments.at(0));
-  EXPECT_EQ(worn.size(), 3U);
-  std::vector<CastFace> crowd = sisters("others");
-  const std::vector<CastFace> kin = sisters("kin");
+  std::set<std::string> placed;
+  for (const FacePlan& face : alone) placed.insert(face.attachments.at(0));
+  EXPECT_EQ(placed.size(), 3U);
+  std::vector<FacePlan> crowd = sisters("others");
+  const std::vector<FacePlan> kin = sisters("kin");
   crowd.insert(crowd.end(), kin.begin(), kin.end());
   crowd.push_back(face_of(1));
   draw_attachments(draw, {}, crowd);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(crowd[3 + i].attachments, alone[i].attachments);
-  EXPECT_EQ(crowd[6].attachments, worn_by(draw, face_of(1))) << "families change no sampled face";
+  EXPECT_EQ(crowd[6].attachments, attachments_of(draw, face_of(1)))
+      << "families change no sampled face";
 }
 
 /// A review draws some faces anew, on other heads; all others keep what they wear.
 TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
   const AttachmentDraw draw =
       draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
-  std::vector<CastFace> before = crowd_of(20);
+  std::vector<FacePlan> before = crowd_of(20);
   draw_attachments(draw, {}, before);
-  std::vector<CastFace> after = crowd_of(20);
-  std::vector<CastFace> rejected = {after[2], after[5]};
+  std::vector<FacePlan> after = crowd_of(20);
+  std::vector<FacePlan> rejected = {after[2], after[5]};
   after[2].recipe.target = 1 - after[2].recipe.target;
   after[5].recipe.target = 1 - after[5].recipe.target;
   draw_attachments(draw, {}, after, rejected);
@@ -206,7 +208,7 @@ TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
     }
   }
   // A second review does not change what the first has changed.
-  std::vector<CastFace> twice = after;
+  std::vector<FacePlan> twice = after;
   rejected.push_back(after[5]);
   twice[5].recipe.target = 1 - twice[5].recipe.target;
   draw_attachments(draw, {}, twice, rejected);
@@ -221,16 +223,17 @@ TEST(AttachmentDraw, GoesByTheIdOfFacesThatAreNotSampled) {
   const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
   std::map<std::string, int> found;
   for (int i = 0; i < 100; ++i) {
-    CastFace face = face_of(1);
+    FacePlan face = face_of(1);
     face.index.reset();
     face.id = "kin_" + std::to_string(i);
-    ++found[worn_by(draw, face).at(0)];
+    ++found[attachments_of(draw, face).at(0)];
   }
   EXPECT_EQ(found.size(), 2U);
 }
 
 TEST(AttachmentDraw, LeavesAllWithoutAKindThatNobodyWears) {
-  EXPECT_THAT(worn_by(draw_of({{"bob", "hair", {}, 1, {}}}, {{"hair", 1}}), face_of(3)), IsEmpty());
+  EXPECT_THAT(attachments_of(draw_of({{"bob", "hair", {}, 1, {}}}, {{"hair", 1}}), face_of(3)),
+              IsEmpty());
 }
 
 TEST(AttachmentDraw, ServesQuotasExactlyInEachGroup) {
@@ -239,13 +242,13 @@ TEST(AttachmentDraw, ServesQuotasExactlyInEachGroup) {
                                  {"bob", "hair", {}, 1, {}, "blond"},
                                  {"bun", "hair", {}, 1, {}, "black"}});
   draw.quotas = {{"glasses", 0.25}, {"beard", 0.5}, {"blond", 0.1}};
-  std::vector<CastFace> crowd = crowd_of(240);
+  std::vector<FacePlan> crowd = crowd_of(240);
   draw_attachments(draw, groups_of(crowd), crowd);
   EXPECT_EQ(count(crowd, "round"), 60U);
   EXPECT_EQ(count(crowd, "full"), 60U) << "half of the men";
   EXPECT_EQ(count(crowd, "bob"), 24U);
   EXPECT_EQ(count(crowd, "bun"), 216U) << "those whom a colour's quota passes over wear another";
-  std::vector<CastFace> small = crowd_of(100);
+  std::vector<FacePlan> small = crowd_of(100);
   draw_attachments(draw, groups_of(small), small);
   for (std::size_t i = 0; i < small.size(); ++i) {
     EXPECT_EQ(small[i].attachments, crowd[i].attachments) << "a larger crowd moves nobody";
@@ -265,9 +268,9 @@ TEST(AttachmentDraw, GivesOneFaceOneColour) {
                                        {"full", "beard", {}, 1, {}, "black"},
                                        {"goatee", "beard", {}, 1, {}, "brown"},
                                        {"red", "brow", {}, 1, {}, "red"}});
-  std::vector<CastFace> crowd = crowd_of(60);
+  std::vector<FacePlan> crowd = crowd_of(60);
   draw_attachments(draw, {}, crowd);
-  for (const CastFace& face : crowd) {
+  for (const FacePlan& face : crowd) {
     EXPECT_THAT(face.attachments, ::testing::AnyOf(ElementsAre("quiff", "full", "red"),
                                                    ElementsAre("mop", "goatee", "red")));
   }
@@ -276,8 +279,8 @@ TEST(AttachmentDraw, GivesOneFaceOneColour) {
 }
 
 /// A child of a mother and a father, on a mixture of heads.
-CastFace child_of(std::vector<SourceWeight> shares, std::vector<std::string> parents) {
-  CastFace child;
+FacePlan child_of(std::vector<SourceWeight> shares, std::vector<std::string> parents) {
+  FacePlan child;
   child.id = "child";
   child.family = "kin";
   child.parents = std::move(parents);
@@ -290,8 +293,10 @@ TEST(AttachmentDraw, GoesByWhatMostOfAMixtureIs) {
       draw_of({{"bob", "hair", {"female"}, 1, {}}, {"crop", "hair", {"male"}, 1, {}}});
   draw.tags = {{"female", "young"}, {"male", "old"}, {"female", "young"}};
   // The man has the largest share, but women have more.
-  EXPECT_THAT(worn_by(draw, child_of({{0, 0.3}, {1, 0.4}, {2, 0.3}}, {})), ElementsAre("bob"));
-  EXPECT_THAT(worn_by(draw, child_of({{0, 0.2}, {1, 0.6}, {2, 0.2}}, {})), ElementsAre("crop"));
+  EXPECT_THAT(attachments_of(draw, child_of({{0, 0.3}, {1, 0.4}, {2, 0.3}}, {})),
+              ElementsAre("bob"));
+  EXPECT_THAT(attachments_of(draw, child_of({{0, 0.2}, {1, 0.6}, {2, 0.2}}, {})),
+              ElementsAre("crop"));
   draw.tags = {{}, {}, {}};
   EXPECT_EQ(typical_head(child_of({{0, 0.3}, {1, 0.4}, {2, 0.3}}, {}).recipe, draw.tags), 1);
 }
@@ -307,18 +312,18 @@ TEST(AttachmentDraw, ChildrenHaveAParentsColourWhateverTheirHeadHas) {
                {"female", "grey_hair", "old"},
                {"male", "bald"}};
   draw.heads = {"ann", "bob", "cyd", "dot", "eve"};
-  const auto worn = [&](const std::string& mother, const std::string& father) {
-    CastFace child = child_of({{0, 0.1}, {2, 0.9}}, {mother, father});
-    return worn_by(draw, child);
+  const auto placed = [&](const std::string& mother, const std::string& father) {
+    FacePlan child = child_of({{0, 0.1}, {2, 0.9}}, {mother, father});
+    return attachments_of(draw, child);
   };
-  EXPECT_THAT(worn("ann", "bob"), ElementsAre("bob_red")) << "of heads that are parents";
-  EXPECT_THAT(worn("ann", "eve"), ElementsAre("bob_red")) << "a bald father has none to give";
-  EXPECT_THAT(worn("dot", "eve"), ElementsAre("bob_black")) << "age is not inherited";
-  CastFace old = child_of({{3, 1}}, {"dot", "eve"});
-  EXPECT_THAT(worn_by(draw, old), ElementsAre("bob_grey"));
+  EXPECT_THAT(placed("ann", "bob"), ElementsAre("bob_red")) << "of heads that are parents";
+  EXPECT_THAT(placed("ann", "eve"), ElementsAre("bob_red")) << "a bald father has none to give";
+  EXPECT_THAT(placed("dot", "eve"), ElementsAre("bob_black")) << "age is not inherited";
+  FacePlan old = child_of({{3, 1}}, {"dot", "eve"});
+  EXPECT_THAT(attachments_of(draw, old), ElementsAre("bob_grey"));
   // Faces that are parents, by what they wear.
-  CastFace mother = face_of(1, 0);
-  std::vector<CastFace> crowd = {mother, child_of({{2, 1}}, {mother.id, "eve"})};
+  FacePlan mother = face_of(1, 0);
+  std::vector<FacePlan> crowd = {mother, child_of({{2, 1}}, {mother.id, "eve"})};
   draw_attachments(draw, {}, crowd);
   EXPECT_THAT(crowd[1].attachments, ElementsAre("bob_red"));
 }
@@ -330,7 +335,7 @@ TEST(AttachmentDraw, LetsColoursRunInFamilies) {
                                        {"quiff", "hair", {"male"}, 1, {}, "black"},
                                        {"mop", "hair", {"male"}, 1, {}, "red"},
                                        {"rim", "hair", {"male", "old"}, 1, {}, "grey"}});
-  const auto colour_of = [&](const CastFace& face) {
+  const auto colour_of = [&](const FacePlan& face) {
     return std::find_if(draw.items.begin(), draw.items.end(),
                         [&](const auto& item) { return item.name == face.attachments.at(0); })
         ->colour;
@@ -338,9 +343,9 @@ TEST(AttachmentDraw, LetsColoursRunInFamilies) {
   std::map<std::string, int> from;
   for (int f = 0; f < 40; ++f) {
     const std::string name = "kin" + std::to_string(f);
-    std::vector<CastFace> crowd;
-    const auto add = [&](const std::string& id, Index target) -> CastFace& {
-      CastFace& face = crowd.emplace_back();
+    std::vector<FacePlan> crowd;
+    const auto add = [&](const std::string& id, Index target) -> FacePlan& {
+      FacePlan& face = crowd.emplace_back();
       face.id = name + id;
       face.recipe.target = target;
       return face;
@@ -348,7 +353,7 @@ TEST(AttachmentDraw, LetsColoursRunInFamilies) {
     add("_mother", 0);
     add("_father", 1);
     for (int child = 0; child < 4; ++child) {
-      CastFace& face = add("_child" + std::to_string(child), 0);
+      FacePlan& face = add("_child" + std::to_string(child), 0);
       face.family = name;
       face.parents = {name + "_mother", name + "_father"};
     }

@@ -24,17 +24,17 @@ ColourDraw six_heads() {
   return draw;
 }
 
-CastFace face_on(Index target, std::uint64_t index) {
-  CastFace face;
+FacePlan face_on(Index target, std::uint64_t index) {
+  FacePlan face;
   face.id = "face_" + std::to_string(index);
   face.index = index;
   face.recipe.target = target;
   return face;
 }
 
-CastFace relative(const std::string& id, Index target, const std::string& family,
+FacePlan relative(const std::string& id, Index target, const std::string& family,
                   std::vector<std::string> parents = {}) {
-  CastFace face;
+  FacePlan face;
   face.id = id;
   face.family = family;
   face.recipe.target = target;
@@ -49,12 +49,12 @@ double sum_of(const std::vector<SourceWeight>& colours) {
 }
 
 TEST(ColourDraw, AreThoseOfHeadsWithTheSameTagsEachAsOften) {
-  std::vector<CastFace> crowd;
+  std::vector<FacePlan> crowd;
   constexpr std::uint64_t kFaces = 3000;
   for (std::uint64_t i = 1; i <= kFaces; ++i) crowd.push_back(face_on(i % 2 == 0 ? 1 : 4, i));
   draw_colours(six_heads(), crowd);
   std::map<Index, int> first;
-  for (const CastFace& face : crowd) {
+  for (const FacePlan& face : crowd) {
     const auto& colours = face.recipe.colours;
     ASSERT_EQ(colours.size(), 2U);
     EXPECT_NEAR(sum_of(colours), 1, 1e-12);
@@ -71,7 +71,7 @@ TEST(ColourDraw, AreThoseOfHeadsWithTheSameTagsEachAsOften) {
 TEST(ColourDraw, WithoutAListAllTagsCountAndWithoutTagsNone) {
   ColourDraw draw = six_heads();
   draw.alike.reset();
-  std::vector<CastFace> crowd = {face_on(0, 1), face_on(5, 2)};
+  std::vector<FacePlan> crowd = {face_on(0, 1), face_on(5, 2)};
   draw_colours(draw, crowd);
   EXPECT_THAT(crowd[0].recipe.colours, ElementsAre(SourceWeight{0, 1})) << "no other is like her";
   for (const SourceWeight& one : crowd[1].recipe.colours) EXPECT_GE(one.head, 4);
@@ -79,7 +79,7 @@ TEST(ColourDraw, WithoutAListAllTagsCountAndWithoutTagsNone) {
   draw.tags.clear();
   std::map<Index, int> seen;
   for (std::uint64_t i = 1; i <= 200; ++i) {
-    std::vector<CastFace> one = {face_on(0, i)};
+    std::vector<FacePlan> one = {face_on(0, i)};
     draw_colours(draw, one);
     for (const SourceWeight& part : one[0].recipe.colours) ++seen[part.head];
   }
@@ -87,7 +87,7 @@ TEST(ColourDraw, WithoutAListAllTagsCountAndWithoutTagsNone) {
 }
 
 TEST(ColourDraw, NoFaceMattersToAnother) {
-  std::vector<CastFace> few, many;
+  std::vector<FacePlan> few, many;
   for (std::uint64_t i = 1; i <= 20; ++i) many.push_back(face_on(static_cast<Index>(i % 6), i));
   few.assign(many.begin() + 7, many.begin() + 12);
   draw_colours(six_heads(), few);
@@ -95,7 +95,7 @@ TEST(ColourDraw, NoFaceMattersToAnother) {
   for (std::size_t i = 0; i < few.size(); ++i) {
     EXPECT_EQ(few[i].recipe.colours, many[i + 7].recipe.colours);
   }
-  std::vector<CastFace> drawn_again = {face_on(1, 3)};
+  std::vector<FacePlan> drawn_again = {face_on(1, 3)};
   drawn_again[0].notes.attempt = 4;
   draw_colours(six_heads(), drawn_again);
   EXPECT_NE(drawn_again[0].recipe.colours, many[2].recipe.colours);
@@ -104,7 +104,7 @@ TEST(ColourDraw, NoFaceMattersToAnother) {
 TEST(ColourDraw, AFamilyHasOneComplexionAndAChildHasHalfOfEitherParents) {
   ColourDraw draw = six_heads();
   draw.alike = std::vector<std::string>{};
-  std::vector<CastFace> crowd = {face_on(0, 1),
+  std::vector<FacePlan> crowd = {face_on(0, 1),
                                  face_on(4, 2),
                                  relative("s1", 1, "sisters"),
                                  relative("s2", 2, "sisters"),
@@ -129,7 +129,7 @@ TEST(ColourDraw, AFamilyHasOneComplexionAndAChildHasHalfOfEitherParents) {
 }
 
 TEST(ColourDraw, ASonHasNoneOfHisMothersThatASonCannotHave) {
-  std::vector<CastFace> crowd = {face_on(0, 1), face_on(3, 2),
+  std::vector<FacePlan> crowd = {face_on(0, 1), face_on(3, 2),
                                  relative("son", 5, "sons", {"face_1", "face_2"}),
                                  relative("boy", 5, "boys", {"face_1", "face_1"})};
   draw_colours(six_heads(), crowd);
@@ -138,10 +138,10 @@ TEST(ColourDraw, ASonHasNoneOfHisMothersThatASonCannotHave) {
 }
 
 TEST(ColourDraw, WhatIsWrittenByHandStaysAndIsHandedDown) {
-  CastFace written = relative("anna", 1, "");
+  FacePlan written = relative("anna", 1, "");
   written.family.reset();
   written.recipe.colours = {{1, 0.25}, {2, 0.75}};
-  std::vector<CastFace> crowd = {written, relative("child", 1, "c", {"anna", "anna"})};
+  std::vector<FacePlan> crowd = {written, relative("child", 1, "c", {"anna", "anna"})};
   draw_colours(six_heads(), crowd);
   EXPECT_EQ(crowd[0].recipe.colours, written.recipe.colours);
   EXPECT_EQ(crowd[1].recipe.colours, written.recipe.colours);

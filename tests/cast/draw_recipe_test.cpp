@@ -23,8 +23,8 @@ using testing::draw_any_face;
 
 constexpr std::uint64_t kMany = 4000;
 
-Casting example() {
-  Casting casting;
+CastingOptions example() {
+  CastingOptions casting;
   casting.name = "mob";
   casting.count = kMany;
   casting.seed = 3;
@@ -38,7 +38,7 @@ Casting example() {
 }
 
 TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
-  Casting casting = example();
+  CastingOptions casting = example();
   Group group = {"elderly", {}, 0.5, casting.sampling};
   group.sampling.targets = {{1, 1}, {3, 1}};
   group.sampling.sources = {1, 3};
@@ -46,7 +46,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
   casting.groups = {group};
   const FaceKind kind = kind_of_group(casting, 0);
   for (std::uint64_t index = 1; index <= 50; ++index) {
-    const CastFace face = draw_face(casting, index, 0, kind);
+    const FacePlan face = draw_face(casting, index, 0, kind);
     EXPECT_EQ(face.group, "elderly");
     EXPECT_TRUE(face.recipe.target == 1 || face.recipe.target == 3);
     for (const RegionRecipe& region : face.recipe.regions) {
@@ -61,10 +61,10 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
 }
 
 TEST(Ageing, CanBeTakenBack) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.old_heads = {1, 4};
-  const CastFace young = draw_face(casting, 7, 0, kind_of_group(casting));
-  CastFace face = young;
+  const FacePlan young = draw_face(casting, 7, 0, kind_of_group(casting));
+  FacePlan face = young;
   apply_age(face, 0.4, casting.sampling);
   take_back_age(face, casting.sampling);
   EXPECT_FALSE(face.age);
@@ -79,8 +79,8 @@ TEST(Ageing, CanBeTakenBack) {
 }
 
 /// Three bands; the skin comes from two heads only and ages, the build does not.
-Casting banded_example() {
-  Casting casting = example();
+CastingOptions banded_example() {
+  CastingOptions casting = example();
   auto& bands = casting.sampling.bands;
   const auto from = [](double fraction) {
     return SmoothnessDistribution{SmoothnessDistribution::Unit::kFraction, {fraction, fraction}};
@@ -96,11 +96,11 @@ Casting banded_example() {
 }
 
 TEST(Bands, AreDrawnApartAndTheFirstAsWithoutOthers) {
-  const Casting casting = banded_example();
+  const CastingOptions casting = banded_example();
   std::set<double> places;
   for (std::uint64_t index = 1; index <= 50; ++index) {
-    const CastFace face = draw_any_face(casting, index);
-    const CastFace alone = draw_any_face(example(), index);
+    const FacePlan face = draw_any_face(casting, index);
+    const FacePlan alone = draw_any_face(example(), index);
     for (std::size_t k = 0; k < 2; ++k) {
       const RegionRecipe& region = face.recipe.regions[k];
       EXPECT_EQ(region.position, alone.recipe.regions[k].position);
@@ -123,7 +123,7 @@ TEST(Bands, AreDrawnApartAndTheFirstAsWithoutOthers) {
 }
 
 TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
-  const Casting casting = banded_example();
+  const CastingOptions casting = banded_example();
   HandRecipe hand;
   hand.id = "mine";
   hand.target = 2;
@@ -141,7 +141,7 @@ TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
 }
 
 TEST(Bands, BeginNoHigherThanTheBandBefore) {
-  const Casting casting = banded_example();
+  const CastingOptions casting = banded_example();
   HandRecipe hand;
   hand.id = "mine";
   hand.regions.resize(2);
@@ -154,10 +154,10 @@ TEST(Bands, BeginNoHigherThanTheBandBefore) {
 }
 
 TEST(Bands, AgeActsOnThoseThatCarryIt) {
-  Casting casting = banded_example();
+  CastingOptions casting = banded_example();
   casting.sampling.old_heads = {1};
-  const CastFace young = draw_any_face(casting, 7);
-  CastFace old = young;
+  const FacePlan young = draw_any_face(casting, 7);
+  FacePlan old = young;
   apply_age(old, 0.8, casting.sampling);
   const auto share_of_old = [](const BandRecipe& band) {
     double share = 0;
@@ -190,14 +190,14 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
 }
 
 /// Hand-written recipes, then the first draw of each face.
-std::vector<CastFace> draw_crowd(const Casting& casting) {
-  std::vector<CastFace> crowd;
+std::vector<FacePlan> draw_crowd(const CastingOptions& casting) {
+  std::vector<FacePlan> crowd;
   for (const HandRecipe& hand : casting.recipes) crowd.push_back(draw_hand_recipe(casting, hand));
   for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_any_face(casting, i));
   return crowd;
 }
 
-bool same(const CastFace& a, const CastFace& b) {
+bool same(const FacePlan& a, const FacePlan& b) {
   if (a.id != b.id || a.index != b.index || a.recipe.target != b.recipe.target ||
       a.notes.attempt != b.notes.attempt) {
     return false;
@@ -216,10 +216,10 @@ bool same(const CastFace& a, const CastFace& b) {
 struct Spread {
   double low = HUGE_VAL, mean = 0, high = -HUGE_VAL;
 };
-Spread spread(const std::vector<CastFace>& crowd,
-              const std::function<double(const CastFace&)>& number) {
+Spread spread(const std::vector<FacePlan>& crowd,
+              const std::function<double(const FacePlan&)>& number) {
   Spread result;
-  for (const CastFace& face : crowd) {
+  for (const FacePlan& face : crowd) {
     result.low = std::min(result.low, number(face));
     result.high = std::max(result.high, number(face));
     result.mean += number(face) / static_cast<double>(crowd.size());
@@ -228,7 +228,7 @@ Spread spread(const std::vector<CastFace>& crowd,
 }
 
 TEST(DrawRecipe, FacesDoNotDependOnTheCount) {
-  Casting casting = example();
+  CastingOptions casting = example();
   const auto crowd = draw_crowd(casting);
   ASSERT_EQ(crowd.size(), kMany);
   casting.count = 10;
@@ -238,7 +238,7 @@ TEST(DrawRecipe, FacesDoNotDependOnTheCount) {
 }
 
 TEST(DrawRecipe, SeedsAndIndicesGiveOtherFaces) {
-  Casting casting = example();
+  CastingOptions casting = example();
   const auto a = draw_crowd(casting);
   casting.seed = 4;
   const auto b = draw_crowd(casting);
@@ -254,22 +254,22 @@ TEST(DrawRecipe, IdsCountFromOne) {
   EXPECT_EQ(face_id("mob", 1), "mob_0001");
   EXPECT_EQ(face_id("mob", 9999), "mob_9999");
   EXPECT_EQ(face_id("mob", 123456), "mob_123456");
-  const CastFace face = draw_any_face(example(), 12);
+  const FacePlan face = draw_any_face(example(), 12);
   EXPECT_EQ(face.id, "mob_0012");
   EXPECT_EQ(face.index, 12U);
 }
 
 TEST(DrawRecipe, TargetsComeByWeight) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.targets = {{1, 3}, {4, 1}};
   std::map<Index, double> share;
-  for (const CastFace& r : draw_crowd(casting)) share[r.recipe.target] += 1. / kMany;
+  for (const FacePlan& r : draw_crowd(casting)) share[r.recipe.target] += 1. / kMany;
   EXPECT_EQ(share.size(), 2U);
   EXPECT_NEAR(share[1], 0.75, 0.03);
 }
 
 TEST(DrawRecipe, UniformPositionsFillTheHullOfTheSources) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.sources = {0, 1, 3};
   casting.sampling.regions[1].position.kind = PositionDistribution::Kind::kUniform;
   const std::vector<PlanePoint> corner = {casting.anchors[0], casting.anchors[1],
@@ -280,7 +280,7 @@ TEST(DrawRecipe, UniformPositionsFillTheHullOfTheSources) {
   const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
   PlanePoint middle(0, 0);
   double near_first = 0;
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     const PlanePoint m = *r.recipe.regions[1].position;
     double parts[3];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -296,11 +296,11 @@ TEST(DrawRecipe, UniformPositionsFillTheHullOfTheSources) {
 }
 
 TEST(DrawRecipe, AnchoredPositionsStayNearASource) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.sources = {0, 1, 3};
   casting.sampling.regions[1].position.pull = 0.2;
   std::map<Index, double> share;
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     const PlanePoint m = *r.recipe.regions[1].position;
     Index nearest = 0;
     for (const Index head : casting.sampling.sources) {
@@ -315,15 +315,15 @@ TEST(DrawRecipe, AnchoredPositionsStayNearASource) {
 
   casting.sampling.regions[1].position.pull = 0;
   casting.sampling.targets = {{2, 1}};
-  const CastFace on_anchor = draw_any_face(casting, 1);
+  const FacePlan on_anchor = draw_any_face(casting, 1);
   ASSERT_EQ(on_anchor.recipe.regions[1].weights.size(), 1U) << "all weight on one head";
 }
 
 TEST(DrawRecipe, AttemptsDrawAnew) {
-  const Casting casting = example();
+  const CastingOptions casting = example();
   std::set<double> smoothness;
   for (std::uint32_t attempt = 0; attempt < 50; ++attempt) {
-    const CastFace face = draw_any_face(casting, 4, attempt);
+    const FacePlan face = draw_any_face(casting, 4, attempt);
     EXPECT_EQ(face.notes.attempt, attempt);
     EXPECT_EQ(face.id, "mob_0004");
     smoothness.insert(face.recipe.regions[0].smoothness);
@@ -332,12 +332,12 @@ TEST(DrawRecipe, AttemptsDrawAnew) {
 }
 
 TEST(DrawRecipe, AroundStaysInTheDisc) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.regions[0].position = {PositionDistribution::Kind::kAround, 2, 0.3};
   casting.sampling.regions[1].position = {PositionDistribution::Kind::kAround, std::nullopt, 0.5};
   double inner = 0;
   PlanePoint middle(0, 0);
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     const PlanePoint offset = *r.recipe.regions[0].position - casting.anchors[2];
     EXPECT_LE(offset.norm(), 0.3 * (1 + 1e-12));
     EXPECT_LE(
@@ -352,18 +352,18 @@ TEST(DrawRecipe, AroundStaysInTheDisc) {
 }
 
 TEST(DrawRecipe, FixedStaysPut) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.count = 20;
   casting.sampling.regions[0].position = {
       PositionDistribution::Kind::kFixed, {}, 0, PlanePoint(0.25, -0.75)};
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     EXPECT_EQ(*r.recipe.regions[0].position, PlanePoint(0.25, -0.75));
     EXPECT_NE(*r.recipe.regions[1].position, PlanePoint(0.25, -0.75));
   }
 }
 
 TEST(DrawRecipe, RangesAreFilledAndKept) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.regions[0].smoothness.range = {0.25, 0.5};
   casting.sampling.regions[0].extrapolation = {-1, 2};
   casting.sampling.regions[1].extrapolation = {1.5, 1.5};
@@ -384,9 +384,9 @@ TEST(DrawRecipe, RangesAreFilledAndKept) {
 }
 
 TEST(DrawRecipe, FractionsBecomeTheNearestIterations) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.regions[0].smoothness.range = {0, 1};
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     const RegionRecipe& region = r.recipe.regions[0];
     EXPECT_EQ(static_cast<double>(region.iterations), std::round(region.smoothness * 1000));
   }
@@ -395,10 +395,10 @@ TEST(DrawRecipe, FractionsBecomeTheNearestIterations) {
 }
 
 TEST(DrawRecipe, IterationsStandAsDrawn) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kIterations, {3, 6}};
   std::map<std::uint64_t, double> share;
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     share[r.recipe.regions[0].iterations] += 1. / kMany;
     EXPECT_NEAR(r.recipe.regions[0].smoothness,
                 static_cast<double>(r.recipe.regions[0].iterations) / 1000, 1e-12);
@@ -410,7 +410,7 @@ TEST(DrawRecipe, IterationsStandAsDrawn) {
 
 TEST(DrawRecipe, SizesBecomeTheirIterations) {
   for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
-    Casting casting = example();
+    CastingOptions casting = example();
     casting.scale.kind = kind;
     const double largest = size_of_iterations(kind, casting.scale.max_level, 2);
     std::uint64_t before = 0;
@@ -431,7 +431,7 @@ TEST(DrawRecipe, SizesBecomeTheirIterations) {
 
 // An empty list of sources was read beyond its end.
 TEST(DrawRecipe, NeedsTargetsAndSources) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.sources.clear();
   EXPECT_THROW(draw_any_face(casting, 1), BrokenPrecondition);
   casting = example();
@@ -440,11 +440,11 @@ TEST(DrawRecipe, NeedsTargetsAndSources) {
 }
 
 TEST(DrawRecipe, TheNumberOfSourcesHoldsForEachRegionAlone) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.max_sources = 1;
   ASSERT_GT(casting.region_names.size(), 1U);
   bool others_elsewhere = false;
-  for (const CastFace& face : draw_crowd(casting)) {
+  for (const FacePlan& face : draw_crowd(casting)) {
     std::set<Index> heads;
     for (const RegionRecipe& region : face.recipe.regions) {
       EXPECT_LE(region.weights.size(), 2U) << "one source and the target";
@@ -456,12 +456,12 @@ TEST(DrawRecipe, TheNumberOfSourcesHoldsForEachRegionAlone) {
 }
 
 TEST(DrawRecipe, SourcesAndTheirNumberAreKept) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.sampling.targets = {{2, 1}};
   casting.sampling.sources = {0, 1, 3, 4};
   casting.sampling.max_sources = 2;
   std::size_t faces = 0, with_target = 0;
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     const auto& weights = r.recipe.regions[0].weights;
     EXPECT_LE(weights.size(), 3U);  // two sources and the target
     double sum = 0;
@@ -480,9 +480,9 @@ TEST(DrawRecipe, SourcesAndTheirNumberAreKept) {
 }
 
 TEST(DrawRecipe, PrintedWeightsLeaveTheTargetOut) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.normalization = Normalization::kPrinted;
-  for (const CastFace& r : draw_crowd(casting)) {
+  for (const FacePlan& r : draw_crowd(casting)) {
     for (const RegionRecipe& region : r.recipe.regions) {
       double sum = 0;
       for (const SourceWeight& w : region.weights) {
@@ -496,18 +496,18 @@ TEST(DrawRecipe, PrintedWeightsLeaveTheTargetOut) {
 }
 
 TEST(DrawRecipe, AnotherRegionDisturbsNone) {
-  const Casting casting = example();
-  Casting more = casting;
+  const CastingOptions casting = example();
+  CastingOptions more = casting;
   more.region_names = {"new", "top", "low"};
   more.sampling.regions.resize(3);
-  const CastFace a = draw_any_face(casting, 5), b = draw_any_face(more, 5);
+  const FacePlan a = draw_any_face(casting, 5), b = draw_any_face(more, 5);
   EXPECT_EQ(a.recipe.target, b.recipe.target);
   EXPECT_EQ(a.recipe.regions[0].position, b.recipe.regions[1].position);
   EXPECT_EQ(a.recipe.regions[1].smoothness, b.recipe.regions[2].smoothness);
 }
 
 TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
-  Casting casting = example();
+  CastingOptions casting = example();
   casting.count = 1;
   HandRecipe hand;
   hand.id = "mine";

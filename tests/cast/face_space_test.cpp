@@ -71,13 +71,13 @@ class FaceSpaceTest : public ::testing::Test {
     space_.emplace(space_of(faces_));
   }
 
-  FaceSpace space_of(const FaceSet& faces) const {
+  FaceSpace space_of(const HeadSet& faces) const {
     return FaceSpace(sample_heads(faces, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit),
                      weights_);
   }
 
   std::vector<Recipe> crowd(std::uint64_t count) const {
-    Casting casting;
+    CastingOptions casting;
     casting.name = "mob";
     casting.count = count;
     casting.anchors = circle_layout(4);
@@ -115,7 +115,7 @@ class FaceSpaceTest : public ::testing::Test {
     return d.cross(e).norm() / 2;
   }
 
-  FaceSet faces_;
+  HeadSet faces_;
   RegionWeights regions_;
   Adjacency adjacency_;
   std::optional<ChebyshevFilter> filter_;
@@ -278,7 +278,7 @@ TEST_F(FaceSpaceTest, ExtrapolationAloneIsTheSamePerson) {
 }
 
 TEST_F(FaceSpaceTest, RigidMotionOfAHeadChangesNoDistance) {
-  FaceSet moved = faces_;
+  HeadSet moved = faces_;
   Similarity motion;
   motion.rotation =
       Eigen::AngleAxisd(0.1, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
@@ -289,7 +289,7 @@ TEST_F(FaceSpaceTest, RigidMotionOfAHeadChangesNoDistance) {
 }
 
 TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
-  CrowdCast cast;
+  CastingResult cast;
   std::vector<Recipe> recipes = crowd(40);
   recipes[20] = recipes[7];  // a twin
   for (const Recipe& recipe : recipes) {
@@ -338,11 +338,11 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
     ++asked;
     return found;
   });
-  EXPECT_EQ(judge.closely(recipe), std::nullopt);
+  EXPECT_EQ(judge.check_skin(recipe), std::nullopt);
   found.intersecting = 501;
-  EXPECT_EQ(judge.closely(recipe), Reason::kIntersecting);
+  EXPECT_EQ(judge.check_skin(recipe), Reason::kIntersecting);
   found.local.flipped = 501;
-  EXPECT_EQ(judge.closely(recipe), Reason::kFlipped);
+  EXPECT_EQ(judge.check_skin(recipe), Reason::kFlipped);
   EXPECT_EQ(asked, 3);
   limits.max_stretch = 1;  // no face is stretched so little
   EXPECT_EQ(FaceJudge(*space_, {}, limits, &skin,
@@ -350,7 +350,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
                         ++asked;
                         return found;
                       })
-                .closely(recipe),
+                .check_skin(recipe),
             Reason::kStretched);
   EXPECT_EQ(asked, 3) << "a mesh is built only for what the samples let pass";
 }

@@ -107,14 +107,14 @@ TEST(MappedFile, UnwatchedLeavesSignalsToTheHostAndIsACopy) {
   const TemporaryFolder folder;
   const std::string bytes(20'000, 'x');
   const std::filesystem::path path = folder.write("copied", bytes);
-  const MappedFile copied(path), filled(path, WhenCut::kFill);
+  const MappedFile copied(path), filled(path, OnTruncation::kFill);
   struct sigaction action {};
   ASSERT_EQ(::sigaction(SIGBUS, nullptr, &action), 0);
   EXPECT_EQ(action.sa_handler, SIG_DFL);
   ASSERT_EQ(::truncate(path.c_str(), 5000), 0);
   EXPECT_EQ(copied.bytes(), bytes);
   EXPECT_EQ(filled.bytes(), bytes);
-  EXPECT_FALSE(filled.was_cut());
+  EXPECT_FALSE(filled.was_truncated());
 }
 
 TEST(MappedFile, UnwatchedRefusesAFileThatEndsTooSoon) {
@@ -145,11 +145,11 @@ TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {
   const std::string bytes(20'000, 'x');
   const std::filesystem::path path = folder.write("mapped", bytes);
   watch_mapped_files();
-  const MappedFile filled(path, WhenCut::kFill);
+  const MappedFile filled(path, OnTruncation::kFill);
   EXPECT_EQ(filled.bytes(), bytes);
-  EXPECT_FALSE(filled.was_cut());
+  EXPECT_FALSE(filled.was_truncated());
   ASSERT_EQ(::truncate(path.c_str(), 5000), 0);
-  EXPECT_TRUE(filled.was_cut());
+  EXPECT_TRUE(filled.was_truncated());
   EXPECT_EQ(filled.bytes()[4000], 'x');
   EXPECT_EQ(filled.bytes()[6000], '\0');
   EXPECT_EQ(filled.bytes()[19'999], '\0');

@@ -48,23 +48,23 @@ TEST(LeadsBelow, LinksAreSeenThrough) {
   fs::create_directory_symlink(folder / "out", folder / "in/link");
   fs::create_directory_symlink(folder / "in", folder / "in/self");
   const fs::path in = folder / "in";
-  EXPECT_TRUE(leads_below(in / "a", in));
-  EXPECT_TRUE(leads_below(in / "not/there/yet", in));
-  EXPECT_TRUE(leads_below(in / "self/a", in));
-  EXPECT_FALSE(leads_below(in / "link/d", in));
-  EXPECT_FALSE(leads_below(in / "../out/d", in));
+  EXPECT_TRUE(is_inside_folder(in / "a", in));
+  EXPECT_TRUE(is_inside_folder(in / "not/there/yet", in));
+  EXPECT_TRUE(is_inside_folder(in / "self/a", in));
+  EXPECT_FALSE(is_inside_folder(in / "link/d", in));
+  EXPECT_FALSE(is_inside_folder(in / "../out/d", in));
 }
 
-TEST(HeldFolder, ASecondFolderOfItsNameIsAnother) {
+TEST(DirectoryHandle, ASecondFolderOfItsNameIsAnother) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "in");
-  const HeldFolder held(folder / "in");
+  const DirectoryHandle held(folder / "in");
   EXPECT_NO_THROW(held.require_same());
   fs::rename(folder / "in", folder / "moved");
   EXPECT_THROW(held.require_same(), IoError);
   fs::create_directories(folder / "in");
   EXPECT_THROW(held.require_same(), IoError);
-  EXPECT_THROW(HeldFolder(folder / "none"), CannotCreate);
+  EXPECT_THROW(DirectoryHandle(folder / "none"), CannotCreate);
 }
 
 }  // namespace

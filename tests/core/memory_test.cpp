@@ -131,10 +131,10 @@ TEST(MemoryRanOut, KnowsWhatSomebodyElseCaught) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer's operator new ends the program";
 #endif
-  watch_for_lack_of_memory();
-  EXPECT_FALSE(memory_ran_out());
+  watch_for_out_of_memory();
+  EXPECT_FALSE(is_out_of_memory());
   EXPECT_THROW(::operator delete(::operator new (std::size_t{1} << 62)), std::bad_alloc);
-  EXPECT_TRUE(memory_ran_out());
+  EXPECT_TRUE(is_out_of_memory());
 }
 
 }  // namespace

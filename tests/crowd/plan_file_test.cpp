@@ -16,8 +16,8 @@ namespace {
 const PlanNames kNames = {{"ann", "bob", "cyd"}, {"top", "low"}};
 const Digest kSettings = {0x0123456789abcdefU, 0xfedcba9876543210U};
 
-CastFace example() {
-  CastFace face;
+FacePlan example() {
+  FacePlan face;
   face.id = "mob_0007";
   face.index = 7;
   face.recipe.target = 2;
@@ -40,7 +40,7 @@ TEST(PlanFile, LineHasTheFieldsOfTheContractInOrder) {
 }
 
 TEST(PlanFile, ReadsBackToTheBit) {
-  const CastFace face = example();
+  const FacePlan face = example();
   const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
   EXPECT_EQ(line.settings, kSettings.hex());
   EXPECT_EQ(line.face.id, face.id);
@@ -63,7 +63,7 @@ TEST(PlanFile, ReadsBackToTheBit) {
 }
 
 TEST(PlanFile, ColoursOfAFacesOwnStandBesideItsTarget) {
-  CastFace face = example();
+  FacePlan face = example();
   face.recipe.colours = {{0, 0.25}, {2, 0.75}};
   const std::string text = format_recipe(face, kNames, kSettings);
   EXPECT_NE(text.find(R"("target":"cyd","colours":{"ann":0.25,"cyd":0.75},"attempt")"), text.npos);
@@ -82,7 +82,7 @@ TEST(PlanFile, ColoursOfAFacesOwnStandBesideItsTarget) {
 }
 
 TEST(PlanFile, TheLongestIdsAreRead) {
-  CastFace face = example();
+  FacePlan face = example();
   face.family = std::string(64, 'f');
   face.id = concat(std::string(64, 'c'), '_', *face.family, "_1000");
   const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
@@ -152,8 +152,8 @@ TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
 
 const PlanNames kBandNames = {{"ann", "bob", "cyd"}, {"top", "low"}, {"build", "skin"}};
 
-CastFace banded() {
-  CastFace face = example();
+FacePlan banded() {
+  FacePlan face = example();
   face.parents = {"ann", "bob"};
   face.inherits = {"mother", "father", "father", "mother"};
   face.recipe.regions[0].finer = {{PlanePoint(0.5, 0.25), {{1, 1.0}}, 0.1, 2000, 0.8}};
@@ -172,7 +172,7 @@ TEST(PlanFile, BandsAreReadBackToTheBit) {
                       R"("low":{"build":"father","skin":"mother"}})"),
             line.npos)
       << line;
-  const CastFace back = parse_recipe(line, kBandNames, "plan:1").face;
+  const FacePlan back = parse_recipe(line, kBandNames, "plan:1").face;
   EXPECT_EQ(format_recipe(back, kBandNames, kSettings), line);
   ASSERT_EQ(back.recipe.regions[0].finer.size(), 1U);
   EXPECT_EQ(back.recipe.regions[0].finer[0].iterations, 2000U);
@@ -222,7 +222,7 @@ TEST(PlanFile, FileErrorsNameTheLine) {
 }
 
 TEST(PlanFile, TableSaysTheSame) {
-  CastFace by_hand = example();
+  FacePlan by_hand = example();
   by_hand.id = "mine";
   by_hand.index.reset();
   by_hand.notes.nearest.reset();

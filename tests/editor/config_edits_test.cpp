@@ -107,7 +107,7 @@ TEST_F(ConfigEdits, AreRefusedWhereTheFileIsMissingOrHoldsSomethingElse) {
   const auto file = put_recipe(recipe("eva", 1), config());
   write_file(file, "sampling: {max_sources: 1}\n");
   expect_error(ExitCode::kUsage, {"sampling"}, [&] { config(); });
-  remove_if_there(file);
+  remove_if_exists(file);
   expect_error(ExitCode::kMissingInput, {file.filename().string()}, [&] { config(); });
 }
 

@@ -85,7 +85,7 @@ struct Editor {
                                        levels, "}\noutput: {directory: out}\n", more));
     session.emplace(load_job(folder / "config.yaml", {}), folder / "cache", preview_vertices);
   }
-  CastFace face(const Json& recipe) const {
+  FacePlan face(const Json& recipe) const {
     return face_of_json(recipe, session->casting(), session->job().config);
   }
   std::filesystem::path strokes() const { return folder / "strokes.jsonl"; }
@@ -102,7 +102,7 @@ Json some_recipe() {
 
 /// The face as the page computes it (in single precision, from what the page gets) against the
 /// engine's. \return the largest difference over the preview's skin in mm.
-double preview_error_mm(const Editor& editor, const CastFace& face) {
+double preview_error_mm(const Editor& editor, const FacePlan& face) {
   const EditSession& session = *editor.session;
   const Read mesh = read_answer(session.mesh());
   const auto vertices = static_cast<std::size_t>(mesh.head["vertices"]);
@@ -175,7 +175,7 @@ TEST(EditSession, AReducedPreviewConsistsOfTheMeshesOwnVertices) {
 TEST(EditSession, TextureCoordinatesAreThoseOfTheMesh) {
   const Editor editor("basis");
   const PreviewMesh& preview = editor.session->preview();
-  const FaceSet& faces = editor.session->job().inputs.faces;
+  const HeadSet& faces = editor.session->job().inputs.faces;
   std::map<std::uint32_t, std::vector<std::array<float, 2>>> known;
   for (std::size_t c = 0; c < faces.topology.corner_uvs.size(); ++c) {
     const std::uint32_t row = faces.topology.corner_uvs[c];
@@ -193,9 +193,9 @@ TEST(EditSession, TextureCoordinatesAreThoseOfTheMesh) {
 
 TEST(EditSession, ARecipeGoesThroughItsJsonUnchanged) {
   const Editor editor("basis");
-  const CastFace face = editor.face(some_recipe());
+  const FacePlan face = editor.face(some_recipe());
   const Json json = recipe_to_json(face, editor.session->casting(), editor.session->job().config);
-  const CastFace again = editor.face(json);
+  const FacePlan again = editor.face(json);
   ASSERT_EQ(again.recipe.regions.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(again.recipe.regions[k].weights, face.recipe.regions[k].weights);
@@ -209,7 +209,7 @@ TEST(EditSession, AMixtureOfTargetsGoesThrough) {
   const Editor editor("basis");
   Json json = some_recipe();
   json["mixture"] = {{"head_1", 0.75}, {"head_3", 0.25}};
-  const CastFace face = editor.face(json);
+  const FacePlan face = editor.face(json);
   EXPECT_EQ(face.recipe.target, 1);
   EXPECT_EQ(face.recipe.mixture, (std::vector<SourceWeight>{{1, 0.75}, {3, 0.25}}));
   EXPECT_EQ(
@@ -237,14 +237,14 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   for (auto& [name, region] : json["regions"].items()) {
     region = {{"weights", {{"head_1", 1}}}, {"smoothness", 0.5}, {"extrapolation", 1}};
   }
-  const CastFace head = editor.face(json);
+  const FacePlan head = editor.face(json);
   const FaceMeasures measures = editor.session->measure(head, editor.session->build(head.recipe));
   EXPECT_EQ(measures.head, 1);
   EXPECT_LT(measures.head_mm, 0.01);
   EXPECT_THAT(measures.warnings, ::testing::IsEmpty());
   json["regions"]["top"] = {
       {"weights", {{"head_0", 1}}}, {"smoothness", 0.9}, {"extrapolation", 4}};
-  const CastFace wild = editor.face(json);
+  const FacePlan wild = editor.face(json);
   const FaceMeasures whole = editor.session->measure(wild, editor.session->build(wild.recipe));
   EXPECT_THAT(whole.warnings, ::testing::Contains(::testing::HasSubstr("believability.")));
   const FaceMeasures without_mesh = editor.session->measure(wild);
@@ -256,9 +256,9 @@ TEST(EditSession, DrawsAnewButForWhatIsLocked) {
   const Editor editor("basis");
   DrawRequest request{editor.face(some_recipe()), {1}, std::nullopt};
   request.count = 3;
-  const std::vector<CastFace> faces = editor.session->draw(request);
+  const std::vector<FacePlan> faces = editor.session->draw(request);
   ASSERT_EQ(faces.size(), 3U);
-  for (const CastFace& face : faces) {
+  for (const FacePlan& face : faces) {
     EXPECT_EQ(face.id, "edited");
     EXPECT_EQ(face.recipe.target, 1);
     EXPECT_EQ(face.recipe.regions[1].weights, request.from.recipe.regions[1].weights);
@@ -283,7 +283,7 @@ TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
   DrawRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
   request.count = 3;
   const BandRecipe& locked = request.from.recipe.regions[0].finer[0];
-  for (const CastFace& face : editor.session->draw(request)) {
+  for (const FacePlan& face : editor.session->draw(request)) {
     const RegionRecipe& top = face.recipe.regions[0];
     EXPECT_EQ(top.finer[0].iterations, locked.iterations);
     EXPECT_EQ(top.finer[0].weights, locked.weights);
@@ -296,12 +296,12 @@ TEST(EditSession, FacesLikeAnotherAreNearerToItTheSmallerTheAmount) {
   const Editor editor("basis");
   DrawRequest request{editor.face(some_recipe()), {}, editor.face(some_recipe())};
   request.amount = 0;
-  const CastFace same = editor.session->draw(request).front();
+  const FacePlan same = editor.session->draw(request).front();
   EXPECT_EQ(same.recipe.regions[0].position, request.like->recipe.regions[0].position);
   EXPECT_EQ(same.recipe.regions[2].iterations, request.like->recipe.regions[2].iterations);
   const auto far = [&](double amount) {
     request.amount = amount;
-    const CastFace face = editor.session->draw(request).front();
+    const FacePlan face = editor.session->draw(request).front();
     return (*face.recipe.regions[0].position - *request.like->recipe.regions[0].position).norm();
   };
   EXPECT_GT(far(0.1), 0);
@@ -319,7 +319,7 @@ Json stroke_on(const EditSession& session, std::string_view mode) {
 TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
   Editor editor("basis");
   EditSession& session = *editor.session;
-  const CastFace face = editor.face(some_recipe());
+  const FacePlan face = editor.face(some_recipe());
   const Positions before = session.build(face.recipe);
   RegionPainting painting(session, editor.strokes());
   const std::vector<float> masks = painting.masks();
@@ -352,7 +352,7 @@ TEST(RegionPainting, ImagesReadBackAsWhatIsPainted) {
   painting.stroke(stroke_on(session, "paint"));
   painting.apply();
   const auto files = painting.save(painting.regions({}), editor.folder / "masks.png");
-  const FaceSet& faces = session.job().inputs.faces;
+  const HeadSet& faces = session.job().inputs.faces;
   const RegionWeights read =
       region_weights(faces.topology, faces.uvs, {files.begin(), files.end()}, 3);
   const RegionWeights::Alpha& alpha = session.masks().alpha;

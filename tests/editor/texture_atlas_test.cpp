@@ -23,7 +23,7 @@ const Light kRed(1, 0, 0), kGreen(0, 1, 0), kBlue(0, 0, 1);
 /// last two, the third none.
 Inputs three_tiles() {
   Inputs inputs;
-  FaceSet& faces = inputs.faces;
+  HeadSet& faces = inputs.faces;
   faces.uvs.resize(12, 2);
   for (std::uint32_t tile = 0; tile < 3; ++tile) {
     const std::uint32_t first = 4 * tile;
@@ -34,10 +34,10 @@ Inputs three_tiles() {
     faces.topology.add_face(corners, corners);
   }
   faces.topology.vertex_count = 12;
-  constexpr std::uint32_t kNone = TextureCoat::kNone;
-  inputs.textures.coats = {{{{plain(kRed), plain(kGreen), plain(kBlue)}, {0, 1, 2}}},
-                           {{{plain(kGreen)}, {kNone, 0, 0}}},
-                           {{{}, {kNone, kNone, kNone}}}};
+  constexpr std::uint32_t kNone = TextureSet::kNone;
+  inputs.textures.texture_sets = {{{{plain(kRed), plain(kGreen), plain(kBlue)}, {0, 1, 2}}},
+                                  {{{plain(kGreen)}, {kNone, 0, 0}}},
+                                  {{{}, {kNone, kNone, kNone}}}};
   return inputs;
 }
 
@@ -85,9 +85,9 @@ TEST_F(TextureAtlasTest, AHeadWithoutTexturesHasNoPicture) {
 }
 
 TEST_F(TextureAtlasTest, OnePictureStaysAsItIs) {
-  inputs_.textures.coats = {{{{plain(kBlue)}, {0, 0, 0}}}};
+  inputs_.textures.texture_sets = {{{{plain(kBlue)}, {0, 0, 0}}}};
   EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.faces.uvs);
-  inputs_.textures.coats.clear();
+  inputs_.textures.texture_sets.clear();
   EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.faces.uvs);
 }
 

@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979;
 
 /// Five bowls that differ like people do.
 struct Bowls {
-  FaceSet faces;
+  HeadSet faces;
   Components components;
 };
 Bowls make_bowls() {
@@ -83,7 +83,7 @@ TEST(AlignmentCheck, MovedHeadIsNamed) {
 TEST(AlignmentCheck, RigidKeepsTheFirstHeadAndAllShapes) {
   Bowls bowls = make_bowls();
   bowls.faces.heads[3].positions = turned(bowls.faces.heads[3].positions, 40);
-  const FaceSet before = bowls.faces;
+  const HeadSet before = bowls.faces;
   align_heads(bowls.faces, bowls.components, Align::kRigid);
   EXPECT_EQ(bowls.faces.heads[0].positions, before.heads[0].positions);
   for (std::size_t h = 0; h < 5; ++h) {

@@ -11,16 +11,16 @@
 namespace crowdface {
 namespace {
 
-FaceSet synthetic_heads(std::uint64_t count) {
+HeadSet synthetic_heads(std::uint64_t count) {
   const SyntheticHeads made(5000);
-  FaceSet faces{made.topology(), made.uvs(), {}};
+  HeadSet faces{made.topology(), made.uvs(), {}};
   for (std::uint64_t h = 0; h < count; ++h) {
     faces.heads.push_back({concat("head_", h), made.positions(3, h)});
   }
   return faces;
 }
 
-std::string warnings_of(const FaceSet& faces) {
+std::string warnings_of(const HeadSet& faces) {
   return join(odd_expressions(faces, shape_of_mean(faces).skin, HeadAxes(), 10));
 }
 
@@ -32,7 +32,7 @@ void open_mouth(const FaceMarks& marks, Positions& head) {
 }
 
 TEST(ExpressionCheck, TellsOneHeadThatGrimacesAmongNeutralOnes) {
-  FaceSet faces = synthetic_heads(8);
+  HeadSet faces = synthetic_heads(8);
   EXPECT_EQ(warnings_of(faces), "");
   const auto marks = find_face_marks(faces.topology, shape_of_mean(faces), HeadAxes());
   ASSERT_TRUE(marks);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/kept_face_space.h"
-
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "crowdface/cast/training_recipe.h"
 #include "crowdface/core/file.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached_face_space.h"
 
 #include "support/forged_entry.h"
 #include "support/temporary_folder.h"
@@ -59,7 +58,7 @@ class KeptFaceSpace : public ::testing::TestWithParam<bool> {
  protected:
   static SampledHeads heads(std::uint32_t seed = 1) { return sampled_heads(seed, GetParam()); }
   FaceSpace kept(const fs::path& cache, std::uint32_t seed = 1, std::size_t bands = 2) const {
-    return kept_face_space(cache, heads(seed), weights_, bands);
+    return cached_face_space(cache, heads(seed), weights_, bands);
   }
   /// Where faces lie, and how far heads are from each other in a region.
   static std::vector<float> places(const FaceSpace& space, std::size_t bands = 2) {
@@ -140,8 +139,8 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsForged) {
 TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {
   SampledHeads still = heads();
   for (Trajectory& trajectory : still.own) trajectory.setZero();
-  const FaceSpace first = kept_face_space(folder_.path(), still, weights_, 1);
-  EXPECT_EQ(places(kept_face_space(folder_.path(), still, weights_, 1), 1), places(first, 1));
+  const FaceSpace first = cached_face_space(folder_.path(), still, weights_, 1);
+  EXPECT_EQ(places(cached_face_space(folder_.path(), still, weights_, 1), 1), places(first, 1));
   EXPECT_EQ(entries(), 1U);
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/kept_patches.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached_patches.h"
 
 #include "support/smooth_fields.h"
 #include "support/temporary_folder.h"
@@ -28,15 +27,15 @@ class KeptPatchesTest : public ::testing::Test {
       ranks_.push_back(heads_.back().fields.rank);
     }
   }
-  KeptPatches patches(const fs::path& cache, const Digest& key = {1, 2}) {
-    return kept_patches(cache, key, kVertices, ranks_, [&] {
+  CachedPatches patches(const fs::path& cache, const Digest& key = {1, 2}) {
+    return cached_patches(cache, key, kVertices, ranks_, [&] {
       ++made_;
       std::vector<std::uint32_t> order(kVertices);
       std::iota(order.begin(), order.end(), 0U);
       return interpolate_fields(heads_, std::vector<std::uint64_t>{1, 10, 100}, order, 0.1);
     });
   }
-  static bool alike(const KeptPatches& a, const KeptPatches& b) {
+  static bool alike(const CachedPatches& a, const CachedPatches& b) {
     const PatchLists &x = a.patches.lists(), &y = b.patches.lists();
     return std::ranges::equal(x.vertices, y.vertices) &&
            std::ranges::equal(x.skeletons, y.skeletons) && std::ranges::equal(x.counts, y.counts) &&
@@ -51,9 +50,9 @@ class KeptPatchesTest : public ::testing::Test {
 };
 
 TEST_F(KeptPatchesTest, AreMadeOnceForAKeyAndUsedFromTheFile) {
-  const KeptPatches first = patches(folder_.path());
+  const CachedPatches first = patches(folder_.path());
   EXPECT_TRUE(first.mapped) << "used from the file as soon as it is there";
-  const KeptPatches again = patches(folder_.path());
+  const CachedPatches again = patches(folder_.path());
   EXPECT_EQ(made_, 1);
   EXPECT_TRUE(alike(first, again));
   EXPECT_FALSE(first.patches.lists().weights.empty());
@@ -62,7 +61,7 @@ TEST_F(KeptPatchesTest, AreMadeOnceForAKeyAndUsedFromTheFile) {
 }
 
 TEST_F(KeptPatchesTest, AreMadeAnewWhereAnEntryIsDamagedOrOfOtherHeads) {
-  const KeptPatches first = patches(folder_.path());
+  const CachedPatches first = patches(folder_.path());
   const fs::path entry = list_cache(folder_.path()).entries.at(0);
   fs::resize_file(entry, fs::file_size(entry) - 20);
   EXPECT_TRUE(alike(patches(folder_.path()), first));
@@ -77,7 +76,7 @@ TEST_F(KeptPatchesTest, AreMadeAnewWhereAnEntryIsDamagedOrOfOtherHeads) {
 TEST_F(KeptPatchesTest, StandInMemoryWhereTheyCannotBeKept) {
   const fs::path file = folder_.path() / "file";
   std::ofstream(file) << "no folder";
-  const KeptPatches made = patches(file);
+  const CachedPatches made = patches(file);
   EXPECT_FALSE(made.mapped);
   EXPECT_TRUE(alike(made, patches(folder_.path() / "cache")));
 }

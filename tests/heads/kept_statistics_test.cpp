@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/kept_statistics.h"
-
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached_statistics.h"
 
 #include "support/temporary_folder.h"
 
@@ -22,7 +21,7 @@ constexpr std::size_t kMeshVertices = 30, kTexturedHeads = 3;
 class KeptStatistics : public ::testing::Test {
  protected:
   SurfaceStatistics kept(const Digest& key = {1, 2}, std::size_t heads = kTexturedHeads) {
-    return kept_statistics(folder_.path(), key, kMeshVertices, heads, [&] {
+    return cached_statistics(folder_.path(), key, kMeshVertices, heads, [&] {
       ++made_;
       std::mt19937 random(5);
       SurfaceStatistics statistics;

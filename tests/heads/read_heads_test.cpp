@@ -83,7 +83,7 @@ class KeptHeads : public ::testing::Test {
 constexpr const char* kBoth = "2 of 2 heads came from the cache as they were read";
 
 TEST_F(KeptHeads, AreReadOnceAndGiveTheSameCrowd) {
-  ASSERT_GE(fs::file_size(folder_.head("ann")), kLeastKeptBytes);
+  ASSERT_GE(fs::file_size(folder_.head("ann")), kMinKeptBytes);
   EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("as they were read")));
   const CacheContents contents = list_cache(folder_.cache());
   EXPECT_EQ(contents.read, 2U);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/seen_files.h"
-
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/file_fingerprint.h"
 
 #include "support/temporary_folder.h"
 
@@ -23,8 +22,8 @@ class SeenFiles : public ::testing::Test {
 
   void write(std::string_view text) const { folder_.write("head.obj", text); }
   static void let_settle() { std::this_thread::sleep_for(std::chrono::milliseconds(1100)); }
-  std::optional<Digest> known() const { return SeenFile(cache_, file_).digest(); }
-  void remember() const { SeenFile(cache_, file_).remember(kDigest); }
+  std::optional<Digest> known() const { return FileFingerprint(cache_, file_).digest(); }
+  void remember() const { FileFingerprint(cache_, file_).remember(kDigest); }
 
   static constexpr Digest kDigest = {1, 2};
   testing::TemporaryFolder folder_;
@@ -59,7 +58,7 @@ TEST_F(SeenFiles, AreNotKnownIfTheyChangedJustNowOrMeanwhile) {
   remember();
   EXPECT_FALSE(known().has_value());
   let_settle();
-  const SeenFile seen(cache_, file_);
+  const FileFingerprint seen(cache_, file_);
   write("v 1 1 1");
   let_settle();
   seen.remember(kDigest);

@@ -23,12 +23,12 @@ constexpr std::uint32_t kColumns = 40, kRows = 30;
 
 /// A flat sheet, one unit a quad, with a hole; its texture is torn along a column, where the right part
 /// lies five units higher.
-FaceSet sheet() {
+HeadSet sheet() {
   const auto in_hole = [](std::uint32_t x, std::uint32_t y) {
     return x >= 5 && x < 12 && y >= 8 && y < 14;
   };
   constexpr std::uint32_t kTear = 22, kStride = kColumns + 1;
-  FaceSet set;
+  HeadSet set;
   const std::uint32_t vertices = kStride * (kRows + 1);
   set.topology.vertex_count = vertices;
   set.uvs.resize(2 * vertices, 2);
@@ -56,7 +56,7 @@ FaceSet sheet() {
 }
 
 /// The faces right of and above a step are of look 1.
-std::vector<std::uint32_t> looks_of(const FaceSet& set) {
+std::vector<std::uint32_t> looks_of(const HeadSet& set) {
   std::vector<std::uint32_t> looks;
   for (Index f = 0; f < set.topology.face_count(); ++f) {
     const auto first = set.heads[0].positions.row(set.topology.face(f)[0]);
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> looks_of(const FaceSet& set) {
 }
 
 TEST(DetailLevels, KeepRimsSeamsAndBordersOfLooks) {
-  const FaceSet set = sheet();
+  const HeadSet set = sheet();
   const auto looks = looks_of(set);
   std::map<std::uint32_t, double> whole;
   for (const std::uint32_t look : looks) whole[look] += 1;
@@ -97,7 +97,7 @@ TEST(DetailLevels, KeepRimsSeamsAndBordersOfLooks) {
 }
 
 TEST(DetailLevels, AreRowsOfTheWholeMesh) {
-  const FaceSet set = sheet();
+  const HeadSet set = sheet();
   const std::array<double, 1> shares = {0.25};
   const DetailLevel level = detail_levels(set, looks_of(set), shares).front();
   EXPECT_TRUE(std::is_sorted(level.vertices.begin(), level.vertices.end()));
@@ -118,9 +118,9 @@ TEST(DetailLevels, AreRowsOfTheWholeMesh) {
   EXPECT_EQ(some, level.of(moved));
 }
 
-FaceSet synthetic_heads() {
+HeadSet synthetic_heads() {
   const SyntheticHeads synthetic(5000, SyntheticHeads::Parts::kEyesAndTeeth);
-  FaceSet set{synthetic.topology(), synthetic.uvs(), {}};
+  HeadSet set{synthetic.topology(), synthetic.uvs(), {}};
   for (const std::uint64_t i : {0, 1, 2}) {
     set.heads.push_back({"head" + std::to_string(i), synthetic.positions(5, i)});
   }
@@ -141,7 +141,7 @@ double distance_to_level(const DetailLevel& level, const Positions& positions,
 }
 
 TEST(LevelError, IsNotBelowTheDistanceToTheSurfaceNorFarAbove) {
-  const FaceSet set = synthetic_heads();
+  const HeadSet set = synthetic_heads();
   const std::vector<std::uint32_t> looks(static_cast<std::size_t>(set.topology.face_count()), 0);
   const std::array<double, 2> shares = {0.5, 0.1};
   double before = 0;
@@ -174,7 +174,7 @@ TEST(LevelError, IsNotBelowTheDistanceToTheSurfaceNorFarAbove) {
 }
 
 TEST(DetailLevels, RefuseOtherSizes) {
-  const FaceSet set = sheet();
+  const HeadSet set = sheet();
   const std::array<double, 1> shares = {0.5};
   EXPECT_THROW(detail_levels(set, std::vector<std::uint32_t>(3), shares), BrokenPrecondition);
 }

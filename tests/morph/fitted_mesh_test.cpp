@@ -30,8 +30,9 @@ TEST_F(Wardrobe, VerticesAreMeansOfThreeOthersAndAnOffset) {
   const Positions on = mesh.on(base);
   ASSERT_EQ(on.rows(), 4);
   const Eigen::RowVector3d mean = 0.5 * base.row(8) + 0.25 * base.row(9) + 0.25 * base.row(10);
-  EXPECT_LT((on.row(2) - mean - Eigen::RowVector3d(0.2 + kWornSide, kWornSide, 0.01)).norm(),
-            1e-12);
+  EXPECT_LT(
+      (on.row(2) - mean - Eigen::RowVector3d(0.2 + kAttachmentSide, kAttachmentSide, 0.01)).norm(),
+      1e-12);
   base.row(9).array() += 4;
   EXPECT_LT((mesh.on(base).row(2) - on.row(2) - Eigen::RowVector3d(1, 1, 1)).norm(), 1e-12);
   EXPECT_EQ(mesh.licence.author, "Some One");
@@ -78,7 +79,7 @@ TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
   MakeHumanHeads naked(folder_.path()), dressed(folder_.path());
   const MakeHumanParts parts =
       read_makehuman_parts(folder_.path(), dressed.base(), dressed.skin_rows());
-  dressed.wear(parts.worn);
+  dressed.wear(parts.clothing);
   const auto skin = static_cast<Index>(naked.skin_rows().size());
   const Positions expected = naked.positions(3, 2), found = dressed.positions(3, 2);
   // The tube's vertices come before those of the left eye in the file, and behind those of the right one.
@@ -93,7 +94,7 @@ TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
   EXPECT_EQ(dressed.neutral().topology.face_count(), dressed.materials()[5].first_face + 1);
 }
 
-TEST_F(Wardrobe, WhatIsNotFreeIsNotWorn) {
+TEST_F(Wardrobe, PartsWithoutFreeLicenceAreNotUsed) {
   EXPECT_TRUE(is_free({"AGPL3 (see also there)", "Ann", ""}));
   EXPECT_TRUE(is_free({"CC BY 4.0", "Ann", ""}));
   EXPECT_FALSE(is_free({"CC BY-NC 4.0", "Ann", ""}));

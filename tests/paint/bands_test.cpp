@@ -28,7 +28,7 @@ TEST(Bands, RunSoftlyIntoOneAnotherAndSumToOne) {
 }
 
 TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
-  const FaceSet faces = synth_heads(5000);
+  const HeadSet faces = synth_heads(5000);
   const HeadShape head = shape_of_mean(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
@@ -40,7 +40,7 @@ TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
 }
 
 TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
-  const FaceSet faces = synth_heads(20000);
+  const HeadSet faces = synth_heads(20000);
   const HeadShape head = shape_of_mean(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
@@ -68,7 +68,7 @@ TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
 }
 
 TEST(Bands, AHeadWithoutEarsOrNeckHasNoSuchBands) {
-  const FaceSet faces = synth_heads(5000);
+  const HeadSet faces = synth_heads(5000);
   HeadShape head = shape_of_mean(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
@@ -94,7 +94,7 @@ TEST(Bands, NamesAreReadInTheirOrder) {
 }
 
 TEST(Bands, HeadsThatCannotBePaintedAreRefusedWithTheWayOut) {
-  FaceSet faces = synth_heads(5000);
+  HeadSet faces = synth_heads(5000);
   const HeadShape head = shape_of_mean(faces);
   expect_error(ExitCode::kBadData, {"along +X", "look along +Z with +Y up"}, [&] {
     propose_masks(faces, head, {{1, 1}, {0, 1}}, kThree, 64);

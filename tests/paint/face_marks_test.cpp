@@ -24,7 +24,7 @@ namespace {
 /// Of synthetic heads the eyes' middle is the origin, and the lips meet some 7 cm below.
 TEST(FaceMarks, LieWhereASyntheticHeadHasThemAtAnyResolution) {
   for (const Index vertices : {5000, 20000}) {
-    const FaceSet faces = synth_heads(vertices);
+    const HeadSet faces = synth_heads(vertices);
     HeadShape head = shape_of_mean(faces);
     EXPECT_EQ(head.eyeballs.size(), 2U);
     const auto marks = find_face_marks(faces.topology, head, {});
@@ -41,7 +41,7 @@ TEST(FaceMarks, LieWhereASyntheticHeadHasThemAtAnyResolution) {
 }
 
 TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {
-  FaceSet faces = synth_heads(5000);
+  HeadSet faces = synth_heads(5000);
   HeadShape head = shape_of_mean(faces);
   const Positions upright = head.positions;
   for (int up = 0; up < 3; ++up) {
@@ -161,7 +161,7 @@ Changed refined(const Topology& topology, const HeadShape& head) {
   return result;
 }
 
-std::vector<Changed> changes_of(const FaceSet& faces, const HeadShape& head) {
+std::vector<Changed> changes_of(const HeadSet& faces, const HeadShape& head) {
   const Topology& topology = faces.topology;
   std::vector<Changed> all;
   for (int axis = 0; axis < 3; ++axis) {
@@ -206,7 +206,7 @@ struct MarkError {
 };
 
 /// \param head  in centimetres. Expects a face on each copy.
-std::vector<MarkError> mark_errors(const FaceSet& faces, const HeadShape& head) {
+std::vector<MarkError> mark_errors(const HeadSet& faces, const HeadShape& head) {
   std::vector<MarkError> errors;
   const auto before = find_face_marks(faces.topology, {head.positions, head.skin, {}}, {});
   EXPECT_TRUE(before);
@@ -220,8 +220,8 @@ std::vector<MarkError> mark_errors(const FaceSet& faces, const HeadShape& head) 
       double front = -1e9;
       for (Index v = 0; v < head.positions.rows(); ++v) {
         const Eigen::RowVector3d p = head.positions.row(v);
-        const bool is_there = std::abs(p.x()) < 0.6 && std::abs(p.y() - expected) < 0.3;
-        if (head.skin[static_cast<std::size_t>(v)] && is_there) front = std::max(front, p.z());
+        const bool path_exists = std::abs(p.x()) < 0.6 && std::abs(p.y() - expected) < 0.3;
+        if (head.skin[static_cast<std::size_t>(v)] && path_exists) front = std::max(front, p.z());
       }
       const Eigen::Vector3d place = one.turn * Eigen::Vector3d(0, expected, front);
       errors.push_back({one.what, mark, 10 * std::abs(height - place.dot(marks->axes.up))});
@@ -234,7 +234,7 @@ std::vector<MarkError> mark_errors(const FaceSet& faces, const HeadShape& head) 
 }
 
 TEST(FaceMarks, AreTheSameHoweverTheMeshIsCutOrTurned) {
-  const FaceSet faces = synth_heads(20000);
+  const HeadSet faces = synth_heads(20000);
   HeadShape head = shape_of_mean(faces);
   head.positions = faces.heads[1].positions;
   for (const MarkError& error : mark_errors(faces, head)) {
@@ -256,7 +256,7 @@ TEST(RealFaces, AreTheSameHoweverTheMeshIsCutOrTurned) {
     if (entry.path().extension() != ".obj") continue;
     SCOPED_TRACE(entry.path().filename());
     ObjFile file = read_obj(entry.path());
-    const FaceSet faces{file.topology, {}, {{"head", file.positions}}};
+    const HeadSet faces{file.topology, {}, {{"head", file.positions}}};
     HeadShape head = shape_of_mean(faces);
     EXPECT_EQ(find_bearing(faces.topology, head), (Bearing{{1, 1}, {2, 1}}));
     const auto face = find_face(faces.topology, head, {});

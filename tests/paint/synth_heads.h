@@ -5,9 +5,9 @@
 
 namespace crowdface::testing {
 
-inline FaceSet synth_heads(Index vertices, std::uint64_t count = 3) {
+inline HeadSet synth_heads(Index vertices, std::uint64_t count = 3) {
   const SyntheticHeads heads(vertices, SyntheticHeads::Parts::kEyesAndTeeth);
-  FaceSet set{heads.topology(), heads.uvs(), {}};
+  HeadSet set{heads.topology(), heads.uvs(), {}};
   for (std::uint64_t i = 1; i <= count; ++i) set.heads.push_back({"", heads.positions(1, i)});
   return set;
 }

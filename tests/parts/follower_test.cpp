@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 struct TwoHeads {
-  FaceSet faces;
+  HeadSet faces;
   PartList parts;
 
   TwoHeads() {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/parts/grouping.h"
-
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
+#include "crowdface/parts/proximity_joiner.h"
 
 namespace crowdface {
 namespace {
@@ -30,14 +29,14 @@ Points random_points(std::uint64_t seed, std::uint32_t count) {
   return points;
 }
 
-std::vector<std::uint32_t> roots(Grouping& groups, std::uint32_t count) {
+std::vector<std::uint32_t> roots(DisjointSets& groups, std::uint32_t count) {
   std::vector<std::uint32_t> result;
   for (std::uint32_t c = 0; c < count; ++c) result.push_back(groups.root(c));
   return result;
 }
 
-TEST(Grouping, IsCalledAfterTheFirstOfAGroup) {
-  Grouping groups(6);
+TEST(DisjointSets, IsCalledAfterTheFirstOfAGroup) {
+  DisjointSets groups(6);
   groups.join(5, 4);
   groups.join(2, 5);
   groups.join(3, 1);
@@ -46,13 +45,13 @@ TEST(Grouping, IsCalledAfterTheFirstOfAGroup) {
   EXPECT_EQ(roots(groups, 6), (std::vector<std::uint32_t>{0, 1, 2, 1, 4, 5}));
 }
 
-TEST(GroupingTree, JoinsWhatEveryPairTellsToJoin) {
+TEST(ProximityJoiner, JoinsWhatEveryPairTellsToJoin) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::uint32_t count = 30 * (static_cast<std::uint32_t>(seed) + 1);
     const double reach = 0.1 * static_cast<double>(seed % 7);
     const Points points = random_points(seed, count);
-    Grouping plain(count / 3), groups(count / 3);
-    GroupingTree tree(points.positions, points.rows, points.components, groups);
+    DisjointSets plain(count / 3), groups(count / 3);
+    ProximityJoiner tree(points.positions, points.rows, points.components, groups);
     for (const std::uint32_t a : points.rows) {
       const Eigen::Vector3d place = points.positions.row(a).transpose();
       for (const std::uint32_t b : points.rows) {
@@ -65,17 +64,17 @@ TEST(GroupingTree, JoinsWhatEveryPairTellsToJoin) {
   }
 }
 
-TEST(GroupingTree, CountsTheReachItself) {
+TEST(ProximityJoiner, CountsTheReachItself) {
   Positions points(2, 3);
   points << 0, 0, 0, 0.6, 0.8, 0;
   const std::vector<std::uint32_t> components = {0, 1};
-  Grouping groups(2);
-  GroupingTree tree(points, {1}, components, groups);
+  DisjointSets groups(2);
+  ProximityJoiner tree(points, {1}, components, groups);
   tree.join_near({0, 0, 0}, std::nextafter(1.0, 0.0), 0);
   EXPECT_EQ(groups.root(1), 1U);
   tree.join_near({0, 0, 0}, 1, 0);
   EXPECT_EQ(groups.root(1), 0U);
-  GroupingTree(points, {}, components, groups).join_near({0, 0, 0}, 1, 0);
+  ProximityJoiner(points, {}, components, groups).join_near({0, 0, 0}, 1, 0);
 }
 
 }  // namespace

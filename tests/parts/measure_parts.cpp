@@ -57,7 +57,7 @@ struct Reading {
 
 class Watch {
  public:
-  explicit Watch(const FaceSet& faces) : topology_(faces.topology), around_(topology_) {
+  explicit Watch(const HeadSet& faces) : topology_(faces.topology), around_(topology_) {
     mean_ = Positions::Zero(topology_.vertex_count, 3);
     for (const Head& head : faces.heads) mean_ += head.positions;
     mean_ /= static_cast<double>(faces.heads.size());
@@ -362,13 +362,13 @@ void print(const std::vector<Column>& columns) {
       [](const Column& c) { return c.gum_change.text(); });
 }
 
-FaceSet read_heads(const std::filesystem::path& folder) {
+HeadSet read_heads(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".obj") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  FaceSet faces;
+  HeadSet faces;
   for (const std::filesystem::path& file : files) {
     ObjFile obj = read_obj(file);
     faces.topology = std::move(obj.topology);
@@ -384,7 +384,7 @@ struct Face {
   std::size_t target = 0;
 };
 
-std::vector<Face> read_plan(const std::filesystem::path& crowd, const FaceSet& faces) {
+std::vector<Face> read_plan(const std::filesystem::path& crowd, const HeadSet& faces) {
   const auto value = [](const std::string& line, const std::string& key) {
     const std::string opening = concat('"', key, "\":\"");
     const std::size_t begin = line.find(opening) + opening.size();
@@ -403,7 +403,7 @@ std::vector<Face> read_plan(const std::filesystem::path& crowd, const FaceSet& f
 /// Bands by the heights of eyes and teeth.
 void paint_bands(const std::filesystem::path& folder, const std::string& prefix) {
   constexpr int kSize = 512;
-  FaceSet faces = read_heads(folder);
+  HeadSet faces = read_heads(folder);
   const Watch watch(faces);
   const auto height_of = [&](bool eyeball) {
     double sum = 0, count = 0;
@@ -424,7 +424,7 @@ void paint_bands(const std::filesystem::path& folder, const std::string& prefix)
 
 void measure(const std::filesystem::path& folder, const std::vector<std::string>& crowds,
              bool follow) {
-  const FaceSet faces = read_heads(folder);
+  const HeadSet faces = read_heads(folder);
   const Watch watch(faces);
   std::vector<Reading> heads;
   for (const Head& head : faces.heads) heads.push_back(watch.read(head.positions));

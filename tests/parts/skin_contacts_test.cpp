@@ -24,8 +24,8 @@ std::vector<std::uint32_t> all_of(const Topology& topology) {
   return all;
 }
 
-FaceSet heads_with_gaps(const std::vector<double>& gaps, double step = 0.5) {
-  FaceSet faces;
+HeadSet heads_with_gaps(const std::vector<double>& gaps, double step = 0.5) {
+  HeadSet faces;
   for (const double gap : gaps) {
     Mesh mesh = slotted_roller(gap, step);
     faces.topology = mesh.topology;
@@ -34,7 +34,7 @@ FaceSet heads_with_gaps(const std::vector<double>& gaps, double step = 0.5) {
   return faces;
 }
 
-SkinContacts contacts_of(const FaceSet& faces) {
+SkinContacts contacts_of(const HeadSet& faces) {
   return {faces, build_adjacency(faces.topology), all_of(faces.topology)};
 }
 
@@ -71,7 +71,7 @@ TEST(FacingSkin, IsNotTheTwoSidesOfThinFlesh) {
 }
 
 TEST(SkinContacts, AreAsWideAsTheyWereMade) {
-  const FaceSet faces = heads_with_gaps({0.04, 0.08, 0.12});
+  const HeadSet faces = heads_with_gaps({0.04, 0.08, 0.12});
   const SkinContacts contacts = contacts_of(faces);
   ASSERT_GT(contacts.size(), 20U);
   for (const auto& [head, gap] : {std::pair{0, 0.04}, {1, 0.08}, {2, 0.12}}) {
@@ -82,7 +82,7 @@ TEST(SkinContacts, AreAsWideAsTheyWereMade) {
 }
 
 TEST(SkinContacts, AreBroughtIntoTheirRanges) {
-  const FaceSet faces = heads_with_gaps({0.04, 0.12});
+  const HeadSet faces = heads_with_gaps({0.04, 0.12});
   const SkinContacts contacts = contacts_of(faces);
   for (const auto& [made, wanted] : {std::pair{0.5, 0.12}, {-0.2, 0.04}}) {
     Positions face = slotted_roller(made).positions;
@@ -106,7 +106,7 @@ TEST(SkinContacts, AreBroughtIntoTheirRangesFromFarWhereWallsAreWaves) {
     }
     return points;
   };
-  FaceSet faces = heads_with_gaps({0.04, 0.12});
+  HeadSet faces = heads_with_gaps({0.04, 0.12});
   faces.heads[0].positions = waves(0.04);
   faces.heads[1].positions = waves(0.12);
   const SkinContacts contacts = contacts_of(faces);
@@ -124,7 +124,7 @@ TEST(SkinContacts, AreBroughtIntoTheirRangesFromFarWhereWallsAreWaves) {
 // Places closer than skin bends were pulled apart and together by turns, until lips were an S.
 TEST(SkinContacts, DoNotPullSkinApartAndTogetherWhereNeighboursDiffer) {
   constexpr double kFine = 0.12;
-  const FaceSet faces = heads_with_gaps({0.04, 0.12}, kFine);
+  const HeadSet faces = heads_with_gaps({0.04, 0.12}, kFine);
   const SkinContacts contacts = contacts_of(faces);
   ASSERT_GT(contacts.size(), 9U);
   std::vector<std::size_t> along(contacts.size());
@@ -150,7 +150,7 @@ TEST(SkinContacts, DoNotPullSkinApartAndTogetherWhereNeighboursDiffer) {
 }
 
 TEST(SkinContacts, AreLeftAloneToTheBitWhereAllIsWell) {
-  const FaceSet faces = heads_with_gaps({0.04, 0.12});
+  const HeadSet faces = heads_with_gaps({0.04, 0.12});
   const SkinContacts contacts = contacts_of(faces);
   Positions face = slotted_roller(0.07).positions;
   contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
@@ -160,7 +160,7 @@ TEST(SkinContacts, AreLeftAloneToTheBitWhereAllIsWell) {
 TEST(SkinContacts, OfSyntheticHeadsAreTheirLipsAtAnyResolution) {
   for (const Index vertices : {5000, 20000, 150000}) {
     const SyntheticHeads synthetic(vertices, SyntheticHeads::Parts::kSkin);
-    FaceSet faces;
+    HeadSet faces;
     faces.topology = synthetic.topology();
     for (std::uint64_t h = 0; h < 4; ++h) faces.heads.push_back({"h", synthetic.positions(1, h)});
     const SkinContacts contacts = contacts_of(faces);

@@ -30,8 +30,8 @@ using ::testing::HasSubstr;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-std::vector<CastFace> three_faces() {
-  std::vector<CastFace> crowd(3);
+std::vector<FacePlan> three_faces() {
+  std::vector<FacePlan> crowd(3);
   crowd[0].id = "mob_smith_01";
   crowd[0].family = "smith";
   crowd[1].id = "mob_jones_01";
@@ -66,7 +66,7 @@ TEST(SheetLabel, HasALineForEachThingAskedFor) {
   // Lines stay where they are where there is nothing to say.
   EXPECT_EQ(sheet_label({L::kFamily, L::kId}, three_faces(), 2, three_likeness(), heads, tags),
             "\nmob_0001");
-  std::vector<CastFace> dressed = three_faces();
+  std::vector<FacePlan> dressed = three_faces();
   dressed[1].attachments = {"bob", "round"};
   EXPECT_EQ(sheet_label({L::kTags, L::kAttachments}, dressed, 1, three_likeness(), heads, tags),
             "female, old\nbob, round");
@@ -74,7 +74,7 @@ TEST(SheetLabel, HasALineForEachThingAskedFor) {
 
 // With bands a child has more parts than there are regions: names beyond the last region's were read.
 TEST(InheritanceLabel, TellsRegionsAndWhereParentsShareOneItsBands) {
-  CastFace child;
+  FacePlan child;
   child.id = "mob_smith_03";
   child.mother_share = 0.4;
   child.inherits = {"mother", "father"};
@@ -90,7 +90,7 @@ TEST(InheritanceLabel, TellsRegionsAndWhereParentsShareOneItsBands) {
 
 // A plan holds four decimals: sheets made anew from it said 32.31 where the run had said 32.32.
 TEST(SheetLabel, SaysTheSameOfARunAndOfItsPlan) {
-  std::vector<CastFace> crowd = three_faces();
+  std::vector<FacePlan> crowd = three_faces();
   crowd[2].notes.nearest->head_mm = 32.31499996;
   const std::string of_run =
       sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"}, {});

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// A square that looks along +Z, its texture upright.
-FaceSet square() {
-  FaceSet faces;
+HeadSet square() {
+  HeadSet faces;
   faces.topology.vertex_count = 4;
   const std::array<std::uint32_t, 4> corners = {0, 1, 2, 3};
   faces.topology.add_face(corners, corners);
@@ -40,17 +40,18 @@ TextureLayer evenly(const Light& light) {
 const TexturePlace kMiddle{0, {0.5F, 0.5F}};
 
 TEST(VertexFinish, NormalsLeanAsTheMapSays) {
-  TextureCoat coat;
-  EXPECT_EQ(leaning_normal(coat, square(), kMiddle, corners_of_square(), {0, 0, 1}),
+  TextureSet texture_set;
+  EXPECT_EQ(leaning_normal(texture_set, square(), kMiddle, corners_of_square(), {0, 0, 1}),
             Vector3d(0, 0, 1));
-  coat.slopes = evenly(Light(0.5F, -0.25F, 0));
-  const Vector3d lean = leaning_normal(coat, square(), kMiddle, corners_of_square(), {0, 0, 1});
+  texture_set.slopes = evenly(Light(0.5F, -0.25F, 0));
+  const Vector3d lean =
+      leaning_normal(texture_set, square(), kMiddle, corners_of_square(), {0, 0, 1});
   EXPECT_LT((lean - Vector3d(0.5, -0.25, 1).normalized()).norm(), 1e-12);
   Positions turned = corners_of_square();  // a quarter to the left
   turned << 0, 0, 0, 0, 2, 0, -2, 2, 0, -2, 0, 0;
-  const Vector3d other = leaning_normal(coat, square(), kMiddle, turned, {0, 0, 1});
+  const Vector3d other = leaning_normal(texture_set, square(), kMiddle, turned, {0, 0, 1});
   EXPECT_LT((other - Vector3d(0.25, 0.5, 1).normalized()).norm(), 1e-12);
-  EXPECT_EQ(leaning_normal(coat, square(), {}, turned, {0, 1, 0}), Vector3d(0, 1, 0))
+  EXPECT_EQ(leaning_normal(texture_set, square(), {}, turned, {0, 1, 0}), Vector3d(0, 1, 0))
       << "in no texture";
 }
 
@@ -58,21 +59,22 @@ TEST(VertexFinish, NormalsLeanAsTheMapSays) {
 TEST(VertexFinish, FineReliefIsEvenedOut) {
   Texture stripes{512, 1, {}};
   for (int x = 0; x < 512; ++x) stripes.texels.push_back(Light(x % 2 == 0 ? 1.0F : -1.0F, 0, 0));
-  TextureCoat coat;
-  coat.slopes.of_face = {0};
-  coat.slopes.textures.push_back(std::make_shared<const Texture>(std::move(stripes)));
+  TextureSet texture_set;
+  texture_set.slopes.of_face = {0};
+  texture_set.slopes.textures.push_back(std::make_shared<const Texture>(std::move(stripes)));
   const TexturePlace on_stripe{0, {256.5F / 512, 0.5F}};
-  const Vector3d lean = leaning_normal(coat, square(), on_stripe, corners_of_square(), {0, 0, 1});
+  const Vector3d lean =
+      leaning_normal(texture_set, square(), on_stripe, corners_of_square(), {0, 0, 1});
   EXPECT_LT(std::abs(lean.x()), 0.4) << "a stripe alone leans by 0.7";
 }
 
 TEST(VertexFinish, RoughnessIsTheMaps) {
-  TextureCoat coat;
-  EXPECT_FALSE(roughness_at(coat, kMiddle));
-  coat.roughness = evenly(Light(0.3F, 0, 0));
-  EXPECT_FLOAT_EQ(roughness_at(coat, kMiddle).value(), 0.3F);
-  coat.roughness.of_face = {TextureLayer::kNone};
-  EXPECT_FALSE(roughness_at(coat, kMiddle));
+  TextureSet texture_set;
+  EXPECT_FALSE(roughness_at(texture_set, kMiddle));
+  texture_set.roughness = evenly(Light(0.3F, 0, 0));
+  EXPECT_FLOAT_EQ(roughness_at(texture_set, kMiddle).value(), 0.3F);
+  texture_set.roughness.of_face = {TextureLayer::kNone};
+  EXPECT_FALSE(roughness_at(texture_set, kMiddle));
 }
 
 }  // namespace

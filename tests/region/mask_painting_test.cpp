@@ -62,7 +62,7 @@ TEST(MaskPainting, EveryPaintedTexelAddsUpAndTheFirstRowIsTheTop) {
 /// that run into one another.
 TEST(MaskPainting, ReadsBackAsItWasPaintedOverSeamsAndTiles) {
   constexpr std::uint32_t kSide = 40;
-  FaceSet sheet;
+  HeadSet sheet;
   sheet.topology = grid_topology(kSide, kSide);
   sheet.uvs.resize(2 * sheet.topology.vertex_count, 2);
   RegionWeights::Alpha alpha(sheet.topology.vertex_count, 5);

@@ -130,7 +130,7 @@ TEST(SheetLayout, HasAsManyRowsAsFitAndNoMore) {
   for (const CellSize cell : {CellSize{60, 50, 1}, CellSize{2048, 2048, 3}, CellSize{20'000, 32, 1},
                               CellSize{22'000, 32, 1}, CellSize{32, 65'400, 1},
                               CellSize{2'000'000'000, 2'000'000'000, 40'000}}) {
-    const int rows = most_rows(cell, options);
+    const int rows = max_rows(cell, options);
     SheetOptions fixed = options;
     if (rows > 0) {
       fixed.rows = rows;
@@ -142,7 +142,7 @@ TEST(SheetLayout, HasAsManyRowsAsFitAndNoMore) {
     fixed.rows = rows + 1;
     EXPECT_THROW(layout_sheet(cell, 1, fixed), InvalidInput) << cell.width;
   }
-  EXPECT_EQ(most_rows({60, 50, 1}, {.columns = 2000}), 0);
+  EXPECT_EQ(max_rows({60, 50, 1}, {.columns = 2000}), 0);
 }
 
 TEST(ContactSheet, RefusesWhatDoesNotFit) {

@@ -27,7 +27,7 @@ class LightSharing : public ::testing::Test {
         for (std::size_t f = 0; f < kFields; ++f) pixels_.list(static_cast<int>(f))[at] = pixel[f];
       }
     }
-    for (auto& list : lists_) list.assign(kSquare + kMostLanes, 0);
+    for (auto& list : lists_) list.assign(kSquare + kMaxLanes, 0);
     for (int x = 0; x < kSquare; ++x) {
       const std::array<float, kFields> point = draw(x, kRow);
       for (std::size_t f = 0; f < kFields; ++f) lists_[f][static_cast<std::size_t>(x)] = point[f];
@@ -50,8 +50,8 @@ class LightSharing : public ::testing::Test {
     return lights;
   }
   struct Shares {
-    std::vector<float> key = std::vector<float>(kSquare + kMostLanes);
-    std::vector<float> sky = std::vector<float>(kSquare + kMostLanes);
+    std::vector<float> key = std::vector<float>(kSquare + kMaxLanes);
+    std::vector<float> sky = std::vector<float>(kSquare + kMaxLanes);
   };
   Shares in_a_row(std::size_t count = kSquare) const {
     Shares shares;

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/instruction_set.h"
-#include "crowdface/render/gleam.h"
 #include "crowdface/render/perpendicular.h"
+#include "crowdface/render/skin_specular.h"
 
 namespace crowdface {
 namespace {
@@ -122,7 +122,7 @@ TEST(Shade, OfTheKeyIsTheFormulaInDoublePrecision) {
     point.sky = 0;
     point.roughness = -1;
     // What is dark, or worn, gleams less: told of elsewhere.
-    if (point.kind == SurfaceKind::kWorn) point.kind = SurfaceKind::kTeeth;
+    if (point.kind == SurfaceKind::kAttachment) point.kind = SurfaceKind::kTeeth;
     point.albedo = point.albedo.max(0.06F);
     const Eigen::Array3d exact = plain_key_light(point);
     const Eigen::Array3d found = shade(point).cast<double>();
@@ -150,14 +150,16 @@ TEST(Shade, IsFiniteAndNotNegativeInEveryDirection) {
 
 TEST(Gleam, PaintedHairGleamsLessThanTheSkinAroundWhateverTheTone) {
   for (const float skin : {0.06F, 0.3F}) {
-    const auto gleam = [&](float share) { return skin_gleam(Light::Constant(share * skin), skin); };
-    EXPECT_EQ(gleam(1), 1);
-    EXPECT_EQ(gleam(1.5F), 1);
-    EXPECT_LT(gleam(0.3F), 0.5F);
-    EXPECT_LT(gleam(0.1F), 0.2F);
-    EXPECT_GT(gleam(0.1F), 0);
+    const auto specular = [&](float share) {
+      return skin_specular(Light::Constant(share * skin), skin);
+    };
+    EXPECT_EQ(specular(1), 1);
+    EXPECT_EQ(specular(1.5F), 1);
+    EXPECT_LT(specular(0.3F), 0.5F);
+    EXPECT_LT(specular(0.1F), 0.2F);
+    EXPECT_GT(specular(0.1F), 0);
   }
-  EXPECT_EQ(skin_gleam(Light::Constant(0.01F), 0), 1) << "no picture";
+  EXPECT_EQ(skin_specular(Light::Constant(0.01F), 0), 1) << "no picture";
   // Half of the gloss: half way to none.
   const Eigen::Vector3f to_eye(0, 0, 1);
   const ShadePoint point{(key_direction() + to_eye).normalized(), to_eye, Light::Constant(0.3F)};

@@ -55,8 +55,8 @@ TEST(SpreadColours, FillsFromTheBorderOutwardsAndLeavesWhatIsPainted) {
 TEST(ShrunkTexture, KeepsTheMeanAndWhatIsSmallAlready) {
   Texture texture{8, 4, {}};
   for (int i = 0; i < 32; ++i) texture.texels.push_back(Light::Constant(static_cast<float>(i)));
-  const auto shrunk = [](const Texture& whole, int most_px) {
-    return shrunk_texture(whole.width, whole.height, most_px, [&](int y, std::span<Light> texels) {
+  const auto shrunk = [](const Texture& whole, int max_px) {
+    return shrunk_texture(whole.width, whole.height, max_px, [&](int y, std::span<Light> texels) {
       std::copy_n(whole.texels.begin() + std::ptrdiff_t{y} * whole.width, whole.width,
                   texels.begin());
     });
@@ -94,16 +94,17 @@ TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
   Surfaces surfaces;
   surfaces.uvs = squares.uvs;
   const FaceRenderer renderer(squares.topology, {.size_px = 64}, surfaces);
-  TextureCoat coat{{{std::make_shared<const Texture>(red_and_blue())}, {0, TextureCoat::kNone}}};
+  TextureSet texture_set{
+      {{std::make_shared<const Texture>(red_and_blue())}, {0, TextureSet::kNone}}};
   const Rgb8Image plain = renderer.render(squares.positions, squares.camera);
-  const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
+  const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &texture_set);
   EXPECT_GT(image.at(8, 32)[0], image.at(8, 32)[2] + 60) << "red on the left";
   EXPECT_GT(image.at(28, 32)[2], image.at(28, 32)[0] + 60) << "blue right of it";
   for (int x = 40; x < 56; ++x) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(x, 32)[c], plain.at(x, 32)[c]) << x;
   }
-  coat.of_face.pop_back();
-  EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &coat),
+  texture_set.of_face.pop_back();
+  EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &texture_set),
                BrokenPrecondition);
 }
 
@@ -118,9 +119,10 @@ TEST(FaceRenderer, SlopesTurnTheLightAsATurnedSurfaceWould) {
   surfaces.uvs = squares.uvs;
   const FaceRenderer renderer(squares.topology, {.size_px = 64, .occlusion = false}, surfaces);
   const auto light = [&](const Light& slopes) {
-    TextureCoat coat{everywhere({0.3F, 0.3F, 0.3F})};
-    coat.slopes = everywhere(slopes);
-    const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
+    TextureSet texture_set{everywhere({0.3F, 0.3F, 0.3F})};
+    texture_set.slopes = everywhere(slopes);
+    const Rgb8Image image =
+        renderer.render(squares.positions, squares.camera, nullptr, &texture_set);
     return static_cast<int>(image.at(20, 32)[0]);
   };
   // The key light comes from the upper left.
@@ -132,10 +134,11 @@ TEST(FaceRenderer, SlopesTurnTheLightAsATurnedSurfaceWould) {
   // Between the key light and the eye a smooth surface shines.
   const Eigen::Vector3f half = (key_direction() + Eigen::Vector3f::UnitZ()).normalized();
   const auto gloss = [&](float roughness) {
-    TextureCoat coat{everywhere({0.05F, 0.05F, 0.05F})};
-    coat.slopes = everywhere({half.x() / half.z(), half.y() / half.z(), 0});
-    coat.roughness = everywhere({roughness, 0, 0});
-    const Rgb8Image image = renderer.render(squares.positions, squares.camera, nullptr, &coat);
+    TextureSet texture_set{everywhere({0.05F, 0.05F, 0.05F})};
+    texture_set.slopes = everywhere({half.x() / half.z(), half.y() / half.z(), 0});
+    texture_set.roughness = everywhere({roughness, 0, 0});
+    const Rgb8Image image =
+        renderer.render(squares.positions, squares.camera, nullptr, &texture_set);
     return static_cast<int>(image.at(20, 32)[0]);
   };
   EXPECT_GT(gloss(0.3F), gloss(0.5F) + 10);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/render/worn_mesh.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/render/attachment_mesh.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 
@@ -33,12 +32,12 @@ struct Scene {
     const Positions* walls[] = {&wall_points};
     camera = fit_camera(walls, {}, View::kFront);
   }
-  Rgb8Image wearing(const std::vector<WornMesh>& worn) const {
+  Rgb8Image wearing(const std::vector<AttachmentMesh>& attachments) const {
     const FaceRenderer renderer(wall, {.size_px = 64}, {}, &wall_points);
-    return renderer.render(wall_points, camera, nullptr, nullptr, worn);
+    return renderer.render(wall_points, camera, nullptr, nullptr, attachments);
   }
-  Rgb8Image render(const WornMaterial& material) const {
-    const WornSurface surface(card, uvs, {material}, {0});
+  Rgb8Image render(const AttachmentMaterial& material) const {
+    const AttachmentSurface surface(card, uvs, {material}, {0});
     return wearing({{&surface, &card_points}});
   }
 };
@@ -52,16 +51,16 @@ double middle_red(const Rgb8Image& image) {
   return sum / 64;
 }
 
-WornMaterial black(float share) {
+AttachmentMaterial black(float share) {
   return {Light::Zero(), nullptr, nullptr, share};
 }
 
-TEST(WornMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
+TEST(AttachmentMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
   const Scene scene;
   const double bare = middle_red(scene.wearing({}));
   const double covered = middle_red(scene.render(black(1)));
   EXPECT_LT(covered, bare / 2);
-  const WornSurface surface(scene.card, scene.uvs, {black(1)}, {0});
+  const AttachmentSurface surface(scene.card, scene.uvs, {black(1)}, {0});
   Positions behind = scene.card_points;
   behind.col(2).array() -= 1;
   EXPECT_EQ(scene.render(black(0)).pixels, scene.wearing({{&surface, &behind}}).pixels);
@@ -73,36 +72,36 @@ TEST(WornMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
   }
 }
 
-TEST(WornMesh, HasHolesWhereItsTextureSaysSo) {
+TEST(AttachmentMesh, HasHolesWhereItsTextureSaysSo) {
   const Scene scene;
   Texture left{2, 1, {Light::Ones(), Light::Zero()}};
-  WornMaterial material = black(1);
+  AttachmentMaterial material = black(1);
   material.opacity = std::make_shared<const Texture>(left);
   const Rgb8Image bare = scene.wearing({}), half = scene.render(material);
   EXPECT_LT(half.at(28, 32)[0], bare.at(28, 32)[0] / 2) << "the left half is there";
   EXPECT_GT(half.at(37, 32)[0], bare.at(37, 32)[0] / 2) << "the right half is not";
 }
 
-TEST(WornMesh, BearsTheColoursOfItsTexture) {
+TEST(AttachmentMesh, BearsTheColoursOfItsTexture) {
   const Scene scene;
-  WornMaterial material = black(1);
+  AttachmentMaterial material = black(1);
   material.texture = std::make_shared<const Texture>(Texture{1, 1, {Light(0.8F, 0.05F, 0.05F)}});
   const Rgb8Image image = scene.render(material);
   EXPECT_GT(image.at(32, 32)[0], 2 * image.at(32, 32)[1]);
 }
 
-TEST(WornMesh, LooksAlikeFromBothSides) {
+TEST(AttachmentMesh, LooksAlikeFromBothSides) {
   const Scene scene;
-  const WornSurface surface(scene.card, scene.uvs, {WornMaterial()}, {0});
+  const AttachmentSurface surface(scene.card, scene.uvs, {AttachmentMaterial()}, {0});
   Topology turned = scene.card;
   std::reverse(turned.corner_vertices.begin(), turned.corner_vertices.end());
-  const WornSurface other(turned, scene.uvs, {WornMaterial()}, {0});
+  const AttachmentSurface other(turned, scene.uvs, {AttachmentMaterial()}, {0});
   const double front = middle_red(scene.wearing({{&surface, &scene.card_points}}));
   const double back = middle_red(scene.wearing({{&other, &scene.card_points}}));
   EXPECT_NEAR(front, back, 3);
 }
 
-TEST(WornMesh, CastsShadowsButThroughItsHoles) {
+TEST(AttachmentMesh, CastsShadowsButThroughItsHoles) {
   Scene scene;
   scene.card_points.col(2).setConstant(1.0);
   const auto darkest = [&](const Rgb8Image& image, const Rgb8Image& bare) {
@@ -119,7 +118,7 @@ TEST(WornMesh, CastsShadowsButThroughItsHoles) {
 
 /// A card seen through a hole in another before it, which keeps the light off it: what falls on its other
 /// side comes through, unless something lies there, too.
-TEST(WornMesh, LetsLightThroughWhereItIsDark) {
+TEST(AttachmentMesh, LetsLightThroughWhereItIsDark) {
   const Scene scene;
   const auto at = [&](double scale, double z) {
     Positions points = scale * scene.card_points;
@@ -132,19 +131,19 @@ TEST(WornMesh, LetsLightThroughWhereItIsDark) {
   for (const std::size_t t : {96, 97, 98, 111, 112, 113, 126, 127, 128}) {
     hole.texels[t] = Light::Zero();
   }
-  WornMaterial shading = black(1);
+  AttachmentMaterial shading = black(1);
   shading.opacity = std::make_shared<const Texture>(hole);
-  const WornSurface card(scene.card, scene.uvs, {WornMaterial()}, {0});
-  const WornSurface shade(scene.card, scene.uvs, {shading}, {0});
-  const WornSurface behind(scene.card, scene.uvs, {black(1)}, {0});
-  std::vector<WornMesh> worn = {{&card, &card_points}, {&shade, &shade_points}};
-  const int through = scene.wearing(worn).at(32, 32)[0];
-  worn.push_back({&behind, &behind_points});
-  EXPECT_GT(through, scene.wearing(worn).at(32, 32)[0] + 5);
+  const AttachmentSurface card(scene.card, scene.uvs, {AttachmentMaterial()}, {0});
+  const AttachmentSurface shade(scene.card, scene.uvs, {shading}, {0});
+  const AttachmentSurface behind(scene.card, scene.uvs, {black(1)}, {0});
+  std::vector<AttachmentMesh> attachments = {{&card, &card_points}, {&shade, &shade_points}};
+  const int through = scene.wearing(attachments).at(32, 32)[0];
+  attachments.push_back({&behind, &behind_points});
+  EXPECT_GT(through, scene.wearing(attachments).at(32, 32)[0] + 5);
 }
 
 // Hair scatters: what is white is not black at the bottom of a shaft of it either.
-TEST(WornMesh, IsNotBlackWhereNoLightArrives) {
+TEST(AttachmentMesh, IsNotBlackWhereNoLightArrives) {
   const Scene scene;
   const Topology shaft = testing::make_topology(
       8, {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
@@ -152,7 +151,7 @@ TEST(WornMesh, IsNotBlackWhereNoLightArrives) {
   points << -0.6, -0.6, 0.05, 0.6, -0.6, 0.05, 0.6, 0.6, 0.05, -0.6, 0.6, 0.05,  //
       -0.6, -0.6, 2.4, 0.6, -0.6, 2.4, 0.6, 0.6, 2.4, -0.6, 0.6, 2.4;
   const auto red = [&](float colour) {
-    const WornSurface surface(shaft, {}, {{Light::Constant(colour)}}, {0, 0, 0, 0, 0});
+    const AttachmentSurface surface(shaft, {}, {{Light::Constant(colour)}}, {0, 0, 0, 0, 0});
     return middle_red(scene.wearing({{&surface, &points}}));
   };
   EXPECT_GT(red(0.8F), 50);
@@ -160,7 +159,7 @@ TEST(WornMesh, IsNotBlackWhereNoLightArrives) {
   EXPECT_LT(red(0), 5);
 }
 
-TEST(WornMesh, IsTheSamePictureEachTime) {
+TEST(AttachmentMesh, IsTheSamePictureEachTime) {
   const Scene scene;
   EXPECT_EQ(scene.render(black(0.4F)).pixels, scene.render(black(0.4F)).pixels);
 }

@@ -99,10 +99,10 @@ TEST_F(AttachmentsOfACrowd, LieBesideTheMeshesOfThoseWhoWearThem) {
   std::size_t with = 0, without = 0;
   for (const auto& line : testing::plan_lines(folder_.out())) {
     const std::string id = line.at("id");
-    const std::vector<std::string> worn = line.at("attachments");
-    EXPECT_THAT(worn, ::testing::Contains("cap"));
+    const std::vector<std::string> placed = line.at("attachments");
+    EXPECT_THAT(placed, ::testing::Contains("cap"));
     EXPECT_TRUE(fs::exists(mesh(id + "+cap.obj")));
-    const bool rod = worn.size() == 2;
+    const bool rod = placed.size() == 2;
     EXPECT_EQ(fs::exists(mesh(id + "+rod.obj")), rod);
     (rod ? with : without) += 1;
   }
@@ -307,7 +307,7 @@ TEST_F(AttachmentsOfACrowd, LookTheSameInPicturesMadeFromMeshes) {
 TEST_F(AttachmentsOfACrowd, CountForTheMemoryThatFilesTake) {
   const Job with = load_job(folder_.config(), {}),
             without = load_job(folder_.config(), {{"attachments=none"}, {}, {}, {}});
-  CastFace face;
+  FacePlan face;
   face.attachments = {"cap"};
   for (const MeshFormat format : all_mesh_formats()) {
     const auto bytes = [&](const Job& job) {
@@ -341,8 +341,8 @@ TEST_F(AttachmentsOfACrowd, AreCountedInTheReport) {
       testing::read_json(folder_.out() / "report.json").at("casting").at("attachments");
   std::size_t rods = 0, sampled = 0;
   for (const auto& line : testing::plan_lines(folder_.out())) {
-    const std::vector<std::string> worn = line.at("attachments");
-    const bool has_rod = std::find(worn.begin(), worn.end(), "rod") != worn.end();
+    const std::vector<std::string> placed = line.at("attachments");
+    const bool has_rod = std::find(placed.begin(), placed.end(), "rod") != placed.end();
     rods += has_rod ? 1 : 0;
     sampled += has_rod && !line.at("index").is_null() ? 1 : 0;
   }

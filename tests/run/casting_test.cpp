@@ -28,7 +28,7 @@ using testing::six_bowls;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-TEST(Casting, NearestInThePlanIsTheNearestOfTheMeshes) {
+TEST(CastingOptions, NearestInThePlanIsTheNearestOfTheMeshes) {
   const SmallCrowdFolder folder(six_bowls());
   run(folder);
   const Measured faces(folder);
@@ -46,7 +46,7 @@ TEST(Casting, NearestInThePlanIsTheNearestOfTheMeshes) {
   }
 }
 
-TEST(Casting, DistancesThatAreAskedForAreKept) {
+TEST(CastingOptions, DistancesThatAreAskedForAreKept) {
   for (const char* mode : {"first_fit", "spread"}) {
     SmallCrowd crowd = six_bowls();
     crowd.more =
@@ -75,7 +75,7 @@ TEST(Casting, DistancesThatAreAskedForAreKept) {
   }
 }
 
-TEST(Casting, GrowingTheCrowdMovesNoFace) {
+TEST(CastingOptions, GrowingTheCrowdMovesNoFace) {
   SmallCrowd crowd = six_bowls();
   crowd.more =
       "diversity: {min_distance: 0.5 mm}\n"
@@ -91,7 +91,7 @@ TEST(Casting, GrowingTheCrowdMovesNoFace) {
   EXPECT_EQ(testing::read_text(folder / "many/plan.jsonl").substr(0, small.size()), small);
 }
 
-TEST(Casting, SharesOfGroupsAreMetByCount) {
+TEST(CastingOptions, SharesOfGroupsAreMetByCount) {
   SmallCrowd crowd = six_bowls();
   crowd.count = 41;
   crowd.more =
@@ -113,7 +113,7 @@ TEST(Casting, SharesOfGroupsAreMetByCount) {
   EXPECT_EQ(bob, 5U);
 }
 
-TEST(Casting, ReviewsRedrawWhatTheyRejectAndNothingElse) {
+TEST(CastingOptions, ReviewsRedrawWhatTheyRejectAndNothingElse) {
   SmallCrowd crowd = six_bowls();
   crowd.more =
       "diversity: {min_distance: 0.8 mm}\n"
@@ -171,7 +171,7 @@ TEST(Casting, ReviewsRedrawWhatTheyRejectAndNothingElse) {
   EXPECT_EQ(again(folder.config(), {review.string()}), after) << "it counts once";
 }
 
-TEST(Casting, ReviewsAddUpInRounds) {
+TEST(CastingOptions, ReviewsAddUpInRounds) {
   SmallCrowd crowd = six_bowls();
   const SmallCrowdFolder folder(crowd);
   run(folder);
@@ -218,7 +218,7 @@ TEST(Casting, ReviewsAddUpInRounds) {
   EXPECT_FALSE(fs::exists(folder.out() / "rejected.jsonl"));
 }
 
-TEST(Casting, AskingForDistanceLowersNothing) {
+TEST(CastingOptions, AskingForDistanceLowersNothing) {
   SmallCrowd crowd = six_bowls();
   crowd.count = 30;
   const SmallCrowdFolder folder(crowd);
@@ -236,7 +236,7 @@ TEST(Casting, AskingForDistanceLowersNothing) {
   EXPECT_GE(closest({"diversity.min_distance=0.1 mm"}), defaults);
 }
 
-TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
+TEST(CastingOptions, GroupsHaveTheirSharesAndTheirOwnHeads) {
   SmallCrowd crowd = six_bowls();
   crowd.more =
       "groups:\n"
@@ -290,7 +290,7 @@ TEST(Casting, GroupsHaveTheirSharesAndTheirOwnHeads) {
   EXPECT_THAT(testing::read_text(folder / "large/crowd.csv"), ::testing::HasSubstr(",rest,"));
 }
 
-TEST(Casting, WhatCannotBeDoneIsToldAndLeavesNothing) {
+TEST(CastingOptions, WhatCannotBeDoneIsToldAndLeavesNothing) {
   SmallCrowd crowd = six_bowls();
   crowd.count = 60;
   crowd.more = "diversity: {min_distance: 4 mm}\n";
@@ -317,7 +317,7 @@ TEST(Casting, WhatCannotBeDoneIsToldAndLeavesNothing) {
   EXPECT_GE(closest_pair(Measured(folder)), *parse_double(mm) - kTolerance);
 }
 
-TEST(Casting, ExtrapolationThatGoesTooFarIsThrownAway) {
+TEST(CastingOptions, ExtrapolationThatGoesTooFarIsThrownAway) {
   SmallCrowd crowd = six_bowls();
   crowd.sampling = "{smoothness: [0.2, 0.9], extrapolation: [1, 4]}";
   const SmallCrowdFolder folder(crowd);

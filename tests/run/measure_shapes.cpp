@@ -18,7 +18,7 @@
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/pipeline.h"
-#include "crowdface/shapes/kept_contacts.h"
+#include "crowdface/shapes/gap_preserver.h"
 #include "crowdface/validity/intersections.h"
 
 #include "measured_lids.h"
@@ -67,7 +67,7 @@ constexpr double kTenthOfMm = 0.01;  // of centimetres
 /// Of blinks of a crowd in centimetres.
 struct LidFigures {
   std::size_t closing = 0, closed = 0, deep = 0, deep_at_rest = 0, deeper = 0, blinks = 0;
-  double widest = 0, most_deeper = 0, deepest = 0, of_template = 0;
+  double widest = 0, max_deeper = 0, deepest = 0, of_template = 0;
 
   /// \param moves  of the face
   void add(MeasuredLids& eye, const Positions& neutral, const Positions& face,
@@ -91,7 +91,7 @@ struct LidFigures {
       if (in_face[i] > 2 * kTenthOfMm) ++deep;
       if (at_rest[i] > 2 * kTenthOfMm) ++deep_at_rest;
       if (in_face[i] > may_be + kTenthOfMm / 2) ++deeper;
-      most_deeper = std::max(most_deeper, in_face[i] - may_be);
+      max_deeper = std::max(max_deeper, in_face[i] - may_be);
       deepest = std::max(deepest, in_face[i]);
       of_template = std::max(of_template, in_template[i]);
     }
@@ -120,7 +120,7 @@ Displacements with_companion(const std::vector<Displacements>& shapes, std::size
 struct LipFigures {
   double carried = 0, unchanged = 0;
 
-  void add(const KeptContacts& lips, const Positions& neutral, const Positions& face,
+  void add(const GapPreserver& lips, const Positions& neutral, const Positions& face,
            const Displacements& of_template, const Displacements& moves) {
     const auto rest = lips.gaps(neutral), there = lips.gaps(in_shape(neutral, of_template));
     const auto before = lips.gaps(face), after = lips.gaps(in_shape(face, moves)),
@@ -172,7 +172,7 @@ void print(const char* how, const LidFigures& lids) {
             << mm(lids.widest) << " mm; vertices of the lids' outer skin more than 0.2 mm in an "
             << "eyeball " << lids.deep << ", at rest " << lids.deep_at_rest
             << "; by more than 0.05 mm deeper than that and than at rest " << lids.deeper
-            << ", at most by " << mm(lids.most_deeper) << " mm; deepest " << mm(lids.deepest)
+            << ", at most by " << mm(lids.max_deeper) << " mm; deepest " << mm(lids.deepest)
             << " mm, on the template " << mm(lids.of_template) << " mm\n";
 }
 
@@ -182,13 +182,14 @@ int main(int argc, char** argv) try {
   if (argc < 2) throw UsageError("usage: crowdface_measure_shapes CONFIG [FACES]");
   const Job job = load_job(argv[1], {}, cache_directory());
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache_directory());
-  const Cast cast = crowdface::cast(job.config, job.inputs, prepared, {}, cache_directory());
+  const CrowdPlan crowd_plan =
+      crowdface::plan_crowd(job.config, job.inputs, prepared, {}, cache_directory());
   const FaceBuilder builder(job.config, job.inputs, prepared);
   const FaceShapes shapes(job.config, job.inputs);
   const Crossings crossings(job.inputs);
   const ShapeSet& set = job.inputs.shapes;
 
-  std::size_t count = cast.crowd.size();
+  std::size_t count = crowd_plan.crowd.size();
   if (argc > 2) count = std::min<std::size_t>(count, std::strtoul(argv[2], nullptr, 10));
   std::vector<Counted> counted(set.shapes.size());
   std::vector<Displacements> alone, template_moves;
@@ -212,14 +213,14 @@ int main(int argc, char** argv) try {
                       head_axes(job.config));
   }
   LidFigures lids, unchanged_lids;
-  const KeptContacts lips(job.inputs.faces, job.inputs.adjacency, skin);
+  const GapPreserver lips(job.inputs.faces, job.inputs.adjacency, skin);
   std::vector<LipFigures> of_lips(set.shapes.size());
   std::vector<double> stretch, unchanged_stretch;
   const std::vector<Triangle> skin_triangles =
       triangles_of(job.inputs.faces.topology, job.inputs.skin, job.inputs.skin.largest());
   Index at_rest_in_all = 0;
   for (std::size_t f = 0; f < count; ++f) {
-    const Recipe* recipe = &cast.crowd[f].recipe;
+    const Recipe* recipe = &crowd_plan.crowd[f].recipe;
     Positions face;
     builder.build({&recipe, 1}, {&face, 1});
     face = as_written(face);

@@ -28,7 +28,7 @@ class MeasuredLids {
 
   /// \param faces, parts, part  must outlive this object.
   /// \param skin                its vertices, ascending
-  MeasuredLids(const FaceSet& faces, std::span<const std::uint32_t> skin, const PartList& parts,
+  MeasuredLids(const HeadSet& faces, std::span<const std::uint32_t> skin, const PartList& parts,
                const Part& part, const Positions& neutral, const HeadAxes& axes)
       : faces_(faces),
         parts_(parts),
@@ -145,7 +145,7 @@ class MeasuredLids {
     return most;
   }
 
-  const FaceSet& faces_;
+  const HeadSet& faces_;
   const PartList& parts_;
   const Part& part_;
   HeadAxes axes_;

@@ -26,7 +26,7 @@ using ::testing::IsEmpty;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-constexpr const char* kThreeAFolder = "output.faces_per_folder=3";
+constexpr const char* kThreePerFolder = "output.faces_per_folder=3";
 
 SmallCrowd seven_faces() {
   SmallCrowd crowd;
@@ -75,7 +75,7 @@ std::string flat_text(const std::string& text) {
 
 TEST_F(NumberedFolders, HoldTheSameFilesButForTheirPlaces) {
   run({}, folder_.out());
-  run({kThreeAFolder}, folder_ / "numbered");
+  run({kThreePerFolder}, folder_ / "numbered");
   const auto numbered = crowd_files(folder_ / "numbered");
   std::map<std::string, std::string> as_flat;
   for (const auto& [name, bytes] : numbered) {
@@ -106,26 +106,26 @@ TEST_F(NumberedFolders, HoldTheSameFilesButForTheirPlaces) {
 
 TEST_F(NumberedFolders, VerifyMissesAFileAndTheNextRunMakesItAgain) {
   const fs::path out = folder_.out();
-  run({kThreeAFolder}, out);
+  run({kThreePerFolder}, out);
   const auto whole = crowd_files(out);
   EXPECT_TRUE(verify_crowd(out).good());
   for (const char* name : {"meshes/001/mob_0004.npy", "renders/002/mob_0007.png"}) {
     fs::remove(out / name);
     EXPECT_THAT(verify_crowd(out).missing, ElementsAre(name));
-    run({kThreeAFolder}, out);
+    run({kThreePerFolder}, out);
     EXPECT_EQ(faces_built(out), 1) << name;
     EXPECT_THAT(differing_files(whole, crowd_files(out)), IsEmpty()) << name;
   }
   fs::remove_all(out / "meshes/001");
   fs::remove(out / "sheets/001/sheet_004.png");
-  run({kThreeAFolder}, out);
+  run({kThreePerFolder}, out);
   EXPECT_EQ(faces_built(out), 3);
   EXPECT_THAT(differing_files(whole, crowd_files(out)), IsEmpty());
 }
 
 TEST_F(NumberedFolders, ARunThatWasKilledGoesOn) {
   const fs::path out = folder_.out();
-  run({kThreeAFolder}, out);
+  run({kThreePerFolder}, out);
   const auto whole = crowd_files(out);
   // As if it had died within the fifth face's line: no report, half a ledger.
   fs::remove(out / "report.json");
@@ -134,17 +134,17 @@ TEST_F(NumberedFolders, ARunThatWasKilledGoesOn) {
   ASSERT_NE(fifth, ledger.npos);
   std::ofstream(out / "ledger.jsonl", std::ios::binary) << ledger.substr(0, fifth + 40);
   fs::remove_all(out / "meshes/002");
-  run({kThreeAFolder}, out);
+  run({kThreePerFolder}, out);
   EXPECT_EQ(faces_built(out), 3);
   EXPECT_THAT(differing_files(whole, crowd_files(out)), IsEmpty());
 }
 
 TEST_F(NumberedFolders, ShardsAndGatherGiveWhatOneRunGives) {
   const fs::path out = folder_.out();
-  run({kThreeAFolder}, out);
+  run({kThreePerFolder}, out);
   const auto whole = crowd_files(out);
   fs::remove_all(out);
-  for (const std::uint64_t shard : {2U, 1U}) run({kThreeAFolder}, out, {shard, 2});
+  for (const std::uint64_t shard : {2U, 1U}) run({kThreePerFolder}, out, {shard, 2});
   gather(out, folder_.cache());
   EXPECT_THAT(differing_files(whole, crowd_files(out)), IsEmpty());
   remake_sheets(out, {}, folder_.cache());
@@ -153,7 +153,7 @@ TEST_F(NumberedFolders, ShardsAndGatherGiveWhatOneRunGives) {
 
 TEST_F(NumberedFolders, AnotherCrowdWithForceLeavesNothingOfThem) {
   const fs::path out = folder_.out();
-  run({kThreeAFolder}, out);
+  run({kThreePerFolder}, out);
   generate(folder_.config(), overrides({"crowd.seed=5"}, out),
            {folder_.cache(), Replace::kForce, false});
   for (const auto& [name, bytes] : crowd_files(out)) EXPECT_EQ(flat(name), name);
@@ -162,7 +162,7 @@ TEST_F(NumberedFolders, AnotherCrowdWithForceLeavesNothingOfThem) {
 }
 
 TEST_F(NumberedFolders, FacesAreComparedWithThoseOfAnotherCrowd) {
-  run({kThreeAFolder}, folder_ / "numbered");
+  run({kThreePerFolder}, folder_ / "numbered");
   run({"output.contact_sheet.compare=numbered"}, folder_.out());  // each with itself
   fs::remove(folder_ / "numbered/meshes/002/mob_0007.obj");
   for (const char* ending : {"npy", "glb", "usda"}) {

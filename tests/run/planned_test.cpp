@@ -72,7 +72,7 @@ TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
   const Job job = load_job(folder_.config(), {});
   const auto first = faces({1, 2}), second = faces({2, 2});
   ASSERT_TRUE(first && second);
-  std::vector<CastFace> both;
+  std::vector<FacePlan> both;
   for (std::size_t i = 0; i < first->faces.size(); ++i) {
     both.push_back(first->faces[i]);
     if (i < second->faces.size()) both.push_back(second->faces[i]);

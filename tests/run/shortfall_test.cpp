@@ -19,7 +19,7 @@ using testing::TemporaryFolder;
 TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "log";
-  Casting casting;
+  CastingOptions casting;
   casting.count = 10;
   casting.diversity.min_distance_mm = 1;
   ScarcityWarning warning(casting);

@@ -21,12 +21,12 @@ inline constexpr double kExtent = 43;
 
 /// Heads of one topology, and what they consist of.
 struct Heads {
-  FaceSet faces;
+  HeadSet faces;
   Adjacency adjacency;
   Components components;
   PartList parts;
 
-  explicit Heads(FaceSet set)
+  explicit Heads(HeadSet set)
       : faces(std::move(set)),
         adjacency(build_adjacency(faces.topology)),
         components(find_components(adjacency)),
@@ -43,7 +43,7 @@ struct Heads {
 
 inline Heads synthetic_heads() {
   const SyntheticHeads synthetic(5000, SyntheticHeads::Parts::kEyesAndTeeth);
-  FaceSet set{synthetic.topology(), synthetic.uvs(), {}};
+  HeadSet set{synthetic.topology(), synthetic.uvs(), {}};
   for (const std::uint64_t i : {0, 1, 2, 3, 4, 5}) {
     set.heads.push_back({"head" + std::to_string(i), synthetic.positions(5, i)});
   }

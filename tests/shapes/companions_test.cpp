@@ -64,14 +64,14 @@ class CompanionsTest : public ::testing::Test {
     return intersecting(triangles, mesh, near_pairs(triangles, mesh, 0)).size();
   }
 
-  FaceSet faces_;
+  HeadSet faces_;
   Adjacency adjacency_;
   std::vector<std::uint32_t> skin_;
   ShapeSet set_;
 };
 
 TEST_F(CompanionsTest, AreFoundByHowLipsLie) {
-  const KeptContacts contacts(faces_, adjacency_, skin_);
+  const GapPreserver contacts(faces_, adjacency_, skin_);
   const std::vector<std::optional<std::size_t>> expected = {std::nullopt, std::nullopt, 1,
                                                             std::nullopt};
   EXPECT_EQ(companions_of(set_, contacts, kRollerExtent), expected);

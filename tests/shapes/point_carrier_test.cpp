@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 struct HeadsWithPoints {
-  FaceSet faces;
+  HeadSet faces;
   PartList parts;
   std::vector<std::uint32_t> skin;
 

@@ -133,7 +133,7 @@ std::optional<IctModel> ict_model(const std::vector<std::string>& shapes) {
   const fs::path folder = fs::path(CROWDFACE_SOURCE_DIR) / "../shared/faces";
   if (!fs::exists(folder / "ict_shapes")) return std::nullopt;
   const ObjFile neutral = read_obj(folder / "ict_shapes/generic_neutral_mesh.obj");
-  FaceSet faces{neutral.topology, neutral.uvs, {}};
+  HeadSet faces{neutral.topology, neutral.uvs, {}};
   for (const fs::path& file : list_files(folder / "ict16", has_ending(".obj"))) {
     faces.heads.push_back({file.stem().string(), read_obj(file).positions});
   }

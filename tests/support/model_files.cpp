@@ -127,8 +127,8 @@ std::string small_picture(std::uint8_t grey) {
 }
 
 /// Squares around these x, the first of each pair at (0.1, 0.1) of the texture, the second where it is clear.
-void write_worn(const fs::path& folder, const std::string& name, const std::vector<double>& at_x,
-                const std::vector<std::string>& materials) {
+void write_attachments(const fs::path& folder, const std::string& name,
+                       const std::vector<double>& at_x, const std::vector<std::string>& materials) {
   ThreeMesh mesh;
   json anchors = json::array(), weights = json::array(), offsets = json::array();
   for (const std::string& material : materials) {
@@ -138,8 +138,10 @@ void write_worn(const fs::path& folder, const std::string& name, const std::vect
   }
   for (std::size_t i = 0; i < at_x.size(); ++i) {
     const std::size_t first = mesh.vertex_count();
-    for (const auto& [dx, dy] :
-         {std::pair(0.0, 0.0), {kWornSide, 0.0}, {kWornSide, kWornSide}, {0.0, kWornSide}}) {
+    for (const auto& [dx, dy] : {std::pair(0.0, 0.0),
+                                 {kAttachmentSide, 0.0},
+                                 {kAttachmentSide, kAttachmentSide},
+                                 {0.0, kAttachmentSide}}) {
       mesh.add_vertex(0, 0, 0);
       anchors.push_back({8, 9, 10});
       weights.push_back({0.5, 0.25, 0.25});
@@ -165,10 +167,10 @@ void write_worn(const fs::path& folder, const std::string& name, const std::vect
 
 void write_makehuman_wardrobe(const fs::path& package) {
   const fs::path proxies = package / "public/data/proxies";
-  write_worn(proxies / "eyes/HighPolyEyes", "HighPolyEyes", {-1.5, -1.5, 1.5, 1.5},
-             {"brown", "brownlight", "green", "bluegreen", "grey", "lightblue", "blue"});
+  write_attachments(proxies / "eyes/HighPolyEyes", "HighPolyEyes", {-1.5, -1.5, 1.5, 1.5},
+                    {"brown", "brownlight", "green", "bluegreen", "grey", "lightblue", "blue"});
   const auto add = [&](const std::string& kind, const std::string& name) {
-    write_worn(proxies / kind / name, name, {0.2}, {lower_case(name)});
+    write_attachments(proxies / kind / name, name, {0.2}, {lower_case(name)});
   };
   add("eyelashes", "Eyelashes01");
   add("teeth", "Teeth_Base");

@@ -31,7 +31,7 @@ void write_makehuman_wardrobe(const std::filesystem::path& package);
 /// The sRGB value of all texels of a skin, by the name of its folder.
 int skin_grey(const std::string& folder);
 /// Of the squares: their vertices hang on the vertices 8, 9 and 10 of the base mesh, by 1/2, 1/4 and 1/4.
-inline constexpr double kWornSide = 0.1;
+inline constexpr double kAttachmentSide = 0.1;
 
 /// A grid with eyeballs and teeth in place of ICT's neutral mesh, and `modes` identity modes: mode k
 /// moves vertex v by (k + 1)/100 · (v mod 3, 1, −1).

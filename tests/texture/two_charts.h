@@ -73,7 +73,7 @@ class TwoCharts {
     return {(u - 0.15) / 0.8, (0.9 - v) / 0.8};
   }
 
-  FaceSet faces;
+  HeadSet faces;
   Adjacency adjacency;
   RegionWeights alpha;
   CrowdTextures textures;

@@ -205,7 +205,7 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
                     [&](const Triangle& triangle) { return crosses(origin, direction, triangle); });
     const std::array guesses = {kNoIndex, static_cast<std::uint32_t>(i % tree.order.size())};
     for (const std::uint32_t guess : guesses) {
-      const std::uint32_t other = scene.met_by(origin, direction, kNoIndex, guess);
+      const std::uint32_t other = scene.intersected_by(origin, direction, kNoIndex, guess);
       EXPECT_EQ(other != kNoIndex, expected) << i;
       EXPECT_TRUE(other == kNoIndex ||
                   crosses(origin, direction, sheet.triangles[tree.order[other]]));
@@ -216,7 +216,7 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
   EXPECT_LT(met, 250);
   const Eigen::Vector3d up(0, 0, 1);
   const Eigen::Vector3d below(3.3, 7.4, -1);
-  EXPECT_NE(scene.met_by(below, up, kNoIndex, kNoIndex), kNoIndex);
+  EXPECT_NE(scene.intersected_by(below, up, kNoIndex, kNoIndex), kNoIndex);
 }
 
 }  // namespace

@@ -50,17 +50,17 @@ TEST(Bending, AreasAddUp) {
 TEST(ElasticSolve, GivesWhatADenseSolutionGives) {
   const SparseMatrix energy = 1e-3 * energy_of(8);
   const auto count = static_cast<std::uint32_t>(energy.rows());
-  Wishes wishes(count);
+  DataTerms data_terms(count);
   const Positions normals = random_positions(count, 1), offsets = random_positions(count, 2);
   for (std::uint32_t v = 0; v < count; ++v) {
-    wishes.add(v, normals.row(v).normalized().transpose(), 0.7, v % 3 == 0 ? 0.3 : 0.01,
-               offsets.row(v).transpose());
+    data_terms.add(v, normals.row(v).normalized().transpose(), 0.7, v % 3 == 0 ? 0.3 : 0.01,
+                   offsets.row(v).transpose());
   }
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(3 * count, 3 * count);
   Eigen::VectorXd right(3 * count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    whole.block<3, 3>(3 * i, 3 * i) += wishes.matrices[i];
-    right.segment<3>(3 * i) = wishes.right.row(i).transpose();
+    whole.block<3, 3>(3 * i, 3 * i) += data_terms.matrices[i];
+    right.segment<3>(3 * i) = data_terms.right.row(i).transpose();
     for (std::uint32_t j = 0; j < count; ++j) {
       whole.block<3, 3>(3 * i, 3 * j).diagonal().array() += energy.coeff(i, j);
     }
@@ -68,7 +68,7 @@ TEST(ElasticSolve, GivesWhatADenseSolutionGives) {
   const Eigen::VectorXd expected = whole.ldlt().solve(right);
   const ElasticSolver solver(energy, Eigen::VectorXd::Constant(count, 0.5));
   Positions found = Positions::Zero(count, 3);
-  solver.solve(wishes, {.steps = 300, .tolerance = 1e-12}, found);
+  solver.solve(data_terms, {.steps = 300, .tolerance = 1e-12}, found);
   for (std::uint32_t v = 0; v < count; ++v) {
     EXPECT_LT((found.row(v).transpose() - expected.segment<3>(3 * v)).norm(), 1e-8);
   }
@@ -77,15 +77,15 @@ TEST(ElasticSolve, GivesWhatADenseSolutionGives) {
 TEST(ElasticSolve, OneThreadGivesWhatManyGive) {
   const SparseMatrix energy = 1e-3 * energy_of(60);
   const auto count = static_cast<std::uint32_t>(energy.rows());
-  Wishes wishes(count);
+  DataTerms data_terms(count);
   const Positions offsets = random_positions(count, 2);
   for (std::uint32_t v = 0; v < count; ++v) {
-    wishes.add(v, Eigen::Vector3d::UnitZ(), 1, 0.3, offsets.row(v).transpose());
+    data_terms.add(v, Eigen::Vector3d::UnitZ(), 1, 0.3, offsets.row(v).transpose());
   }
   const auto solve = [&](int threads) {
     const ThreadLimit limit(threads);
     Positions found = Positions::Zero(count, 3);
-    ElasticSolver(energy, Eigen::VectorXd::Constant(count, 0.5)).solve(wishes, {}, found);
+    ElasticSolver(energy, Eigen::VectorXd::Constant(count, 0.5)).solve(data_terms, {}, found);
     return found;
   };
   EXPECT_EQ(solve(1), solve(4));

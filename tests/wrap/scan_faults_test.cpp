@@ -68,7 +68,7 @@ TEST_F(ScanFaults, LidsThatMeetAreAClosedEye) {
 }
 
 TEST_F(ScanFaults, LipsThatPartAreAnOpenMouth) {
-  const FaceSet faces{shape_.topology, {}, {{"template", shape_.positions}}};
+  const HeadSet faces{shape_.topology, {}, {{"template", shape_.positions}}};
   const SkinContacts lips(faces, shape_.adjacency, shape_.skin.vertices);
   ASSERT_GT(lips.size(), 0U);
   for (std::size_t i = 0; i < lips.size(); ++i) {

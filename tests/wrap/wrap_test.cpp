@@ -170,7 +170,7 @@ TEST(Wrap, AModelFindsAHeadBetterThanItsMean) {
 
 TEST(Wrap, ALargeSkinIsBentByWayOfAReducedOne) {
   const WrapTemplate whole = synthetic(16000, 1), head = synthetic(16000, 2);
-  const WrapTemplate shape = synthetic(16000, 1, {.most_vertices = 8000, .reduced_vertices = 4000});
+  const WrapTemplate shape = synthetic(16000, 1, {.max_vertices = 8000, .reduced_vertices = 4000});
   ASSERT_TRUE(shape.reduced);
   EXPECT_NEAR(static_cast<double>(shape.reduced->mesh.vertices.size()), 4000, 400);
   const TruthScan truth =
@@ -184,7 +184,7 @@ TEST(Wrap, ALargeSkinIsBentByWayOfAReducedOne) {
 /// The scan's surface, pores and all, from a template of as many vertices that has none.
 TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
   const Index vertices = 40000;
-  const TemplateOptions options{.most_vertices = 8000, .reduced_vertices = 5000};
+  const TemplateOptions options{.max_vertices = 8000, .reduced_vertices = 5000};
   const WrapTemplate shape = synthetic(vertices, 1, options),
                      head = synthetic(vertices, 2, options);
   const Positions skin = head.skin.of(head.positions);
@@ -273,7 +273,7 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
   const Positions picked = inverse(result.pose).apply(place);
   EXPECT_NEAR(unseen.at(left_out.name),
               (result.positions.row(left_out.vertex) - picked.row(0)).norm(), 1e-9);
-  truth.landmarks.resize(kFewestLandmarks);
+  truth.landmarks.resize(kMinLandmarks);
   EXPECT_TRUE(unseen_landmarks(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).empty());
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crowdface/attach/fitted_skin.h"
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 
 namespace crowdface {
 
@@ -24,7 +24,7 @@ struct BendPlaces {
     float weight;  ///< weights of a point do not sum to one
   };
   std::vector<FittedSkin::Patch> patches;
-  Grouped<Share> shares;  ///< #points
+  CompressedRows<Share> shares;  ///< #points
 
   std::size_t memory_bytes() const {
     std::size_t bytes = shares.items.size() * sizeof(Share);

@@ -20,9 +20,9 @@ namespace {
 /// Reach of a point on the skin, in millimetres or in vertex spacings, whichever is larger; and the
 /// growth of the reach per unit of distance from the skin.
 constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
-/// At least this many vertices lie within the reach divided by kFewestReach.
-constexpr std::size_t kFewest = 12;
-constexpr double kFewestReach = 1.4;
+/// At least this many vertices lie within the reach divided by kMinReach.
+constexpr std::size_t kMin = 12;
+constexpr double kMinReach = 1.4;
 /// A level is used alone where the reach is kSpacings times its spacing. From there to twice that
 /// reach, the patch blends into the next level.
 constexpr double kSpacings = 3;
@@ -127,7 +127,7 @@ double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
   const Level& finest = levels_.front();
   const double nearest = finest.grid.nearest(point).distance;
   const double reach = kReachGrowth * nearest + least;
-  const std::size_t fewest = std::min(kFewest, finest.vertices.size());
+  const std::size_t fewest = std::min(kMin, finest.vertices.size());
   std::vector<double> distances;
   for (double around = reach;; around *= 2) {
     distances.clear();
@@ -137,7 +137,7 @@ double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
     }
     if (distances.size() >= fewest) break;
   }
-  return std::max(reach, kFewestReach * value_of_rank(std::move(distances), fewest - 1));
+  return std::max(reach, kMinReach * nth_smallest(std::move(distances), fewest - 1));
 }
 
 void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, double share,

@@ -8,14 +8,14 @@
 
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
-#include "crowdface/parts/small_program.h"
+#include "crowdface/parts/quadratic_program.h"
 
 namespace crowdface {
 namespace {
 
 /// The supporting skin is the skin within this distance of the attachment.
 constexpr double kSeatReachMm = 15;
-constexpr std::size_t kFewestOfSocket = 12;
+constexpr std::size_t kMinOfSocket = 12;
 constexpr int kSeatRounds = 8;
 /// Cost of a motion by one millimetre, relative to a missing millimetre of distance.
 constexpr double kStillness = 0.02;
@@ -30,7 +30,7 @@ RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const Skin
   middle_ = centre_of(points, all);
   radius_ = std::max(radius_about(middle_, points, all), skin.mm());
   const PointGrid grid(points, all);
-  const std::size_t fewest = std::min(kFewestOfSocket, skin.vertices().size());
+  const std::size_t fewest = std::min(kMinOfSocket, skin.vertices().size());
   for (double reach = kSeatReachMm * skin.mm(); socket_.vertices.size() < fewest; reach *= 2) {
     socket_ = find_socket(skin.mesh(), grid, skin.vertices(), skin.areas(), reach);
     if (reach > 1e6 * skin.mm()) break;
@@ -50,7 +50,7 @@ RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
                                  const std::vector<SkinGaps::Missing>& missing) const {
   // translation, rotation, growth; the last two are scaled by the radius
   constexpr std::size_t kUnknowns = 7;
-  SmallProgram program(kUnknowns);
+  QuadraticProgram program(kUnknowns);
   const Eigen::Vector3d pivot = motion.apply(middle_);
   const double radius = motion.scale * radius_;
   const double weight = 1 / static_cast<double>(missing.size());
@@ -58,11 +58,11 @@ RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
     const Eigen::Vector3d arm = (motion.apply(row3(points_, one.vertex)) - pivot) / radius;
     const Eigen::Vector3d turned = arm.cross(one.outward);
     const Eigen::Vector3d& n = one.outward;
-    program.want({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)}, one.height,
-                 weight);
+    program.add_target({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)},
+                       one.height, weight);
   }
-  for (std::size_t u = 0; u < kUnknowns; ++u) program.want(u, 0, kStillness);
-  const SmallProgram::Vector x = program.solve(0);
+  for (std::size_t u = 0; u < kUnknowns; ++u) program.add_target(u, 0, kStillness);
+  const QuadraticProgram::Vector x = program.solve(0);
   return nudged(motion, pivot, {x[0], x[1], x[2]}, Eigen::Vector3d(x[3], x[4], x[5]) / radius,
                 x[6] / radius);
 }

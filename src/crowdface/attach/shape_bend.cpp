@@ -25,7 +25,7 @@ constexpr double kOffMm = 10;
 /// Limit for distances along the surface, in multiples of a patch's reach.
 constexpr double kAlong = 1.5;
 /// Fewer vertices do not determine a rotation; then the whole patch is used.
-constexpr std::size_t kFewestNear = 6;
+constexpr std::size_t kMinNear = 6;
 
 /// A point's nearest skin is ambiguous if a sphere around the point, kBetweenMm larger than the
 /// distance to the nearest skin, contains skin that is farther from the nearest skin, along the
@@ -157,33 +157,33 @@ void ShapeBend::keep_near(const EdgeDistances& along, double limit, FittedSkin::
     near.vertices.push_back(patch.vertices[i]);
     near.weights.push_back(patch.weights[i]);
   }
-  if (near.vertices.size() >= kFewestNear) patch = std::move(near);
+  if (near.vertices.size() >= kMinNear) patch = std::move(near);
 }
 
-Displacements ShapeBend::in_shape(const Positions& face, const Positions& worn,
+Displacements ShapeBend::in_shape(const Positions& face, const Positions& placed,
                                   const Displacements& shape) const {
   std::vector<bool> is_moved(static_cast<std::size_t>(face.rows()), false);
   for (const std::uint32_t v : shape.vertices) is_moved[v] = true;
   Positions acting = face;
   shape.add_to(acting);
   std::vector<RigidMotion> motions(places_.patches.size());
-  std::vector<bool> hears(motions.size(), false);
+  std::vector<bool> affects(motions.size(), false);
   for (std::size_t n = 0; n < motions.size(); ++n) {
     const FittedSkin::Patch& patch = places_.patches[n];
-    hears[n] = std::ranges::any_of(patch.vertices, [&](std::uint32_t v) { return is_moved[v]; });
-    if (hears[n]) motions[n] = fit_rigid_motion(face, acting, patch.vertices, patch.weights);
+    affects[n] = std::ranges::any_of(patch.vertices, [&](std::uint32_t v) { return is_moved[v]; });
+    if (affects[n]) motions[n] = fit_rigid_motion(face, acting, patch.vertices, patch.weights);
   }
   Displacements moves;
-  moves.moves.resize(worn.rows(), 3);
+  moves.moves.resize(placed.rows(), 3);
   for (std::uint32_t p = 0; p < places_.shares.group_count(); ++p) {
-    const Eigen::Vector3d point = row3(worn, p);
+    const Eigen::Vector3d point = row3(placed, p);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
     bool any = false;
     for (const BendPlaces::Share& share : places_.shares.of(p)) {
       const double weight = static_cast<double>(share.weight);
       weights += weight;
-      if (!hears[share.place]) continue;
+      if (!affects[share.place]) continue;
       any = true;
       sum += weight * (motions[share.place].apply(point) - point);
     }

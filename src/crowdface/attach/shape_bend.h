@@ -33,7 +33,7 @@ class ShapeBend {
   /// \param worn   #P by 3, the attachment on that face at rest.
   /// \param shape  Displacements of the face.
   /// \return       Displacements of the attachment's points.
-  Displacements in_shape(const Positions& face, const Positions& worn,
+  Displacements in_shape(const Positions& face, const Positions& placed,
                          const Displacements& shape) const;
 
   std::size_t memory_bytes() const { return places_.memory_bytes(); }

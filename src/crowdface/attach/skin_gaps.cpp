@@ -17,7 +17,7 @@ constexpr double kFarMm = 25;
 /// linearly to zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
 /// Vertices farther off keep at least this distance.
-constexpr double kLeastMm = 2;
+constexpr double kMinMm = 2;
 /// Number of times that pushed vertices move their neighbours along.
 constexpr int kRounds = 8;
 constexpr std::uint32_t kGapsPerBlock = 512;
@@ -45,8 +45,8 @@ std::size_t SkinGaps::memory_bytes() const {
          neighbours_.items.size() * sizeof(std::uint32_t);
 }
 
-double SkinGaps::least_height(std::uint32_t point) const {
-  return std::min(heights_[point], kLeastMm * skin_.mm());
+double SkinGaps::min_height(std::uint32_t point) const {
+  return std::min(heights_[point], kMinMm * skin_.mm());
 }
 
 std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Positions& normals,
@@ -55,7 +55,7 @@ std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Po
   for (std::uint32_t p = 0; p < heights_.size(); ++p) {
     if (heights_[p] == kNowhere || heights_[p] < 0) continue;
     const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
-    const double missing = least_height(p) - place.height;
+    const double missing = min_height(p) - place.height;
     if (missing > 0) all.push_back({p, missing, place.outward});
   }
   return all;
@@ -71,7 +71,7 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
     const double off = std::abs(heights_[p]) / skin_.mm();
     const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
     double move = held * (heights_[p] - place.height);
-    if (heights_[p] >= 0) move = std::max(move, least_height(p) - place.height);
+    if (heights_[p] >= 0) move = std::max(move, min_height(p) - place.height);
     moves.row(p) = move * place.outward.transpose();
     outward.row(p) = place.outward.transpose();
   });

@@ -44,7 +44,7 @@ class SkinGaps {
   std::size_t memory_bytes() const;
 
  private:
-  double least_height(std::uint32_t point) const;
+  double min_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;
   /// #P: signed distances on the fitted mesh; infinite if the point is far from the skin

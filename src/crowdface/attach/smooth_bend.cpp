@@ -44,7 +44,7 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(points, all);
   const std::vector<std::uint32_t> places = find_places(skin, points, grid, places_.patches);
-  places_.shares = grouped<BendPlaces::Share>(all.size(), [&](const auto& put) {
+  places_.shares = compressed_rows<BendPlaces::Share>(all.size(), [&](const auto& put) {
     for (std::uint32_t n = 0; n < places.size(); ++n) {
       const Eigen::Vector3d middle = row3(points, places[n]);
       const double heard = BendPlaces::kHeard * BendPlaces::kApart * places_.patches[n].reach;

@@ -7,7 +7,7 @@
 namespace crowdface {
 namespace {
 
-const Positions& positions_of(const FaceSet& faces, Index head) {
+const Positions& positions_of(const HeadSet& faces, Index head) {
   return faces.heads[static_cast<std::size_t>(head)].positions;
 }
 
@@ -30,7 +30,7 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
 
 /// G_kb of level_shares for all bands of all regions, side by side: #V by 3·#bands. With one band
 /// per region this is D_k = B − e_k Σ_i ω̂_ki C_i.
-Columns coarser_less_finer(const FaceSet& faces, const std::vector<SmoothedBand>& bands,
+Columns coarser_less_finer(const HeadSet& faces, const std::vector<SmoothedBand>& bands,
                            const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
   parallel_blocks(target.rows(), kRowBlock, [&](Index begin, Index end) {
@@ -53,12 +53,12 @@ Columns coarser_less_finer(const FaceSet& faces, const std::vector<SmoothedBand>
 
 }  // namespace
 
-Positions target_positions(const FaceSet& faces, const Recipe& recipe) {
+Positions target_positions(const HeadSet& faces, const Recipe& recipe) {
   return target_matrix<Positions>(
       recipe, [&](Index head) -> const Positions& { return positions_of(faces, head); });
 }
 
-void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
+void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results) {
   std::vector<std::vector<SmoothedBand>> bands;
   std::vector<Columns> differences;
@@ -94,7 +94,7 @@ void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const Regi
   }
 }
 
-Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
+Positions blend_exact(const HeadSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe) {
   const Recipe* one = &recipe;
   Positions result;

@@ -11,7 +11,7 @@
 namespace crowdface {
 
 /// B, #V by 3: the target's positions, or the mixture's.
-Positions target_positions(const FaceSet& faces, const Recipe& recipe);
+Positions target_positions(const HeadSet& faces, const Recipe& recipe);
 
 /// Blends the face of a recipe with exact levels, before mirroring (Eq. 7 in the form below;
 /// level_shares generalises it to several bands). Applies the filter once per band and region. With
@@ -24,12 +24,12 @@ Positions target_positions(const FaceSet& faces, const Recipe& recipe);
 /// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
 /// \return         #V by 3, in the unit of the heads.
 /// \throws BrokenPrecondition if recipe, regions and heads do not fit together.
-Positions blend_exact(const FaceSet& faces, const ChebyshevFilter& filter,
+Positions blend_exact(const HeadSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
 
 /// Blends several faces in one filter pass; bit-identical to blending them one by one.
 /// \param results  one for each recipe.
-void blend_exact(const FaceSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
+void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results);
 
 }  // namespace crowdface

@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kPatchesATask = 16;
+constexpr std::size_t kPatchesPerTask = 16;
 constexpr std::size_t kCoordinates = 3;
 constexpr std::size_t kPatchValues = kCoordinates * kPatchVertices;
 
@@ -55,7 +55,7 @@ class AlignedFloats {
 
 }  // namespace
 
-CrowdBlender::CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels,
+CrowdBlender::CrowdBlender(const HeadSet& faces, std::vector<HeadLevels> levels,
                            FieldPatches patches, const RegionWeights& regions)
     : faces_(faces), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
   const Index vertices = faces.topology.vertex_count;
@@ -360,7 +360,7 @@ void CrowdBlender::blend_at(const Wanted& wanted, std::span<const Recipe* const>
     result.resize(faces_.topology.vertex_count, 3);
   });
   const Crowd crowd(*this, recipes, results);
-  parallel_blocks(patches_.size(), kPatchesATask, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(patches_.size(), kPatchesPerTask, [&](std::size_t begin, std::size_t end) {
     PatchBlender blender(*this, crowd);
     for (std::size_t patch = begin; patch < end; ++patch) {
       if (wanted(patch)) blender.blend(patch);

@@ -34,7 +34,7 @@ class CrowdBlender {
   /// \param patches         the fields of all heads, compressed.
   /// \param regions         α, #V by #regions, rows summing to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
-  CrowdBlender(const FaceSet& faces, std::vector<HeadLevels> levels, FieldPatches patches,
+  CrowdBlender(const HeadSet& faces, std::vector<HeadLevels> levels, FieldPatches patches,
                const RegionWeights& regions);
 
   /// Blends the faces of the recipes, #V by 3 each, in the unit of the heads.
@@ -66,7 +66,7 @@ class CrowdBlender {
                 std::span<Positions> results) const;
   std::size_t field_count() const { return first_field_.back(); }
 
-  const FaceSet& faces_;
+  const HeadSet& faces_;
   std::vector<HeadLevels> levels_;
   FieldPatches patches_;
   const RegionWeights& regions_;

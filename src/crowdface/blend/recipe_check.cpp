@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-void require_fit(const FaceSet& faces, const RegionWeights& regions, const Recipe& recipe) {
+void require_fit(const HeadSet& faces, const RegionWeights& regions, const Recipe& recipe) {
   const Index vertices = faces.topology.vertex_count;
   const auto wanted = static_cast<Index>(recipe.regions.size());
   require(regions.alpha.rows() == vertices && regions.alpha.cols() == wanted, "blend: a recipe of ",

@@ -29,7 +29,7 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
   return mixed;
 }
 
-void apply_age(CastFace& face, double age, const SamplingOptions& sampling) {
+void apply_age(FacePlan& face, double age, const SamplingOptions& sampling) {
   if (age == 0) return;
   const std::vector<Index>& heads = age > 0 ? sampling.old_heads : sampling.young_heads;
   require(!heads.empty(), "an age of ", age, " without heads of that age");
@@ -47,7 +47,7 @@ void apply_age(CastFace& face, double age, const SamplingOptions& sampling) {
   face.age = age;
 }
 
-void take_back_age(CastFace& face, const SamplingOptions& sampling) {
+void take_back_age(FacePlan& face, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
   const std::vector<Index>& heads = *face.age > 0 ? sampling.old_heads : sampling.young_heads;

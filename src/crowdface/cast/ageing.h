@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/sampling.h"
 
 namespace crowdface {
@@ -13,11 +13,11 @@ namespace crowdface {
 /// removed.
 ///
 /// \throws BrokenPrecondition if no head has the tag.
-void apply_age(CastFace& face, double age, const SamplingOptions& sampling);
+void apply_age(FacePlan& face, double age, const SamplingOptions& sampling);
 
 /// Undoes apply_age, so that children can inherit from the face without its age. A band whose whole
 /// weight was moved (age −1 or 1) cannot be restored; then the band and the face's age stay.
-void take_back_age(CastFace& face, const SamplingOptions& sampling);
+void take_back_age(FacePlan& face, const SamplingOptions& sampling);
 
 /// Returns (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

@@ -21,14 +21,14 @@ struct Redraw {
   const ReviewMark* mark = nullptr;
 };
 
-const FamilyCast* family_of(const CrowdCast& cast, Index face) {
-  for (const FamilyCast& family : cast.families) {
+const FamilyPlan* family_of(const CastingResult& cast, Index face) {
+  for (const FamilyPlan& family : cast.families) {
     if (face >= family.begin && face < family.end) return &family;
   }
   return nullptr;
 }
 
-std::vector<Redraw> read_marks(const Review& review, CrowdCast& cast) {
+std::vector<Redraw> read_marks(const Review& review, CastingResult& cast) {
   std::map<std::string, Index> faces;
   for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
     faces[cast.crowd[i].id] = static_cast<Index>(i);
@@ -49,7 +49,7 @@ std::vector<Redraw> read_marks(const Review& review, CrowdCast& cast) {
 
 class Redrawing {
  public:
-  Redrawing(const Casting& casting, const FaceJudge& judge, CrowdCast& cast)
+  Redrawing(const CastingOptions& casting, const FaceJudge& judge, CastingResult& cast)
       : casting_(casting),
         judge_(judge),
         cast_(cast),
@@ -60,8 +60,8 @@ class Redrawing {
   /// \return  false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
     const auto at = static_cast<std::size_t>(redraw.face);
-    const CastFace old = cast_.crowd[at];
-    const FamilyCast* family = family_of(cast_, redraw.face);
+    const FacePlan old = cast_.crowd[at];
+    const FamilyPlan* family = family_of(cast_, redraw.face);
     // The own family is kept apart: within a family, the family's own distances apply.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
@@ -73,7 +73,7 @@ class Redrawing {
         others.add(cast_.crowd[i], cast_.points[i]);
       }
     }
-    const Kinship kinship = kinship_without(family, settled);
+    const FamilySeparation family_separation = kinship_without(family, settled);
     FaceSearch::Draw draw;
     const std::vector<FaceSpace::Point> rejected = reject(at);
     FaceSearch::Refuses refuses;
@@ -86,11 +86,11 @@ class Redrawing {
         return family_draws->member(*family, member, attempt);
       };
       refuses = [&](const FaceSpace::Point& point) {
-        return family_draws->refuses(*family, point, own, kinship);
+        return family_draws->refuses(*family, point, own, family_separation);
       };
     } else {
       draw = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
-      refuses = [&](const FaceSpace::Point& point) { return kinship.refuses(point); };
+      refuses = [&](const FaceSpace::Point& point) { return family_separation.refuses(point); };
     }
     const int candidates = old.index ? casting_.diversity.candidates_for(*old.index) : 1;
     std::optional<FaceSearch::Found> found;
@@ -125,7 +125,7 @@ class Redrawing {
   std::vector<FaceSpace::Point> reject(std::size_t face) {
     cast_.rejected.push_back(cast_.crowd[face]);
     std::vector<FaceSpace::Point> points;
-    for (const CastFace& old : cast_.rejected) {
+    for (const FacePlan& old : cast_.rejected) {
       if (old.id == cast_.crowd[face].id) points.push_back(judge_.space().point(old.recipe));
     }
     return points;
@@ -135,7 +135,7 @@ class Redrawing {
   /// turn. A family or locked parts may prevent the full distance.
   ///
   /// \param own  Points of the face's family.
-  std::vector<double> distances_to_rejected(const FamilyCast* family,
+  std::vector<double> distances_to_rejected(const FamilyPlan* family,
                                             const std::vector<FaceSpace::Point>& own,
                                             const ReviewMark& mark) const {
     if (casting_.diversity.min_distance_to_rejected_mm) {
@@ -155,7 +155,7 @@ class Redrawing {
     return {least, least / 2, least / 4, 0};
   }
 
-  const FamilyOptions& options_of(const FamilyCast& family) const {
+  const FamilyOptions& options_of(const FamilyPlan& family) const {
     return *std::ranges::find(casting_.families, family.name, &FamilyOptions::name);
   }
 
@@ -163,7 +163,7 @@ class Redrawing {
     return kinds_[static_cast<std::size_t>(cast_.kinds[index - 1] + 1)];
   }
 
-  CastFace drawn_face(const CastFace& old, std::uint32_t attempt) const {
+  FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: redraw what it leaves open
       const auto hand = std::ranges::find(casting_.recipes, old.id, &HandRecipe::id);
       return draw_hand_recipe(casting_, *hand, attempt);
@@ -172,7 +172,7 @@ class Redrawing {
   }
 
   /// Locked parts need the same target, mirroring and asymmetry.
-  CastFace with_locked(CastFace face, const CastFace& old, const ReviewMark& mark) const {
+  FacePlan with_locked(FacePlan face, const FacePlan& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {
       FaceKind kind = kind_of(*old.index);
@@ -187,21 +187,21 @@ class Redrawing {
     return face;
   }
 
-  Kinship kinship_without(const FamilyCast* own, const std::vector<bool>& settled) const {
-    Kinship kinship;
-    for (const FamilyCast& family : cast_.families) {
+  FamilySeparation kinship_without(const FamilyPlan* own, const std::vector<bool>& settled) const {
+    FamilySeparation family_separation;
+    for (const FamilyPlan& family : cast_.families) {
       if (&family == own) continue;
       std::vector<FaceSpace::Point> members;
       for (Index i = family.begin; i < family.end; ++i) {
         const auto at = static_cast<std::size_t>(i);
         if (settled[at]) members.push_back(cast_.points[at]);
       }
-      kinship.add(family.name, members);
+      family_separation.add(family.name, members);
     }
-    return kinship;
+    return family_separation;
   }
 
-  void settle(std::size_t at, FaceSearch::Found found, const CastFace& old,
+  void settle(std::size_t at, FaceSearch::Found found, const FacePlan& old,
               const std::vector<bool>& settled) {
     const auto [head, head_mm] = judge_.nearest_head(found.point);
     Nearest nearest{head, head_mm, std::nullopt, 0};
@@ -220,18 +220,18 @@ class Redrawing {
     cast_.points[at] = std::move(found.point);
   }
 
-  const Casting& casting_;
+  const CastingOptions& casting_;
   const FaceJudge& judge_;
-  CrowdCast& cast_;
-  Strangers unrelated_;
+  CastingResult& cast_;
+  UnrelatedFaces unrelated_;
   double half_median_mm_;
   std::vector<FaceKind> kinds_;
 };
 
 }  // namespace
 
-void apply_review(const Casting& casting, const FaceJudge& judge, const Review& review,
-                  CrowdCast& cast) {
+void apply_review(const CastingOptions& casting, const FaceJudge& judge, const Review& review,
+                  CastingResult& cast) {
   const std::vector<Redraw> redraws = read_marks(review, cast);
   std::vector<bool> settled(cast.crowd.size(), true);
   for (const Redraw& redraw : redraws) settled[static_cast<std::size_t>(redraw.face)] = false;

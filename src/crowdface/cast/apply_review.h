@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/cast/crowd_cast.h"
+#include "crowdface/cast/casting_result.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_judge.h"
 
@@ -11,7 +11,7 @@ namespace crowdface {
 /// All other faces stay as they are.
 ///
 /// \throws InvalidInput if the review names a face that is not in the crowd.
-void apply_review(const Casting& casting, const FaceJudge& judge, const Review& review,
-                  CrowdCast& cast);
+void apply_review(const CastingOptions& casting, const FaceJudge& judge, const Review& review,
+                  CastingResult& cast);
 
 }  // namespace crowdface

@@ -91,20 +91,20 @@ class AttachmentDrawing {
     }
   }
 
-  std::vector<std::string> of(const CastFace& face) {
+  std::vector<std::string> of(const FacePlan& face) {
     heads_[face.id] = typical_head(face.recipe, draw_.tags);
-    Items worn;
+    Items placed;
     for (const std::string& kind : kinds_) {
-      const AttachmentItem* one = draw_one(kind, face, worn);
+      const AttachmentItem* one = draw_one(kind, face, placed);
       if (one == nullptr) continue;
-      worn.push_back(one);
+      placed.push_back(one);
       ++turns_[alike(face)][one->name];
       if (face.index) ++all_turns_[one->name];
     }
-    std::vector<std::string> names = without_excluded(worn);
-    worn_[face.id] = those(worn, [&](const auto& item) { return contains(names, item.name); });
+    std::vector<std::string> names = without_excluded(placed);
+    placed_[face.id] = those(placed, [&](const auto& item) { return contains(names, item.name); });
     if (face.family) {
-      for (const AttachmentItem* item : worn_[face.id]) {
+      for (const AttachmentItem* item : placed_[face.id]) {
         if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
       }
     }
@@ -131,27 +131,27 @@ class AttachmentDrawing {
     return items;
   }
 
-  const AttachmentItem* draw_one(const std::string& kind, const CastFace& face,
-                                 const Items& worn) const {
+  const AttachmentItem* draw_one(const std::string& kind, const FacePlan& face,
+                                 const Items& placed) const {
     Items items = wearable(kind, heads_.at(face.id));
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
     const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
     if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
-    match_colours(kind, face, worn, items);
+    match_colours(kind, face, placed, items);
     return next_of(items, face, drawn[1]);
   }
 
   /// Returns the name of the set of similar faces that take turns with this face.
-  std::string alike(const CastFace& face) const {
+  std::string alike(const FacePlan& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
   /// Chooses among the items that are due, first among similar faces and then among all sampled
   /// faces, at random by their shares.
-  const AttachmentItem* next_of(const Items& items, const CastFace& face, double drawn) const {
+  const AttachmentItem* next_of(const Items& items, const FacePlan& face, double drawn) const {
     Items next = items;
     if (const auto own = turns_.find(alike(face)); own != turns_.end())
       leave_due(own->second, next);
@@ -162,7 +162,7 @@ class AttachmentDrawing {
   /// Keeps the items that quotas allow.
   ///
   /// \return  Whether the face wears any.
-  bool serve_quotas(const std::string& kind, const CastFace& face, double drawn,
+  bool serve_quotas(const std::string& kind, const FacePlan& face, double drawn,
                     Items& items) const {
     const auto none = draw_.none.find(kind);
     const bool bare = none != draw_.none.end() && drawn < none->second;
@@ -190,13 +190,14 @@ class AttachmentDrawing {
   }
 
   /// Keeps the items whose colour matches the face's other items, or else its family.
-  void match_colours(const std::string& kind, const CastFace& face, const Items& worn,
+  void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
       return !colour.empty() &&
              narrow(items, [&](const AttachmentItem& item) { return item.colour == colour; });
     };
-    if (std::any_of(worn.begin(), worn.end(), [&](const auto* item) { return take(item->colour); }))
+    if (std::any_of(placed.begin(), placed.end(),
+                    [&](const auto* item) { return take(item->colour); }))
       return;
     if (face.parents.empty()) {
       const auto found = face.family ? families_.find({*face.family, kind}) : families_.end();
@@ -243,7 +244,7 @@ class AttachmentDrawing {
   /// Returns the colour that a parent wears. If the parent wears none, returns the colour of all
   /// items that it may wear, if they have only one.
   std::string colour_of(const std::string& kind, const std::string& parent) const {
-    if (const auto found = worn_.find(parent); found != worn_.end()) {
+    if (const auto found = placed_.find(parent); found != placed_.end()) {
       const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
       if (!own.empty()) return own[0]->colour;
     }
@@ -258,9 +259,9 @@ class AttachmentDrawing {
 
   /// Returns the names of the remaining items, in their order, after each item in turn removed the
   /// items it excludes.
-  std::vector<std::string> without_excluded(const Items& worn) const {
+  std::vector<std::string> without_excluded(const Items& placed) const {
     std::vector<bool> left(draw_.items.size(), false);
-    for (const AttachmentItem* item : worn) {
+    for (const AttachmentItem* item : placed) {
       left[static_cast<std::size_t>(item - draw_.items.data())] = true;
     }
     for (std::size_t i = 0; i < left.size(); ++i) {
@@ -284,9 +285,9 @@ class AttachmentDrawing {
   std::map<std::string, KindQuotas> quotas_;
   /// of sampled faces: group, and index within the group
   std::vector<std::pair<int, std::uint64_t>> places_;
-  std::map<int, std::uint64_t> sizes_;  ///< number of sampled faces in each group
-  std::map<std::string, Items> worn_;   ///< by id of the face
-  std::map<std::string, Index> heads_;  ///< by id: the head whose tags the face has
+  std::map<int, std::uint64_t> sizes_;   ///< number of sampled faces in each group
+  std::map<std::string, Items> placed_;  ///< by id of the face
+  std::map<std::string, Index> heads_;   ///< by id: the head whose tags the face has
   /// by family and kind: colour
   std::map<std::pair<std::string, std::string>, std::string> families_;
   /// by set of similar faces
@@ -297,16 +298,16 @@ class AttachmentDrawing {
 }  // namespace
 
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected) {
+                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected) {
   AttachmentDrawing drawing(draw, groups);
   // by id: rejected faces, then the final one
-  std::map<std::string, std::vector<const CastFace*>> before;
-  for (const CastFace& face : rejected) {
+  std::map<std::string, std::vector<const FacePlan*>> before;
+  for (const FacePlan& face : rejected) {
     if (face.index) before[face.id].push_back(&face);
   }
-  std::map<std::string, CastFace*> redrawn;
+  std::map<std::string, FacePlan*> redrawn;
   // First all faces as they were before any review, so that redrawing changes no other face.
-  for (CastFace& face : crowd) {
+  for (FacePlan& face : crowd) {
     const auto found = before.find(face.id);
     if (found == before.end()) {
       face.attachments = drawing.of(face);
@@ -318,9 +319,9 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
   }
   // Then the replacements, in the order of the reviews.
   std::map<std::string, std::size_t> times;
-  for (const CastFace& face : rejected) {
+  for (const FacePlan& face : rejected) {
     if (!redrawn.contains(face.id)) continue;
-    const CastFace& next = *before[face.id][++times[face.id]];
+    const FacePlan& next = *before[face.id][++times[face.id]];
     redrawn[face.id]->attachments = drawing.of(next);
   }
 }

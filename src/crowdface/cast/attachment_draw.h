@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crowdface/cast/attachment_item.h"
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/typical_head.h"
 
 namespace crowdface {
@@ -46,6 +46,6 @@ struct AttachmentDraw {
 /// \param rejected  Faces that reviews rejected, in order. Their replacements are processed last,
 ///                  so that no other face changes.
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<CastFace>& crowd, const std::vector<CastFace>& rejected = {});
+                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {});
 
 }  // namespace crowdface

@@ -9,8 +9,8 @@ namespace {
 /// Product of N, where first fit ended, and C. It was 1.6 to 6.5 in crowds of 360 to 7,700 faces
 /// (docs/method.md).
 constexpr double kFacesTimesChance = 4;
-constexpr std::uint64_t kFewestPlaced = 256;
-constexpr std::uint64_t kFewestTooNear = 100;  ///< in the earlier of the two complete stretches
+constexpr std::uint64_t kMinPlaced = 256;
+constexpr std::uint64_t kMinTooNear = 100;  ///< in the earlier of the two complete stretches
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void CapacityForecast::add(std::uint64_t too_near, std::uint64_t wanted) {
 }
 
 std::optional<double> CapacityForecast::faces() const {
-  if (placed_ < kFewestPlaced || before_.too_near < kFewestTooNear) return std::nullopt;
+  if (placed_ < kMinPlaced || before_.too_near < kMinTooNear) return std::nullopt;
   const double growth = (last_.mean() - before_.mean()) / (last_.middle() - before_.middle());
   if (!(growth > 0)) return std::nullopt;
   const double placed = 2 * static_cast<double>(last_.begin);

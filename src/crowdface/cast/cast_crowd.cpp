@@ -18,9 +18,9 @@ namespace {
 constexpr std::uint64_t kBatch = 64;
 
 /// Casts faces 1 … count, each against all earlier faces.
-void cast_first_fit(const Casting& casting, const FaceJudge& judge,
-                    const std::vector<FaceKind>& kinds, const Kinship& kinship, CrowdSoFar& crowd,
-                    const FaceJoined& joined, CrowdCast& result) {
+void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
+                    const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
+                    CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
   for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
     throw_if_interrupted();
     const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
@@ -37,7 +37,7 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
       auto found = search.settle(
-          crowd, [&](const FaceSpace::Point& point) { return kinship.refuses(point); });
+          crowd, [&](const FaceSpace::Point& point) { return family_separation.refuses(point); });
       result.rejections.add(search.rejections());
       if (!found) {
         result.shortfall = Shortfall{index - 1, search.rejections(), result.kinds[index - 1]};
@@ -51,20 +51,22 @@ void cast_first_fit(const Casting& casting, const FaceJudge& judge,
 
 }  // namespace
 
-CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJoined& joined) {
-  CrowdCast result;
+CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
+                         const FaceJoined& joined) {
+  CastingResult result;
   auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   CrowdSoFar& crowd = *so_far;
   for (const HandRecipe& hand : casting.recipes) {
-    CastFace face = draw_hand_recipe(casting, hand);
+    FacePlan face = draw_hand_recipe(casting, hand);
     FaceSpace::Point point = judge.space().point(face.recipe);
     crowd.add(std::move(face), std::move(point));
   }
-  Kinship kinship;
-  const Strangers unrelated(casting, judge.space());
+  FamilySeparation family_separation;
+  const UnrelatedFaces unrelated(casting, judge.space());
   for (const FamilyOptions& family : casting.families) {
     Rejections rejections;
-    auto cast = cast_family(casting, family, judge, unrelated, crowd, kinship, rejections);
+    auto cast =
+        cast_family(casting, family, judge, unrelated, crowd, family_separation, rejections);
     result.rejections.add(rejections);
     if (!cast) {
       result.shortfall = Shortfall{0, rejections, -1, family.name};
@@ -76,9 +78,9 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJ
   result.kinds = schedule_groups(casting.groups, casting.count);
   const std::vector<FaceKind> kinds = face_kinds(casting);
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, kinds, kinship, crowd, joined, result);
+    cast_spread(casting, judge, kinds, family_separation, crowd, joined, result);
   } else {
-    cast_first_fit(casting, judge, kinds, kinship, crowd, joined, result);
+    cast_first_fit(casting, judge, kinds, family_separation, crowd, joined, result);
   }
   result.crowd = crowd.take_faces();
   result.points = crowd.take_points();
@@ -91,7 +93,7 @@ CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJ
   return result;
 }
 
-void find_nearest(const FaceJudge& judge, CrowdCast& cast) {
+void find_nearest(const FaceJudge& judge, CastingResult& cast) {
   FacePointIndex index(judge.space().dimensions());
   for (const FaceSpace::Point& point : cast.points) index.add(point);
   parallel_for_each(index.size(), [&](Index i) {

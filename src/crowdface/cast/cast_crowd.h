@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/cast/crowd_cast.h"
+#include "crowdface/cast/casting_result.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_judge.h"
 
@@ -14,9 +14,10 @@ namespace crowdface {
 ///
 /// \param joined  Called after each sampled face.
 /// \throws InvalidInput if a family or a review names a face that is not there.
-CrowdCast cast_crowd(const Casting& casting, const FaceJudge& judge, const FaceJoined& joined = {});
+CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
+                         const FaceJoined& joined = {});
 
 /// Finds the nearest head and the nearest earlier face for each face of a crowd.
-void find_nearest(const FaceJudge& judge, CrowdCast& cast);
+void find_nearest(const FaceJudge& judge, CastingResult& cast);
 
 }  // namespace crowdface

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMostOfSecond = 0.5;
+constexpr double kMaxOfSecond = 0.5;
 
 class ColourDrawing {
  public:
@@ -50,7 +50,7 @@ class ColourDrawing {
     const auto [first, second] = random_pair(key);
     std::vector<SourceWeight> colours = {{take(first), 1}};
     if (!heads.empty()) {
-      const double share = kMostOfSecond * random_pair(key, 1)[0];
+      const double share = kMaxOfSecond * random_pair(key, 1)[0];
       colours.push_back({take(second), share});
       colours.front().weight = 1 - share;
     }
@@ -65,13 +65,13 @@ class ColourDrawing {
 /// The colours that parents pass on to children, by id.
 class Parents {
  public:
-  Parents(const std::vector<std::string>& heads, const std::vector<CastFace>& crowd)
+  Parents(const std::vector<std::string>& heads, const std::vector<FacePlan>& crowd)
       : heads_(heads) {
-    for (const CastFace& face : crowd) {
+    for (const FacePlan& face : crowd) {
       for (const std::string& name : face.parents) known_[name];
     }
   }
-  void meet(const CastFace& face) {
+  void meet(const FacePlan& face) {
     const auto found = known_.find(face.id);
     if (found != known_.end()) found->second = face.recipe.colours;
   }
@@ -89,10 +89,10 @@ class Parents {
 
 }  // namespace
 
-void draw_colours(const ColourDraw& draw, std::vector<CastFace>& crowd) {
+void draw_colours(const ColourDraw& draw, std::vector<FacePlan>& crowd) {
   const ColourDrawing drawing(draw);
   Parents parents(draw.heads, crowd);
-  for (CastFace& face : crowd) {
+  for (FacePlan& face : crowd) {
     const Index typical = typical_head(face.recipe, draw.tags);
     std::vector<SourceWeight>& colours = face.recipe.colours;
     if (!colours.empty()) {  // given by the recipe

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/typical_head.h"
 
 namespace crowdface {
@@ -29,6 +29,6 @@ struct ColourDraw {
 /// colours drawn for the family. Faces that already have colours keep them.
 ///
 /// \param crowd  In the order of the plan: parents before children.
-void draw_colours(const ColourDraw& draw, std::vector<CastFace>& crowd);
+void draw_colours(const ColourDraw& draw, std::vector<FacePlan>& crowd);
 
 }  // namespace crowdface

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/face_point_index.h"
 
 namespace crowdface {
@@ -14,7 +14,7 @@ class CrowdSoFar {
  public:
   explicit CrowdSoFar(Index dimensions) : index_(dimensions) {}
 
-  void add(CastFace face, FaceSpace::Point point) {
+  void add(FacePlan face, FaceSpace::Point point) {
     index_.add(point);
     faces_.push_back(std::move(face));
     points_.push_back(std::move(point));
@@ -26,15 +26,15 @@ class CrowdSoFar {
   /// or family does not change which candidate wins. (All faces must still be far enough from all
   /// others.)
   Index first_sampled() const { return first_sampled_; }
-  const std::vector<CastFace>& faces() const { return faces_; }
+  const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
   /// Move the faces and their points out. No other member may be called afterwards.
-  std::vector<CastFace> take_faces() { return std::move(faces_); }
+  std::vector<FacePlan> take_faces() { return std::move(faces_); }
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
   const FacePointIndex& index() const { return index_; }
 
  private:
-  std::vector<CastFace> faces_;
+  std::vector<FacePlan> faces_;
   std::vector<FaceSpace::Point> points_;
   FacePointIndex index_;
   Index first_sampled_ = 0;

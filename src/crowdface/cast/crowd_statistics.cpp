@@ -31,7 +31,7 @@ Quartiles quartiles(std::vector<double> values) {
 }
 
 std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points) {
-  const auto chosen = some_of(points, 1500);
+  const auto chosen = evenly_spaced_items(points, 1500);
   return pairwise(chosen.size(), [&](std::size_t i, std::size_t j) {
     return FaceSpace::distance(chosen[i], chosen[j]);
   });
@@ -39,7 +39,7 @@ std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points) 
 
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points) {
-  const auto chosen = some_of(points, 300);
+  const auto chosen = evenly_spaced_items(points, 300);
   std::vector<FaceSpace::RegionPoint> in_region(chosen.size());
   parallel_for_each(chosen.size(),
                     [&](std::size_t i) { in_region[i] = space.in_region(chosen[i], region); });

@@ -59,7 +59,7 @@ PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::
 }
 
 /// Draws a uniform point in the convex hull of the sources' anchors.
-PlanePoint draw_in_hull(const Casting& casting, const std::vector<Index>& sources,
+PlanePoint draw_in_hull(const CastingOptions& casting, const std::vector<Index>& sources,
                         const FaceDraws& draws, const std::string& region, std::uint32_t first) {
   std::vector<PlanePoint> anchors;
   for (const Index head : sources) {
@@ -72,7 +72,7 @@ PlanePoint draw_in_hull(const Casting& casting, const std::vector<Index>& source
 
 /// \param retry  Number of positions drawn before at which one head had too much weight. Later
 ///               positions are farther from its anchor.
-PlanePoint draw_position(const Casting& casting, const PositionDistribution& distribution,
+PlanePoint draw_position(const CastingOptions& casting, const PositionDistribution& distribution,
                          const std::vector<Index>& sources, Index target, const FaceDraws& draws,
                          const std::string& region, std::uint32_t retry) {
   require(!sources.empty(), "a position is drawn among sources, and there is none");
@@ -139,8 +139,8 @@ struct BandDraw {
   HandRecipe::Band hand;
 };
 
-BandDraw band_draw(const Casting& casting, const SamplingOptions& all, std::size_t k, std::size_t b,
-                   const HandRecipe::Region& region) {
+BandDraw band_draw(const CastingOptions& casting, const SamplingOptions& all, std::size_t k,
+                   std::size_t b, const HandRecipe::Region& region) {
   BandDraw draw{casting.region_names[k], b, all.regions[k], {}};
   if (!all.bands.empty()) {
     const BandSampling& band = all.bands[b];
@@ -162,7 +162,7 @@ BandDraw band_draw(const Casting& casting, const SamplingOptions& all, std::size
 }
 
 /// Draws what a hand-written recipe leaves open of a band; for a sampled face, everything.
-BandRecipe draw_band(const Casting& casting, const FaceKind& kind, Index target,
+BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index target,
                      const FaceDraws& draws, const BandDraw& draw) {
   const SamplingOptions& all = *kind.sampling;
   const std::vector<Index>& sources = sources_of(kind, draw.band);
@@ -195,8 +195,8 @@ BandRecipe draw_band(const Casting& casting, const FaceKind& kind, Index target,
   return recipe;
 }
 
-RegionRecipe draw_region(const Casting& casting, const FaceKind& kind, std::size_t k, Index target,
-                         const FaceDraws& draws, const HandRecipe::Region& hand) {
+RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, std::size_t k,
+                         Index target, const FaceDraws& draws, const HandRecipe::Region& hand) {
   const SamplingOptions& all = *kind.sampling;
   RegionRecipe recipe;
   recipe.finer.resize(band_count(all) - 1);
@@ -223,17 +223,17 @@ const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band) {
   return own ? kind.sources[band] : sources_of(*kind.sampling, band);
 }
 
-FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group) {
+FaceKind kind_of_group(const CastingOptions& casting, std::optional<std::size_t> group) {
   if (!group) return {&casting.sampling, casting.sampling.targets, std::nullopt};
   const Group& own = casting.groups[*group];
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
-CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
+FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, const DrawKey& key,
                      const FaceKind& kind) {
   const FaceDraws draws(casting.seed, key);
   const SamplingOptions& sampling = *kind.sampling;
-  CastFace face;
+  FacePlan face;
   face.id = hand.id;
   face.group = kind.group;
   face.notes.attempt = key.attempt;
@@ -255,16 +255,17 @@ CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawK
   return face;
 }
 
-CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
+FacePlan draw_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
                    const FaceKind& kind) {
   HandRecipe open;
   open.id = face_id(casting.name, index);
-  CastFace face = draw_recipe(casting, open, {index, attempt}, kind);
+  FacePlan face = draw_recipe(casting, open, {index, attempt}, kind);
   face.index = index;
   return face;
 }
 
-CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand, std::uint32_t attempt) {
+FacePlan draw_hand_recipe(const CastingOptions& casting, const HandRecipe& hand,
+                          std::uint32_t attempt) {
   return draw_recipe(casting, hand, {0, attempt, concat("recipe/", hand.id)},
                      kind_of_group(casting));
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/diversity.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/family.h"
 #include "crowdface/cast/review.h"
 #include "crowdface/cast/sampling.h"
@@ -24,7 +24,7 @@ struct LevelScale {
 };
 
 /// All inputs of casting except the face space.
-struct Casting {
+struct CastingOptions {
   std::string name;         ///< of the crowd
   std::uint64_t count = 0;  ///< number of sampled faces
   std::uint64_t seed = 1;
@@ -53,7 +53,8 @@ struct FaceKind {
 /// Returns the heads that lend detail to a band of such a face.
 const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band);
 /// Returns the parameters of a group's faces; without group, those of the crowd.
-FaceKind kind_of_group(const Casting& casting, std::optional<std::size_t> group = std::nullopt);
+FaceKind kind_of_group(const CastingOptions& casting,
+                       std::optional<std::size_t> group = std::nullopt);
 
 /// Returns smoothness · L_max, rounded to whole iterations.
 std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
@@ -71,17 +72,17 @@ struct DrawKey {
 /// Draws everything that `hand` leaves open; for a sampled face, that is everything. A pure
 /// function of its arguments, so a face does not depend on the crowd's size or on the order of
 /// draws.
-CastFace draw_recipe(const Casting& casting, const HandRecipe& hand, const DrawKey& key,
+FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, const DrawKey& key,
                      const FaceKind& kind);
 
 /// Draws attempt `attempt` at sampled face `index` (from 1).
-CastFace draw_face(const Casting& casting, std::uint64_t index, std::uint32_t attempt,
+FacePlan draw_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
                    const FaceKind& kind);
 
 /// Completes a hand-written recipe. Random numbers depend on the recipe's id.
 ///
 /// \throws BrokenPrecondition if its weights cannot be normalised.
-CastFace draw_hand_recipe(const Casting& casting, const HandRecipe& hand,
+FacePlan draw_hand_recipe(const CastingOptions& casting, const HandRecipe& hand,
                           std::uint32_t attempt = 0);
 
 }  // namespace crowdface

@@ -28,11 +28,11 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 
 }  // namespace
 
-std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJudge& judge,
+std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
   // Groups would need one pass each; the estimate ignores them.
-  Casting free = casting;
+  CastingOptions free = casting;
   free.groups.clear();
   const CandidatePool pool = draw_pool(free, judge, face_kinds(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
@@ -46,7 +46,7 @@ std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJud
     throw_if_interrupted();
     const FarthestPoints::Pick pick = points.farthest(-1);
     if (pick.candidate < 0) break;
-    if (judge.closely(pool.faces[static_cast<std::size_t>(pick.candidate)].recipe)) {
+    if (judge.check_skin(pool.faces[static_cast<std::size_t>(pick.candidate)].recipe)) {
       points.drop(pick.candidate);
       continue;
     }

@@ -22,7 +22,7 @@ struct EstimateRow {
 ///
 /// \param counts     Crowd sizes, ascending. Sizes that are too large for the pool are left out.
 /// \param pool_size  Number of candidates. More candidates give better estimates, and take longer.
-std::vector<EstimateRow> estimate_capacity(const Casting& casting, const FaceJudge& judge,
+std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size);
 

@@ -33,8 +33,8 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
 }
 
-std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
-                                             const FaceSpace::Point& point) const {
+std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
+                                              const FaceSpace::Point& point) const {
   for (const RegionRecipe& region : recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       for (const SourceWeight& source : band_of(region, b).weights) {
@@ -50,7 +50,7 @@ std::optional<Reason> FaceJudge::at_a_glance(const Recipe& recipe,
   return std::nullopt;
 }
 
-std::optional<Reason> FaceJudge::closely(const Recipe& whole) const {
+std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
   Recipe recipe = whole;  // a mirrored face has the same defects
   recipe.mirrored = false;

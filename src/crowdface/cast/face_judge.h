@@ -32,13 +32,13 @@ class FaceJudge {
   /// heads, plausibility.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
-  std::optional<Reason> at_a_glance(const Recipe& recipe, const FaceSpace::Point& point) const;
+  std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
 
   /// Checks the shape of the skin: flips, stretch, intersections. Takes a millisecond on the
   /// samples, a tenth of a second on a mesh of 28,000 triangles.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
-  std::optional<Reason> closely(const Recipe& recipe) const;
+  std::optional<Reason> check_skin(const Recipe& recipe) const;
 
   /// Returns the nearest head. If faces may be mirrored, mirror images of heads count as the head.
   FacePointIndex::Nearest nearest_head(const FaceSpace::Point& point) const {

@@ -17,7 +17,7 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
 
 /// Returns whether a candidate is far enough from all faces. Its distance to the nearest face is
 /// computed only as exactly as needed to decide whether it is the farthest candidate.
-bool FaceSearch::meet_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
+bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.index().nearest(candidate.point, least).face >= 0) return false;
   if (wanted_ == 1) return true;
@@ -39,9 +39,9 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
     Candidate candidate;
     candidate.face = draw_(next_attempt_++);
     candidate.point = judge_.space().point(candidate.face.recipe);
-    if (const auto reason = judge_.at_a_glance(candidate.face.recipe, candidate.point)) {
+    if (const auto reason = judge_.check_recipe(candidate.face.recipe, candidate.point)) {
       rejections_.add(*reason);
-    } else if (!meet_crowd(candidate, crowd)) {
+    } else if (!compare_with_crowd(candidate, crowd)) {
       rejections_.add(Reason::kMinDistance);
     } else {
       candidates_.push_back(std::move(candidate));
@@ -83,15 +83,15 @@ FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
   }
 }
 
-void FaceSearch::judge_closely(Candidate& candidate) const {
+void FaceSearch::judge_skin(Candidate& candidate) const {
   if (candidate.judged) return;
-  candidate.broken = judge_.closely(candidate.face.recipe);
+  candidate.broken = judge_.check_skin(candidate.face.recipe);
   candidate.judged = true;
 }
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
   draw_candidates(crowd);
-  if (!candidates_.empty()) judge_closely(farthest(crowd));  // most likely the one to be chosen
+  if (!candidates_.empty()) judge_skin(farthest(crowd));  // most likely the one to be chosen
 }
 
 std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
@@ -105,7 +105,7 @@ std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
       Candidate& candidate = farthest(crowd);
       auto why = refuses ? refuses(candidate.point) : std::nullopt;
       if (!why) {
-        judge_closely(candidate);
+        judge_skin(candidate);
         why = candidate.broken;
       }
       if (!why) return Found{std::move(candidate.face), std::move(candidate.point)};

@@ -18,7 +18,7 @@ namespace crowdface {
 class FaceSearch {
  public:
   /// Draws attempt number `attempt`. Must be a pure function.
-  using Draw = std::function<CastFace(std::uint32_t attempt)>;
+  using Draw = std::function<FacePlan(std::uint32_t attempt)>;
   /// An additional check of a candidate's point; returns why the point is rejected, or nothing.
   using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
@@ -30,7 +30,7 @@ class FaceSearch {
   void prepare(const CrowdSoFar& crowd);
 
   struct Found {
-    CastFace face;
+    FacePlan face;
     FaceSpace::Point point;
   };
   /// Returns the face chosen against the current crowd; nothing if all attempts are used up.
@@ -40,7 +40,7 @@ class FaceSearch {
 
  private:
   struct Candidate {
-    CastFace face;
+    FacePlan face;
     FaceSpace::Point point;
     double nearest_mm = HUGE_VAL;  ///< distance to the nearest face, or an upper bound of it
     bool known = true;
@@ -49,10 +49,10 @@ class FaceSearch {
   };
 
   void draw_candidates(const CrowdSoFar& crowd);
-  bool meet_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
+  bool compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   void compare_with_newer(const CrowdSoFar& crowd);
   Candidate& farthest(const CrowdSoFar& crowd);
-  void judge_closely(Candidate& candidate) const;
+  void judge_skin(Candidate& candidate) const;
 
   Draw draw_;
   const FaceJudge& judge_;

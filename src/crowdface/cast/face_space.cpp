@@ -15,11 +15,11 @@ namespace {
 
 /// Largest remainder of a field outside the basis: rms over the face in millimetres.
 constexpr double kFieldTolerance = 0.004;
-constexpr Index kMostFunctions = 400;  ///< for each side
+constexpr Index kMaxFunctions = 400;  ///< for each side
 /// Largest remainder of a training face outside the principal directions, in millimetres. The
 /// length of a face's remainder is an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
-constexpr Index kMostDirections = 192;  ///< for each side
+constexpr Index kMaxDirections = 192;  ///< for each side
 constexpr std::uint64_t kTrainingFaces = 1024;
 
 double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
@@ -173,7 +173,7 @@ FloatRows FaceSpace::find_functions() {
   }
   const FunctionRows rows{head_point_count(), modes.directions.rows()};
   SpanBasis basis =
-      span_basis(functions(modes, peaks, rows), kFieldTolerance, sides() * kMostFunctions);
+      span_basis(functions(modes, peaks, rows), kFieldTolerance, sides() * kMaxFunctions);
   tables_.functions = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
@@ -276,7 +276,7 @@ void FaceSpace::find_directions(std::size_t bands) {
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
   tables_.directions =
-      span_basis(std::move(rows), kFaceTolerance, sides() * kMostDirections).directions;
+      span_basis(std::move(rows), kFaceTolerance, sides() * kMaxDirections).directions;
 }
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {

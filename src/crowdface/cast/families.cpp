@@ -27,10 +27,12 @@ DiversityOptions unseen(DiversityOptions diversity) {
 
 /// Draws the members, each against the crowd and the earlier members. Returns fewer if there is no
 /// room.
-std::vector<FaceSearch::Found> draw_members(const Casting& casting, const FamilyOptions& family,
-                                            const FaceJudge& judge, const FamilyDraws& draws,
-                                            const FamilyCast& cast, const CrowdSoFar& crowd,
-                                            const Kinship& kinship, Rejections& rejections) {
+std::vector<FaceSearch::Found> draw_members(const CastingOptions& casting,
+                                            const FamilyOptions& family, const FaceJudge& judge,
+                                            const FamilyDraws& draws, const FamilyPlan& cast,
+                                            const CrowdSoFar& crowd,
+                                            const FamilySeparation& family_separation,
+                                            Rejections& rejections) {
   std::vector<FaceSearch::Found> members;
   std::vector<FaceSpace::Point> own;
   while (static_cast<int>(members.size()) < family.members) {
@@ -40,7 +42,7 @@ std::vector<FaceSearch::Found> draw_members(const Casting& casting, const Family
     auto member = search.settle(crowd, [&](const FaceSpace::Point& point) {
       return draws.drawn_parent_mm(point) < casting.diversity.min_distance_mm
                  ? std::optional(Reason::kMinDistance)
-                 : draws.refuses(cast, point, own, kinship);
+                 : draws.refuses(cast, point, own, family_separation);
     });
     rejections.add(search.rejections());
     if (!member) break;
@@ -52,15 +54,16 @@ std::vector<FaceSearch::Found> draw_members(const Casting& casting, const Family
 
 }  // namespace
 
-std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOptions& family,
-                                      const FaceJudge& judge, const Strangers& unrelated,
-                                      CrowdSoFar& crowd, Kinship& kinship, Rejections& rejections) {
+std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,
+                                      const FaceJudge& judge, const UnrelatedFaces& unrelated,
+                                      CrowdSoFar& crowd, FamilySeparation& family_separation,
+                                      Rejections& rejections) {
   FamilyDraws draws(casting, family, judge, unrelated, crowd);
   const DiversityOptions of_founder = unseen(casting.diversity);
-  const bool drawn = draws.wants_parents();
+  const bool drawn = draws.needs_parents();
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
     throw_if_interrupted();
-    if (drawn && !draws.draw_parents(crowd, kinship, f, rejections)) return std::nullopt;
+    if (drawn && !draws.draw_parents(crowd, family_separation, f, rejections)) return std::nullopt;
     // Find a founder. Drawn parents must match well enough.
     FaceSearch founder([&](std::uint32_t attempt) { return draws.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
@@ -73,7 +76,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
     // parent may have no good match.
     const double enough = kStrangersNearerToHalf * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
-    FamilyCast cast{family.name, std::move(found->face), std::move(found->point)};
+    FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child replaces the founder.
     if (family.twins) {
       FaceSearch model([&](std::uint32_t attempt) { return draws.model_of_twins(cast, attempt); },
@@ -81,14 +84,16 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
       auto child = model.settle(crowd, [&](const FaceSpace::Point& point) {
         const bool too_far = to_half <= kStrangersNearerToHalf &&
                              draws.strangers_nearer(point) > kStrangersNearerToHalf;
-        return too_far ? std::optional(Reason::kFamily) : draws.refuses(cast, point, {}, kinship);
+        return too_far ? std::optional(Reason::kFamily)
+                       : draws.refuses(cast, point, {}, family_separation);
       });
       rejections.add(model.rejections());
       if (!child) continue;
       cast = {family.name, std::move(child->face), std::move(child->point), true};
     }
     // Find room for all members, or try the next founder.
-    auto members = draw_members(casting, family, judge, draws, cast, crowd, kinship, rejections);
+    auto members =
+        draw_members(casting, family, judge, draws, cast, crowd, family_separation, rejections);
     if (static_cast<int>(members.size()) < family.members) continue;
     // Add the drawn parents and the members to the crowd.
     for (const FaceSearch::Found& parent : draws.drawn_parents()) {
@@ -101,7 +106,7 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
       points.push_back(member.point);
       crowd.add(std::move(member.face), std::move(member.point));
     }
-    kinship.add(family.name, points);
+    family_separation.add(family.name, points);
     for (const FaceSpace::Point& child : points) {
       cast.strangers_nearer = std::max(cast.strangers_nearer, draws.strangers_nearer(child));
     }
@@ -110,9 +115,9 @@ std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOption
   return std::nullopt;
 }
 
-double silhouette(const std::vector<FamilyCast>& families, std::size_t family,
+double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
                   const std::vector<FaceSpace::Point>& points) {
-  const FamilyCast& own = families[family];
+  const FamilyPlan& own = families[family];
   using Faces = std::pair<Index, Index>;  // [first, second)
   const auto mean_distance = [&](Index from, std::initializer_list<Faces> to) {
     double sum = 0, count = 0;

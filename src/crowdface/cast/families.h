@@ -13,14 +13,15 @@ namespace crowdface {
 /// drawn so that at most one stranger in ten is nearer to a child than a parent is.
 ///
 /// \return  Nothing if the family cannot be cast; `rejections` then tells why.
-std::optional<FamilyCast> cast_family(const Casting& casting, const FamilyOptions& family,
-                                      const FaceJudge& judge, const Strangers& unrelated,
-                                      CrowdSoFar& crowd, Kinship& kinship, Rejections& rejections);
+std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,
+                                      const FaceJudge& judge, const UnrelatedFaces& unrelated,
+                                      CrowdSoFar& crowd, FamilySeparation& family_separation,
+                                      Rejections& rejections);
 
 /// Returns the mean silhouette of a family's members (Rousseeuw 1987): (b − a)/max(a, b), where a
 /// is the mean distance to the own family, and b that to the nearest other family (to all other
 /// faces if there is none). 1: far from all others; below 0: nearer to another family.
-double silhouette(const std::vector<FamilyCast>& families, std::size_t family,
+double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
                   const std::vector<FaceSpace::Point>& points);
 
 }  // namespace crowdface

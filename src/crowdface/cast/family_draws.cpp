@@ -49,7 +49,7 @@ BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const Level
 
 /// Returns the parameters of a drawn parent. If the crowd has no target of the parent's sex, all
 /// targets are allowed.
-FaceKind kind_of(const Parent& parent, const Casting& casting) {
+FaceKind kind_of(const Parent& parent, const CastingOptions& casting) {
   FaceKind kind = kind_of_group(casting, parent.group);
   std::vector<WeightedHead> own;
   for (const WeightedHead& target : kind.targets) {
@@ -61,8 +61,8 @@ FaceKind kind_of(const Parent& parent, const Casting& casting) {
 
 }  // namespace
 
-FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
-                         const FaceJudge& judge, const Strangers& unrelated,
+FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& family,
+                         const FaceJudge& judge, const UnrelatedFaces& unrelated,
                          const CrowdSoFar& crowd)
     : casting_(casting),
       family_(family),
@@ -75,12 +75,12 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
   for (std::size_t p = 0; p < parents_.size(); ++p) {
     const Parent& parent = family.parents[p];
     if (parent.head) {
-      CastFace face;
+      FacePlan face;
       face.recipe.target = *parent.head;
       know(p, parent.id, std::move(face), judge.space().head_point(*parent.head));
       continue;
     }
-    const auto found = std::find_if(faces.begin(), faces.end(), [&](const CastFace& face) {
+    const auto found = std::find_if(faces.begin(), faces.end(), [&](const FacePlan& face) {
       return face.id == parent.id || face.id == parent_id(casting.name, parent);
     });
     if (found == faces.end()) {
@@ -99,19 +99,19 @@ FamilyDraws::FamilyDraws(const Casting& casting, const FamilyOptions& family,
     return std::any_of(parents_.begin(), parents_.end(),
                        [&](const KnownParent& one) { return !name.empty() && one.name == name; });
   };
-  for (const CastFace& face : faces) {
+  for (const FacePlan& face : faces) {
     if (face.family && std::any_of(face.parents.begin(), face.parents.end(), is_parent)) {
       relatives_.push_back(*face.family);
     }
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const CastFace& face = faces[i];
+    const FacePlan& face = faces[i];
     const bool relative = face.family && contains(relatives_, *face.family);
     (relative || is_parent(face.id) ? kin_ : strangers_).add(crowd.points()[i]);
   }
 }
 
-void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
+void FamilyDraws::know(std::size_t parent, std::string name, FacePlan face,
                        FaceSpace::Point point) {
   take_back_age(face, sampling_of(face));  // children do not inherit a parent's age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
@@ -120,7 +120,7 @@ void FamilyDraws::know(std::size_t parent, std::string name, CastFace face,
 /// Called when the parents are known. Determines the third contributor, and the substitutes for
 /// heads of the parents that are outside the family's group.
 void FamilyDraws::meet_parents() {
-  others_ = somebody_else();
+  others_ = third_contributor();
   if (!family_.group || parents_.empty()) return;
   const FaceKind kind = kind_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
@@ -129,7 +129,8 @@ void FamilyDraws::meet_parents() {
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
   // With a single target, children would inherit none of their parents' large forms.
-  form_ = targets.size() > 1 ? StandIns(targets, casting_.tags, taken, judge_.space()) : StandIns();
+  form_ = targets.size() > 1 ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
+                             : SubstituteHeads();
   detail_.clear();
   for (std::size_t b = 0; b < band_count(*kind.sampling); ++b) {
     detail_.emplace_back(sources_of(kind, b), casting_.tags, taken, judge_.space());
@@ -143,8 +144,8 @@ std::vector<SourceWeight> FamilyDraws::form_of(std::size_t parent) const {
 
 /// Returns the parameters for the third contributor: heads with most of the tags that both parents
 /// have (at least three heads), so that the child's skin tone stays plausible.
-FaceKind FamilyDraws::somebody_else() const {
-  constexpr std::size_t kFewest = 3;
+FaceKind FamilyDraws::third_contributor() const {
+  constexpr std::size_t kMin = 3;
   FaceKind kind = kind_of_group(casting_, family_.group);
   if (parents_.empty() || casting_.tags.empty()) return kind;
   const auto tags_of = [&](std::size_t parent) {
@@ -160,7 +161,7 @@ FaceKind FamilyDraws::somebody_else() const {
     }
     std::vector<std::size_t> sorted = common;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    const std::size_t least = sorted[std::min(kFewest, sorted.size()) - 1];
+    const std::size_t least = sorted[std::min(kMin, sorted.size()) - 1];
     std::size_t i = 0;
     std::erase_if(heads, [&](const auto&) { return common[i++] < least; });
   };
@@ -172,7 +173,7 @@ FaceKind FamilyDraws::somebody_else() const {
   return kind;
 }
 
-bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
+bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
                                std::uint32_t attempt, Rejections& rejections) {
   drawn_.clear();
   for (const std::size_t p : to_draw_) {
@@ -188,7 +189,7 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const Kinship& kinship,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts));
     auto found = search.settle(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
       if (drawn_parent_mm(point) < casting_.diversity.min_distance_mm) return Reason::kMinDistance;
-      return kinship.refuses(point);
+      return family_separation.refuses(point);
     });
     rejections.add(search.rejections());
     if (!found) return false;
@@ -208,7 +209,7 @@ double FamilyDraws::drawn_parent_mm(const FaceSpace::Point& point) const {
 }
 
 /// Returns the parameters that a face was drawn with.
-const SamplingOptions& FamilyDraws::sampling_of(const CastFace& face) const {
+const SamplingOptions& FamilyDraws::sampling_of(const FacePlan& face) const {
   for (const Group& group : casting_.groups) {
     if (face.group == group.name) return group.sampling;
   }
@@ -231,11 +232,11 @@ BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::s
   return own;
 }
 
-CastFace FamilyDraws::founder(std::uint32_t attempt) const {
+FacePlan FamilyDraws::founder(std::uint32_t attempt) const {
   HandRecipe open;
   open.target = family_.target;
   open.age = Range{0, 0};
-  CastFace face =
+  FacePlan face =
       draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, others_);
   if (parents_.empty()) return face;
   if (!family_.target) {
@@ -261,8 +262,8 @@ CastFace FamilyDraws::founder(std::uint32_t attempt) const {
 }
 
 /// Returns (1 − t)·from + t·to, aged.
-CastFace FamilyDraws::towards(const CastFace& from, const Draft& draft, double t) const {
-  CastFace face = draft.to;
+FacePlan FamilyDraws::towards(const FacePlan& from, const Draft& draft, double t) const {
+  FacePlan face = draft.to;
   set_target(face.recipe,
              mixed_weights(target_shares(from.recipe), target_shares(draft.to.recipe), t));
   face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
@@ -285,7 +286,7 @@ int FamilyDraws::inherited_from(std::size_t region, std::size_t band) const {
 }
 
 /// Mixes a face with a parent in its large forms, and with a parent in each band of each region.
-void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
+void FamilyDraws::inherit(FacePlan& face, const DrawKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.who, "/inherits/", what);
     return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
@@ -314,12 +315,12 @@ void FamilyDraws::inherit(CastFace& face, const DrawKey& key) const {
   for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
 }
 
-double FamilyDraws::reach_mm(const FamilyCast& cast) const {
+double FamilyDraws::reach_mm(const FamilyPlan& cast) const {
   const double most = family_.max_distance_mm;
   return cast.alike_to_founder ? std::min(most, kTwinsReach) : most;
 }
 
-FamilyDraws::Draft FamilyDraws::draft(const FamilyCast& cast, int member,
+FamilyDraws::Draft FamilyDraws::draft(const FamilyPlan& cast, int member,
                                       std::uint32_t attempt) const {
   const DrawKey key = {static_cast<std::uint64_t>(member), attempt,
                        concat("family/", family_.name)};
@@ -345,8 +346,8 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyCast& cast, int member,
   return draft;
 }
 
-CastFace FamilyDraws::as_far_as_drawn(const FamilyCast& cast, const Draft& draft) const {
-  const auto beyond = [&](const CastFace& face) {
+FacePlan FamilyDraws::at_drawn_distance(const FamilyPlan& cast, const Draft& draft) const {
+  const auto beyond = [&](const FacePlan& face) {
     return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
            draft.reach_mm;
   };
@@ -358,29 +359,29 @@ CastFace FamilyDraws::as_far_as_drawn(const FamilyCast& cast, const Draft& draft
     t += too_far ? -step : step;
   }
   // The last step may have gone too far, but the one before did not.
-  CastFace face = towards(cast.founder, draft, t);
+  FacePlan face = towards(cast.founder, draft, t);
   if (t > step && beyond(face)) face = towards(cast.founder, draft, std::max(t - 2 * step, 0.0));
   return face;
 }
 
-CastFace FamilyDraws::model_of_twins(const FamilyCast& cast, std::uint32_t attempt) const {
+FacePlan FamilyDraws::model_of_twins(const FamilyPlan& cast, std::uint32_t attempt) const {
   Draft model = draft(cast, 0, attempt);
   const double age = std::exchange(model.age, 0);
-  CastFace face = as_far_as_drawn(cast, model);
+  FacePlan face = at_drawn_distance(cast, model);
   face.age = age;
   return face;
 }
 
-CastFace FamilyDraws::member(const FamilyCast& cast, int member, std::uint32_t attempt) const {
-  return as_far_as_drawn(cast, draft(cast, member, attempt));
+FacePlan FamilyDraws::member(const FamilyPlan& cast, int member, std::uint32_t attempt) const {
+  return at_drawn_distance(cast, draft(cast, member, attempt));
 }
 
-std::optional<Reason> FamilyDraws::refuses(const FamilyCast& cast, const FaceSpace::Point& point,
+std::optional<Reason> FamilyDraws::refuses(const FamilyPlan& cast, const FaceSpace::Point& point,
                                            const std::vector<FaceSpace::Point>& own,
-                                           const Kinship& kinship) const {
+                                           const FamilySeparation& family_separation) const {
   if (FaceSpace::distance(point, cast.founder_point) > reach_mm(cast)) return Reason::kFamily;
-  if (kinship.intrudes(point, relatives_)) return Reason::kFamily;
-  if (!takes_after_parents(cast, point)) return Reason::kFamily;
+  if (family_separation.intrudes(point, relatives_)) return Reason::kFamily;
+  if (!resembles_parents(cast, point)) return Reason::kFamily;
   if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
   if (drawn_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
   double farthest = 0;
@@ -397,7 +398,7 @@ std::optional<Reason> FamilyDraws::refuses(const FamilyCast& cast, const FaceSpa
 
 /// Parents who are far apart have no child near both. Then it is enough that the child is about as
 /// near to each parent as the founder is.
-bool FamilyDraws::takes_after_parents(const FamilyCast& cast, const FaceSpace::Point& point) const {
+bool FamilyDraws::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
   if (strangers_nearer(point) <= kStrangersNearer) return true;
   if (strangers_nearer(cast.founder_point) <= kStrangersNearerToHalf) return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {

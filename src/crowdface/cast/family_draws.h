@@ -8,15 +8,15 @@
 #include "crowdface/cast/crowd_so_far.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_search.h"
-#include "crowdface/cast/kinship.h"
-#include "crowdface/cast/stand_ins.h"
+#include "crowdface/cast/family_separation.h"
+#include "crowdface/cast/substitute_heads.h"
 
 namespace crowdface {
 
 /// A cast family.
-struct FamilyCast {
+struct FamilyPlan {
   std::string name;
-  CastFace founder;  ///< not in the crowd
+  FacePlan founder;  ///< not in the crowd
   FaceSpace::Point founder_point;
   /// twins: the founder is a hidden child, and the twins have its age
   bool alike_to_founder = false;
@@ -33,16 +33,16 @@ inline constexpr double kStrangersNearerToHalf = 0.06;
 class FamilyDraws {
  public:
   /// \param crowd  All faces except the family; parents are looked up in it by id.
-  FamilyDraws(const Casting& casting, const FamilyOptions& family, const FaceJudge& judge,
-              const Strangers& unrelated, const CrowdSoFar& crowd);
+  FamilyDraws(const CastingOptions& casting, const FamilyOptions& family, const FaceJudge& judge,
+              const UnrelatedFaces& unrelated, const CrowdSoFar& crowd);
 
   /// Returns whether parents must be drawn for this family because they are not in the crowd yet.
-  bool wants_parents() const { return !to_draw_.empty(); }
+  bool needs_parents() const { return !to_draw_.empty(); }
   /// Draws these parents.
   ///
   /// \return  false if there is no room for them.
-  bool draw_parents(const CrowdSoFar& crowd, const Kinship& kinship, std::uint32_t attempt,
-                    Rejections& rejections);
+  bool draw_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
+                    std::uint32_t attempt, Rejections& rejections);
   /// Returns the parents drawn last, mother first.
   const std::vector<FaceSearch::Found>& drawn_parents() const { return drawn_; }
   /// Returns the distance to the nearest of these parents, who are not in the crowd yet.
@@ -50,18 +50,18 @@ class FamilyDraws {
 
   /// Draws the founder, from whom all members start: with parents, the mean of both; otherwise a
   /// sampled face.
-  CastFace founder(std::uint32_t attempt) const;
+  FacePlan founder(std::uint32_t attempt) const;
   /// Draws the hidden child that all twins resemble. Its age is stored but not applied.
-  CastFace model_of_twins(const FamilyCast& cast, std::uint32_t attempt) const;
+  FacePlan model_of_twins(const FamilyPlan& cast, std::uint32_t attempt) const;
   /// Draws member number `member`, from 1.
-  CastFace member(const FamilyCast& cast, int member, std::uint32_t attempt) const;
+  FacePlan member(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
 
   /// Returns why a point is rejected for a member of this family, nothing if it is accepted.
   ///
   /// \param own  Points of the members found so far.
-  std::optional<Reason> refuses(const FamilyCast& cast, const FaceSpace::Point& point,
+  std::optional<Reason> refuses(const FamilyPlan& cast, const FaceSpace::Point& point,
                                 const std::vector<FaceSpace::Point>& own,
-                                const Kinship& kinship) const;
+                                const FamilySeparation& family_separation) const;
 
   /// Returns the largest fraction of strangers that are nearer to a point than one of the parents.
   /// For a family in a group, strangers are drawn from this group, and only parents whose heads are
@@ -71,42 +71,42 @@ class FamilyDraws {
  private:
   struct KnownParent {
     std::string name;  ///< name of the head, or id of the face
-    CastFace face;     ///< without its age; for a head, only the target is set
+    FacePlan face;     ///< without its age; for a head, only the target is set
     FaceSpace::Point point;
   };
   /// The random face, age and distance from the founder of one member.
   struct Draft {
-    CastFace to;
+    FacePlan to;
     double age = 0, reach_mm = 0;
   };
 
-  void know(std::size_t parent, std::string name, CastFace face, FaceSpace::Point point);
+  void know(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
   void meet_parents();
   std::vector<SourceWeight> form_of(std::size_t parent) const;
-  FaceKind somebody_else() const;
-  const SamplingOptions& sampling_of(const CastFace& face) const;
+  FaceKind third_contributor() const;
+  const SamplingOptions& sampling_of(const FacePlan& face) const;
   BandRecipe of_parent(std::size_t parent, std::size_t region, std::size_t band,
                        const BandRecipe& drawn) const;
   int inherited_from(std::size_t region, std::size_t band) const;
-  void inherit(CastFace& face, const DrawKey& key) const;
-  Draft draft(const FamilyCast& cast, int member, std::uint32_t attempt) const;
-  CastFace towards(const CastFace& from, const Draft& draft, double t) const;
-  CastFace as_far_as_drawn(const FamilyCast& cast, const Draft& draft) const;
-  double reach_mm(const FamilyCast& cast) const;
-  bool takes_after_parents(const FamilyCast& cast, const FaceSpace::Point& point) const;
+  void inherit(FacePlan& face, const DrawKey& key) const;
+  Draft draft(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
+  FacePlan towards(const FacePlan& from, const Draft& draft, double t) const;
+  FacePlan at_drawn_distance(const FamilyPlan& cast, const Draft& draft) const;
+  double reach_mm(const FamilyPlan& cast) const;
+  bool resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const;
 
-  const Casting& casting_;
+  const CastingOptions& casting_;
   const FamilyOptions& family_;
   const FaceJudge& judge_;
-  const Strangers& unrelated_;
+  const UnrelatedFaces& unrelated_;
   std::vector<KnownParent> parents_;  ///< #parents; empty entries are still to be drawn
   std::vector<std::size_t> to_draw_;  ///< indices of parents that were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
   FaceKind others_;  ///< source of what members inherit from neither parent
   /// replaces parents' targets by targets of the family's group
-  StandIns form_;
+  SubstituteHeads form_;
   /// by band: replaces sources by sources of the group; empty: no group
-  std::vector<StandIns> detail_;
+  std::vector<SubstituteHeads> detail_;
   /// families of the parents, and families that share a parent
   std::vector<std::string> relatives_;
   FacePointIndex kin_, strangers_;  ///< points of relatives, and of all others

@@ -8,9 +8,9 @@ namespace crowdface {
 namespace {
 
 /// Largest number of draws in all trials together; a trial that has begun is finished.
-constexpr std::uint64_t kMostDraws = 20'000;
+constexpr std::uint64_t kMaxDraws = 20'000;
 /// Largest number of faces in a trial.
-constexpr std::uint64_t kMostTried = 400;
+constexpr std::uint64_t kMaxTried = 400;
 /// Stop if the smallest value that fails is at most this factor above the largest that works.
 constexpr double kNearEnough = 1.12;
 
@@ -20,15 +20,15 @@ double whole_hundredths(double mm) {
 
 }  // namespace
 
-Remedy find_remedy(const Casting& casting, const FaceSpace& space,
+Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried) {
   Remedy remedy;
   remedy.binding = shortfall.rejections.most_frequent();
-  Casting easier = casting;
+  CastingOptions easier = casting;
   if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;
   easier.reviews.clear();
-  easier.count = std::min(casting.count, kMostTried);
+  easier.count = std::min(casting.count, kMaxTried);
   remedy.tried = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding);
   if (!constraint.is_distance()) return remedy;
@@ -39,11 +39,11 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
                                      (static_cast<double>(easier.count) + 1),
                                  0.2);
   next = std::min(next, fails);
-  for (std::uint64_t draws = 0; draws < kMostDraws || works == 0;) {
+  for (std::uint64_t draws = 0; draws < kMaxDraws || works == 0;) {
     distance = whole_hundredths(next);
     if (distance <= works) break;
     const FaceJudge judge(space, easier.diversity, believability, skin);
-    const CrowdCast cast = cast_crowd(easier, judge);
+    const CastingResult cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() +
              cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidates_for(1));
     if (tried) tried();
@@ -60,17 +60,17 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
   return remedy;
 }
 
-std::optional<Shortfall> hopeless_spread(const Casting& casting, const FaceJudge& judge) {
+std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge) {
   constexpr std::uint64_t kBetter = 8;  // first fit finds at least half as many faces as spread
-  const bool is_large = casting.count > kBetter * kMostTried;
+  const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {
     return std::nullopt;
   }
-  Casting first_fit = casting;
+  CastingOptions first_fit = casting;
   first_fit.diversity.mode = DiversityOptions::Mode::kFirstFit;
   first_fit.reviews.clear();
-  first_fit.count = kMostTried;
+  first_fit.count = kMaxTried;
   return cast_crowd(first_fit, judge).shortfall;
 }
 

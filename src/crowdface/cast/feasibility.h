@@ -20,7 +20,7 @@ struct Remedy {
 /// beginning of a large crowd is tried.
 ///
 /// \param tried  Called after each trial.
-Remedy find_remedy(const Casting& casting, const FaceSpace& space,
+Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {});
 
@@ -29,6 +29,6 @@ Remedy find_remedy(const Casting& casting, const FaceSpace& space,
 /// hours.
 ///
 /// \return  Nothing if the crowd may be possible.
-std::optional<Shortfall> hopeless_spread(const Casting& casting, const FaceJudge& judge);
+std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge);
 
 }  // namespace crowdface

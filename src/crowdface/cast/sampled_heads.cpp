@@ -26,7 +26,7 @@ void find_stretches(SampledHeads& sampled) {
 ///
 /// \param whole  Returns the positions of a head, or of its mirror image.
 template <class Whole>
-void take_samples(const FaceSet& faces, const FaceSamples& samples, const Whole& whole,
+void take_samples(const HeadSet& faces, const FaceSamples& samples, const Whole& whole,
                   SampledHeads& sampled) {
   const auto count = static_cast<Index>(samples.size());
   sampled.mean = Positions::Zero(count, 3);
@@ -92,7 +92,7 @@ Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Of&
 
 }  // namespace
 
-SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
+SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit) {
   const auto count = static_cast<Index>(samples.size());
@@ -111,7 +111,7 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
 }
 
 std::shared_ptr<const SampledHeads> sample_images(
-    const FaceSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
+    const HeadSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads) {
   const auto count = static_cast<Index>(samples.size());
   std::unordered_map<std::uint32_t, Index> column;

@@ -28,7 +28,7 @@ struct SampledHeads {
   std::shared_ptr<const SampledHeads> image;
 };
 
-SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
+SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit);
 
@@ -38,7 +38,7 @@ SampledHeads sample_heads(const FaceSet& faces, const RegionWeights& regions,
 /// \param heads   Heads at the same samples.
 /// \param traced  Vertices of the trajectories of `heads`: the samples and their with_corners.
 std::shared_ptr<const SampledHeads> sample_images(
-    const FaceSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
+    const HeadSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);
 
 /// Returns the samples of a recipe's target, #S by 3 in millimetres, mirrored like the face.

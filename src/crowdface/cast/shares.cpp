@@ -113,7 +113,7 @@ std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t
   return schedule;
 }
 
-std::vector<FaceKind> face_kinds(const Casting& casting) {
+std::vector<FaceKind> face_kinds(const CastingOptions& casting) {
   std::vector<FaceKind> kinds = {kind_of_group(casting)};
   for (std::size_t g = 0; g < casting.groups.size(); ++g) {
     kinds.push_back(kind_of_group(casting, g));

@@ -36,6 +36,6 @@ std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t
                                  std::uint64_t times = 1);
 
 /// Returns the parameters of sampled faces: of faces without group, then of each group.
-std::vector<FaceKind> face_kinds(const Casting& casting);
+std::vector<FaceKind> face_kinds(const CastingOptions& casting);
 
 }  // namespace crowdface

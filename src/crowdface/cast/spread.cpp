@@ -43,21 +43,21 @@ double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, doubl
 
 }  // namespace
 
-CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
+CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
                         const std::vector<FaceKind>& kinds, std::uint64_t count,
                         std::uint64_t times) {
   const std::uint64_t size = count * times;
   const std::vector<int> schedule = schedule_groups(casting.groups, size, times);
-  std::vector<std::optional<std::pair<CastFace, FaceSpace::Point>>> drawn(size);
+  std::vector<std::optional<std::pair<FacePlan, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
     const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
     for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
       const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
-      CastFace face = draw_recipe(casting, {}, key, kind);
+      FacePlan face = draw_recipe(casting, {}, key, kind);
       FaceSpace::Point point = judge.space().point(face.recipe);
-      if (const auto reason = judge.at_a_glance(face.recipe, point)) {
+      if (const auto reason = judge.check_recipe(face.recipe, point)) {
         rejections[at].add(*reason);
         continue;
       }
@@ -105,9 +105,9 @@ void FarthestPoints::pick(Index candidate) {
   });
 }
 
-void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
-                 const Kinship& kinship, CrowdSoFar& crowd, const FaceJoined& joined,
-                 CrowdCast& result) {
+void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
+                 const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
+                 CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
   CandidatePool pool = draw_pool(casting, judge, kinds, casting.count, DiversityOptions::kPool);
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
@@ -117,8 +117,8 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vect
     FarthestPoints::Pick pick = points.farthest(kind);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      std::optional<Reason> why = judge.closely(pool.faces[at].recipe);
-      if (!why && kinship.intrudes(pool.points[at])) why = Reason::kFamily;
+      std::optional<Reason> why = judge.check_skin(pool.faces[at].recipe);
+      if (!why && family_separation.intrudes(pool.points[at])) why = Reason::kFamily;
       if (!why) break;
       result.rejections.add(*why);
       points.drop(pick.candidate);
@@ -132,7 +132,7 @@ void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vect
     }
     points.pick(pick.candidate);
     const auto at = static_cast<std::size_t>(pick.candidate);
-    CastFace face = pool.faces[at];
+    FacePlan face = pool.faces[at];
     face.id = face_id(casting.name, index);
     face.index = index;
     crowd.add(std::move(face), pool.points[at]);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "crowdface/cast/crowd_cast.h"
+#include "crowdface/cast/casting_result.h"
 #include "crowdface/cast/crowd_so_far.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_judge.h"
@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// A pool of candidates, each acceptable by itself.
 struct CandidatePool {
-  std::vector<CastFace> faces;
+  std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
   std::vector<int> kinds;  ///< group of each candidate, or −1
   Rejections rejections;
@@ -25,7 +25,7 @@ struct CandidatePool {
 /// crowd.
 ///
 /// \param kinds  Parameters of faces without group, then of each group.
-CandidatePool draw_pool(const Casting& casting, const FaceJudge& judge,
+CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
                         const std::vector<FaceKind>& kinds, std::uint64_t count,
                         std::uint64_t times = 1);
 
@@ -57,8 +57,8 @@ class FarthestPoints {
 };
 
 /// Casts faces 1 … count as the most spread set of a pool.
-void cast_spread(const Casting& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
-                 const Kinship& kinship, CrowdSoFar& crowd, const FaceJoined& joined,
-                 CrowdCast& result);
+void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
+                 const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
+                 CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result);
 
 }  // namespace crowdface

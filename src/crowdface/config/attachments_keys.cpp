@@ -15,8 +15,8 @@ namespace {
 using Attachment = Config::Attachment;
 using Attachments = Config::Attachments;
 
-constexpr std::size_t kMostAttachments = 1000;
-constexpr double kMostShare = 1e6;
+constexpr std::size_t kMaxAttachments = 1000;
+constexpr double kMaxShare = 1e6;
 constexpr const char* kMean = "mean";
 
 void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
@@ -67,7 +67,7 @@ const Keys<Attachment>& item_keys() {
       key("file", &Attachment::file, obj_file(), "an OBJ file"),
       Key<Attachment>{"tags", read_item_tags, write_tags}.taking("list of tags"),
       word_key("moves", &Attachment::moves),
-      of_item("share", &AttachmentItem::share, number(0, kMostShare)),
+      of_item("share", &AttachmentItem::share, number(0, kMaxShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
       of_item("excludes", &AttachmentItem::excludes,
               list(name(), "a list of kinds and names, [hair]"))
@@ -101,8 +101,8 @@ void read_items(const YamlNode& node, Attachments& attachments, ConfigDraft& dra
     if (!item.name.empty()) check_item(child, item, draft);
     attachments.items.push_back(std::move(item));
   }
-  if (attachments.items.size() > kMostAttachments) {
-    draft.complaints.about(node, concat("expected at most ", kMostAttachments,
+  if (attachments.items.size() > kMaxAttachments) {
+    draft.complaints.about(node, concat("expected at most ", kMaxAttachments,
                                         " attachments, found ", attachments.items.size()));
   }
 }

@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 constexpr double kShareRounding = 1e-9;
-constexpr Eigen::Index kMostJudged = 200'000;  // most vertices for `meshes: judge` in a starter
+constexpr Eigen::Index kMaxJudged = 200'000;  // most vertices for `meshes: judge` in a starter
 
 /// Reads the path of one image, or of a set of UDIM tiles.
 void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
@@ -131,13 +131,13 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_gap", &Believability::max_gap_mm, length(kMaxDistance)),
       key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6))
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
-            if (facts.vertices > kMostJudged) return std::nullopt;
+            if (facts.vertices > kMaxJudged) return std::nullopt;
             return StarterLines{"0.5",
                                 "mm² of skin that shows its back: specks at nostrils and lips"};
           }),
       word_key("meshes", &Believability::meshes)
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
-            if (facts.vertices > kMostJudged) return std::nullopt;
+            if (facts.vertices > kMaxJudged) return std::nullopt;
             return StarterLines{std::string(word_of(Believability::Meshes::kJudge)), "",
                                 "Casting builds each face and drops it if too much skin passes "
                                 "through other skin: lips, lids."};

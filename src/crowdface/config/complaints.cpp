@@ -34,19 +34,18 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
 }
 
 void Complaints::tell(Problems& problems) const {
-  constexpr std::size_t kMostTold = 100;  // a longer list would hide the first problems
+  constexpr std::size_t kMaxTold = 100;  // a longer list would hide the first problems
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);
   };
   std::ranges::stable_sort(sorted, {}, key);
-  for (std::size_t i = 0; i < std::min(sorted.size(), kMostTold); ++i) {
+  for (std::size_t i = 0; i < std::min(sorted.size(), kMaxTold); ++i) {
     problems.add(sorted[i].kind, concat(sorted[i].place.text(), ": ", sorted[i].what));
   }
-  if (sorted.size() > kMostTold) {
-    problems.add(ExitCode::kUsage,
-                 concat(sorted[kMostTold].place.text(), ": and ", sorted.size() - kMostTold,
-                        " more problems from here on"));
+  if (sorted.size() > kMaxTold) {
+    problems.add(ExitCode::kUsage, concat(sorted[kMaxTold].place.text(), ": and ",
+                                          sorted.size() - kMaxTold, " more problems from here on"));
   }
 }
 

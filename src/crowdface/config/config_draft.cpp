@@ -20,7 +20,7 @@ bool expect_file(const YamlNode& node, const std::filesystem::path& file, Config
     draft.complaints.expected(node, "the name of a file, which does not end in '/'");
     return false;
   }
-  if (is_there(file)) return true;
+  if (path_exists(file)) return true;
   draft.complaints.about(node, concat(what, quoted(file.string()), " is missing"),
                          ExitCode::kMissingInput);
   return false;

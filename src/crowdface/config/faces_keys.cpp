@@ -49,9 +49,9 @@ void add_heads(const std::vector<fs::path>& files, const std::vector<const YamlN
 
 bool expect_head_count(const YamlNode& node, std::size_t count, const std::string& where,
                        Complaints& out) {
-  if (count >= kFewestHeads && count <= kMostHeads) return true;
+  if (count >= kMinHeads && count <= kMaxHeads) return true;
   out.about(node,
-            concat("expected ", kFewestHeads, " to ", kMostHeads, " heads, found ", count, where));
+            concat("expected ", kMinHeads, " to ", kMaxHeads, " heads, found ", count, where));
   return false;
 }
 
@@ -63,7 +63,7 @@ std::string pattern_below(const fs::path& folder) {
     const std::vector<fs::path> heads = list_heads(below);
     if (heads.empty()) continue;
     const std::string pattern = concat("*/", heads.front().filename().string());
-    if (files_like(folder / pattern).size() < kFewestHeads) continue;
+    if (files_like(folder / pattern).size() < kMinHeads) continue;
     return concat("; for a head a folder: files: \"", (folder.filename() / pattern).string(), "\"");
   }
   return {};

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint64_t kMostMembers = 1000;
+constexpr std::uint64_t kMaxMembers = 1000;
 
 /// Returns whether an earlier family has a member or a sampled parent with this id. The id may lack
 /// the prefix "CROWD_".
@@ -143,7 +143,7 @@ const Keys<FamilyOptions>& family_keys() {
   using Family = FamilyOptions;
   static const Keys<Family> keys = {
       key("name", &Family::name, name(), "such as smith"),
-      key("members", &Family::members, whole(1, kMostMembers), "how many faces"),
+      key("members", &Family::members, whole(1, kMaxMembers), "how many faces"),
       key("group", &Family::group, group()),
       key("target", &Family::target, head()),
       Key<Family>{"parents", read_parents, write_parents}.taking("`{mother: …, father: …}`"),

@@ -60,14 +60,14 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
 
 const Keys<Group>& group_keys() {
   static const Keys<Group> keys = [] {
-    constexpr std::uint64_t kMostFaces = 1'000'000;
+    constexpr std::uint64_t kMaxFaces = 1'000'000;
     const auto has_share = [](const Group& group, const auto&) {
       return !group.count && group.share != kOpenShare;
     };
     Keys<Group> own = {
         key("name", &Group::name, name(), "such as elderly"),
         key("share", &Group::share, number(0, 1)).written_if(has_share),
-        key("count", &Group::count, whole(0, kMostFaces)),
+        key("count", &Group::count, whole(0, kMaxFaces)),
         Key<Group>{"tags", read_group_tags, [](const auto&...) { return ""; }}.taking(
             "list of tags")};
     for (const Key<SamplingOptions>& sampled : sampling_keys()) {

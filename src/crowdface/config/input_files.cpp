@@ -78,7 +78,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
   std::map<std::string, std::size_t> counts;
   for (const fs::path& file : files) ++counts[ending_of(file)];
   std::string kind = ".obj";
-  if (counts[kind] < kFewestHeads) {
+  if (counts[kind] < kMinHeads) {
     for (const auto& [ending, count] : counts) {
       if (count > counts[kind]) kind = ending;
     }

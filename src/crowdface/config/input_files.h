@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-inline constexpr std::size_t kFewestHeads = 2, kMostHeads = 50;  ///< number of heads of one job
+inline constexpr std::size_t kMinHeads = 2, kMaxHeads = 50;  ///< number of heads of one job
 
 /// Lists the head files directly in the folder, sorted by name: all OBJ files. If there are fewer
 /// than two OBJ files, also lists the files of the most frequent other format (is_head_file),

@@ -15,7 +15,7 @@ using Output = Config::Output;
 using With = Config::Comparison::With;
 
 constexpr double kLongestScaleMm = 1000;
-constexpr std::uint64_t kMostFacesPerFolder = 1'000'000;
+constexpr std::uint64_t kMaxFacesPerFolder = 1'000'000;
 
 void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
   const auto file = path("none, target, nearest, or a file or crowd folder").read(node, draft);
@@ -85,14 +85,14 @@ bool is_level_name(std::string_view name) {
 }
 
 void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
-  constexpr std::size_t kMostLevels = 8;
+  constexpr std::size_t kMaxLevels = 8;
   constexpr const char* kExpected = "a list of up to 8 levels, each smaller, [50 %, 20 %, 5 %]";
   draft.complaints.expect_list(node, kExpected);
   for (const YamlNode& child : node.items) {
     const auto percent =
         child.kind == YamlNode::Kind::kScalar ? parse_percent(child.text) : std::nullopt;
     if (!percent || (!output.lods.empty() && *percent >= output.lods.back()) ||
-        output.lods.size() == kMostLevels) {
+        output.lods.size() == kMaxLevels) {
       draft.complaints.expected(child, kExpected);
       return;
     }
@@ -171,7 +171,7 @@ bool fits_on_a_page(const Sheet& sheet) {
     cell.label_lines += 1;
     options.legend.emplace();
   }
-  return sheet.rows <= most_rows(cell, options);
+  return sheet.rows <= max_rows(cell, options);
 }
 
 void read_contact_sheet(const YamlNode& node, Output& output, ConfigDraft& draft) {
@@ -224,7 +224,7 @@ const Keys<Output>& output_keys() {
           "list of up to 8 percentages, each smaller"),
       word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
-      key("faces_per_folder", &Output::faces_per_folder, whole(0, kMostFacesPerFolder)),
+      key("faces_per_folder", &Output::faces_per_folder, whole(0, kMaxFacesPerFolder)),
       Key<Output>{"surfaces", read_surfaces, write_surfaces}.taking(
           concat("`{material: surface}`, a surface is one of ", shown_words<SurfaceKind>(),
                  " or a colour `\"#rrggbb\"`")),

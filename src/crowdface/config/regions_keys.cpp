@@ -13,7 +13,7 @@ namespace {
 
 using Regions = Config::Regions;
 
-constexpr std::size_t kMostRegions = 16;
+constexpr std::size_t kMaxRegions = 16;
 
 void read_mask_image(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
   const auto mask = path("an image file").read(node, draft);
@@ -62,8 +62,8 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
 
 void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
   const std::size_t complaints_before = draft.complaints.size();
-  if (node.items.empty() || node.items.size() > kMostRegions) {
-    draft.complaints.expected(node, concat("a list of 1 to ", kMostRegions, " names"));
+  if (node.items.empty() || node.items.size() > kMaxRegions) {
+    draft.complaints.expected(node, concat("a list of 1 to ", kMaxRegions, " names"));
   } else {
     for (const YamlNode& item : node.items) read_region_name(item, regions, draft.complaints);
   }
@@ -75,7 +75,7 @@ const Keys<Regions>& regions_keys() {
       Key<Regions>{"names", read_region_names,
                    [](const Regions& regions, const auto&) { return flow_names(regions.names); },
                    "such as [top, middle, bottom]"}
-          .taking(concat("list of 1 to ", kMostRegions, " names")),
+          .taking(concat("list of 1 to ", kMaxRegions, " names")),
       Key<Regions>{"mask", read_masks, write_masks, "the image whose channels are the regions"}
           .taking("image file, or list of image files")};
   return keys;

@@ -30,10 +30,10 @@ const Keys<Config::Crowd>& crowd_keys() {
 const Keys<Config::Smoothing>& smoothing_keys() {
   using Smoothing = Config::Smoothing;
   constexpr double kMaxSizeMm = 10'000;
-  static constexpr double kLeastToleranceMm = 0.005;
+  static constexpr double kMinToleranceMm = 0.005;
   const auto is_held = [](double tolerance_mm, const YamlNode& node, ConfigDraft& draft) {
-    if (tolerance_mm >= kLeastToleranceMm) return true;
-    draft.complaints.expected(node, concat("a length of at least ", kLeastToleranceMm,
+    if (tolerance_mm >= kMinToleranceMm) return true;
+    draft.complaints.expected(node, concat("a length of at least ", kMinToleranceMm,
                                            " mm, what single precision can hold"));
     return false;
   };

@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 constexpr double kMaxRadius = 1e6;
-constexpr std::uint64_t kMostSources = 50;
+constexpr std::uint64_t kMaxSources = 50;
 
 using Names = std::vector<std::string>;
 using Kind = PositionDistribution::Kind;
@@ -180,7 +180,7 @@ Codec<SmoothnessDistribution> sampled_smoothness() {
           concat(smoothness().takes, ", or `{iterations: …}`")};
 }
 
-constexpr std::size_t kMostBands = 4;
+constexpr std::size_t kMaxBands = 4;
 
 const Keys<BandSampling>& band_keys() {
   using Band = BandSampling;
@@ -213,8 +213,8 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
     why = "is no name: letters (a-z), digits, '_', '-' or '.' are";
   } else if (reserved.contains(entry.key) || contains(regions, entry.key)) {
     why = "means something else; give the band another name";
-  } else if (sampling.bands.size() == kMostBands) {
-    why = concat("is one too many: at most ", kMostBands, " bands");
+  } else if (sampling.bands.size() == kMaxBands) {
+    why = concat("is one too many: at most ", kMaxBands, " bands");
   }
   if (!why.empty()) draft.complaints.add(entry.key_place, concat(quoted(entry.key), ' ', why));
 }
@@ -280,13 +280,13 @@ const Keys<SamplingOptions>& sampling_keys() {
                     [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
                       sampling.max_sources.reset();
                       if (is_word(node, "all")) return;
-                      const auto most = whole(1, kMostSources).read(node, draft);
+                      const auto most = whole(1, kMaxSources).read(node, draft);
                       if (most) sampling.max_sources = static_cast<int>(*most);
                     },
                     [](const Sampling& sampling, const ConfigWriting&) {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
-          .taking(concat("`all`, or ", whole(1, kMostSources).takes))
+          .taking(concat("`all`, or ", whole(1, kMaxSources).takes))
           .in_starter({"3", "", "How many heads lend their features to each region of a face."}),
       Key<Sampling>{"bands", read_bands, write_bands}
           .taking("mapping from names to the keys of a band")

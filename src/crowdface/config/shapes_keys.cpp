@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Shapes = Config::Shapes;
 
-constexpr std::size_t kMostShapes = 1000;
+constexpr std::size_t kMaxShapes = 1000;
 
 /// The OBJ files of a folder: name of the shape and path, in the order of the files.
 using ShapeFiles = std::vector<std::pair<std::string, fs::path>>;
@@ -28,7 +28,7 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
   for (const fs::path& file : list_heads(folder)) {
     std::error_code error;
     const bool is_neutral = fs::equivalent(file, neutral, error);
-    require_look(file, error);
+    require_stat(file, error);
     if (is_neutral) continue;
     const std::string name = file.stem().string();
     if (!is_name(name)) {
@@ -84,7 +84,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
   for (std::size_t h = 0; h < faces.files.size(); ++h) {
     const fs::path of_head = *folder / faces.names[h];
     try {
-      if (!shapes.files.empty() && !is_there(of_head)) continue;
+      if (!shapes.files.empty() && !path_exists(of_head)) continue;
       found[h] = list_shapes(node, of_head, faces.files[h], draft);
     } catch (const MissingInput& error) {
       draft.complaints.about(node, error.what(), error.code());
@@ -146,9 +146,9 @@ void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft
         "folder of its shapes), or heads (a folder with one of shapes for each head), or all");
   }
   if (shapes.heads.empty() ? shapes.names.empty() : !draft.heads_known) return;
-  if (shapes.names.empty() || shapes.names.size() > kMostShapes) {
+  if (shapes.names.empty() || shapes.names.size() > kMaxShapes) {
     return draft.complaints.about(
-        node, concat("expected 1 to ", kMostShapes, " shapes, found ", shapes.names.size()));
+        node, concat("expected 1 to ", kMaxShapes, " shapes, found ", shapes.names.size()));
   }
   check_lacking(node, shapes, draft);
 }

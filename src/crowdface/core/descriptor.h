@@ -52,13 +52,13 @@ class Descriptor {
 };
 
 /// Whether a call failed because of the machine (disk, memory, too many open files), not because of the file.
-bool is_machines_fault(int error);
+bool is_system_error(int error);
 /// \throws IoError if a look at `path` failed because of the machine.
-void require_look(const std::filesystem::path& path, const std::error_code& error);
+void require_stat(const std::filesystem::path& path, const std::error_code& error);
 
 /// Whether `path`, with links followed, leads to the open file `file`. False after the file was
 /// removed, renamed or replaced. \throws IoError if the machine fails.
-bool still_names(const std::filesystem::path& path, const Descriptor& file);
+bool path_leads_to(const std::filesystem::path& path, const Descriptor& file);
 
 /// A file opened for reading, with its size in bytes.
 struct OpenedFile {

@@ -16,11 +16,11 @@ namespace crowdface {
 /// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false for a path
 /// that cannot be followed: a folder without search permission, a circle of links, a name that is too long.
 /// \throws IoError if the machine fails, which says nothing about the file.
-bool is_there(const std::filesystem::path& path);
+bool path_exists(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);
 /// Removes a file or an empty folder. Does nothing if that fails.
-void remove_if_there(const std::filesystem::path& path);
+void remove_if_exists(const std::filesystem::path& path);
 
 /// Returns the whole file. \throws MissingInput if the file cannot be opened; IoError if reading
 /// fails half-way.
@@ -44,9 +44,9 @@ bool holds(const std::filesystem::path& path, const FileDigest& content);
 void watch_mapped_files();
 
 /// What happens when a mapped file is truncated.
-enum class WhenCut {
+enum class OnTruncation {
   kEnd,  ///< the process ends with exit code 74 and a message that names the file
-  kFill  ///< the missing pages read as zeros, and `was_cut` returns true
+  kFill  ///< the missing pages read as zeros, and `was_truncated` returns true
 };
 
 /// Read-only view of a file's bytes, valid while the object or a copy of it lives. After
@@ -58,7 +58,8 @@ class MappedFile {
   MappedFile() = default;
   /// \throws MissingInput if the file cannot be opened or is not a regular file; IoError on a read
   /// error, or if the file is truncated while it is copied.
-  explicit MappedFile(const std::filesystem::path& path, WhenCut when_cut = WhenCut::kEnd);
+  explicit MappedFile(const std::filesystem::path& path,
+                      OnTruncation when_cut = OnTruncation::kEnd);
   /// Writes the bytes to an unnamed temporary file and maps that file. The bytes then lie on disk
   /// and are cached in memory as far as there is room. The file vanishes when the process ends,
   /// even if the process is killed.
@@ -70,7 +71,7 @@ class MappedFile {
   std::string_view bytes() const;
   /// With kFill: whether the file has been truncated, so that some bytes may be zeros that it never
   /// held. Without kFill always false.
-  bool was_cut() const;
+  bool was_truncated() const;
 
  private:
   struct Mapping;

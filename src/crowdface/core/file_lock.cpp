@@ -31,7 +31,7 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
     throw_if_interrupted();
     if (::flock(file_.get(), operation) == 0) {
       // False if the previous holder has removed this file: then open a new one.
-      if (still_names(path, file_)) return;
+      if (path_leads_to(path, file_)) return;
       file_ = open_lock_file(path);
       continue;
     }
@@ -46,7 +46,7 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
 
 FileLock::~FileLock() {
   // Only a process that holds the lock exclusively removes the file. Waiting processes notice with
-  // `still_names`.
+  // `path_leads_to`.
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(path_.c_str());
 }
 

@@ -62,31 +62,31 @@ std::vector<fs::path> folders_from(const fs::path& root) {
     for (fs::path& entry : list_folder(folders[i])) {
       std::error_code error;
       const fs::file_status status = fs::symlink_status(entry, error);
-      require_look(entry, error);
+      require_stat(entry, error);
       if (fs::is_directory(status)) folders.push_back(std::move(entry));
     }
   }
   return folders;
 }
 
-bool leads_below(const fs::path& path, const fs::path& folder) {
+bool is_inside_folder(const fs::path& path, const fs::path& folder) {
   std::error_code of_path, of_folder;
   const fs::path way = fs::weakly_canonical(path, of_path)
                            .lexically_relative(fs::weakly_canonical(folder, of_folder));
-  require_look(path, of_path);
-  require_look(folder, of_folder);
+  require_stat(path, of_path);
+  require_stat(folder, of_folder);
   return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
 }
 
-HeldFolder::HeldFolder(const fs::path& folder)
+DirectoryHandle::DirectoryHandle(const fs::path& folder)
     : path_(folder),
       opened_(::open(folder.empty() ? "." : folder.c_str(),
                      O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_PATH)) {
   if (!opened_.valid()) throw_with_reason<CannotCreate>(path_, "cannot be opened as a folder");
 }
 
-void HeldFolder::require_same() const {
-  if (still_names(path_.empty() ? "." : path_, opened_)) return;
+void DirectoryHandle::require_same() const {
+  if (path_leads_to(path_.empty() ? "." : path_, opened_)) return;
   throw IoError(concat(path_.string(),
                        ": was removed, moved or replaced while the run was at work there; run the "
                        "same command again"));

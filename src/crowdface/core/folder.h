@@ -34,14 +34,14 @@ std::vector<std::filesystem::path> folders_from(const std::filesystem::path& roo
 
 /// Whether `path` is `folder` or lies inside it, after all links are resolved. The path need not
 /// exist. Returns false if one of the paths cannot be resolved. \throws IoError if the machine fails.
-bool leads_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+bool is_inside_folder(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 /// Keeps a directory open, so that a removal, rename or replacement of the directory can be
 /// detected.
-class HeldFolder {
+class DirectoryHandle {
  public:
   /// \throws CannotCreate if the folder cannot be opened.
-  explicit HeldFolder(const std::filesystem::path& folder);
+  explicit DirectoryHandle(const std::filesystem::path& folder);
   /// \throws IoError if the path no longer leads to the open directory.
   void require_same() const;
 

@@ -109,9 +109,9 @@ std::optional<std::string> log_failure() {
 }
 
 struct LogMemory::Lines {
-  static constexpr std::size_t kMost = 1000;
+  static constexpr std::size_t kMax = 1000;
   std::shared_ptr<spdlog::sinks::ringbuffer_sink_mt> sink =
-      std::make_shared<spdlog::sinks::ringbuffer_sink_mt>(kMost);
+      std::make_shared<spdlog::sinks::ringbuffer_sink_mt>(kMax);
 };
 
 LogMemory::LogMemory() : lines_(std::make_unique<Lines>()) {

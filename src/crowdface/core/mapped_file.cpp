@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // MappedFile (declared in file.h). If a file is truncated while mapped, access to a missing page
-// raises SIGBUS. The handler finds the mapping in a table and does what `WhenCut` says.
+// raises SIGBUS. The handler finds the mapping in a table and does what `OnTruncation` says.
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -64,17 +64,17 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   std::signal(signal, SIG_DFL);
 }
 
-constexpr std::string_view kWasCut = ": was cut while it was being read";
+constexpr std::string_view kWasTruncated = ": was cut while it was being read";
 
-int begin_watch(char* begin, std::size_t size, WhenCut when_cut, const fs::path& path) {
+int begin_watch(char* begin, std::size_t size, OnTruncation when_cut, const fs::path& path) {
   for (std::size_t i = 0; i < watches.size(); ++i) {
     Watch& watch = watches[i];
     if (watch.taken.exchange(true)) continue;
     const std::string message =
-        concat("error: ", printable(path.string()).substr(0, 400), kWasCut, '\n');
+        concat("error: ", printable(path.string()).substr(0, 400), kWasTruncated, '\n');
     std::memcpy(watch.message.data(), message.c_str(), message.size() + 1);
     watch.cut = false;
-    watch.fill = when_cut == WhenCut::kFill;
+    watch.fill = when_cut == OnTruncation::kFill;
     watch.size = size;
     watch.begin = begin;
     return static_cast<int>(i);
@@ -114,11 +114,11 @@ struct MappedFile::Mapping {
         size(length) {
     if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be read");
   }
-  Mapping(Descriptor file, std::size_t length, WhenCut when_cut, const fs::path& name)
+  Mapping(Descriptor file, std::size_t length, OnTruncation when_cut, const fs::path& name)
       : data(::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file.get(), 0)), size(length) {
     if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be mapped");
     watch = begin_watch(static_cast<char*>(data), size, when_cut, name);
-    if (when_cut == WhenCut::kFill) kept = std::move(file);
+    if (when_cut == OnTruncation::kFill) kept = std::move(file);
   }
   ~Mapping() {
     if (watch >= 0) {
@@ -134,7 +134,7 @@ struct MappedFile::Mapping {
   Descriptor kept{-1};  ///< the open file, with kFill only
 };
 
-MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {
+MappedFile::MappedFile(const fs::path& path, OnTruncation when_cut) {
   auto [file, size] = open_for_reading(path);
   if (size == 0) return;
   if (watching) {
@@ -143,7 +143,7 @@ MappedFile::MappedFile(const fs::path& path, WhenCut when_cut) {
   }
   mapping_ = std::make_shared<const Mapping>(size, path);
   if (read_up_to(file, static_cast<char*>(mapping_->data), size, path) < size) {
-    throw IoError(concat(path.string(), kWasCut));
+    throw IoError(concat(path.string(), kWasTruncated));
   }
 }
 
@@ -155,8 +155,8 @@ MappedFile MappedFile::of_scratch(std::string_view bytes, const fs::path& folder
   }
   MappedFile mapped;
   if (!bytes.empty()) {
-    mapped.mapping_ = std::make_shared<const Mapping>(std::move(file), bytes.size(), WhenCut::kEnd,
-                                                      folder / "a temporary file");
+    mapped.mapping_ = std::make_shared<const Mapping>(
+        std::move(file), bytes.size(), OnTruncation::kEnd, folder / "a temporary file");
   }
   return mapped;
 }
@@ -173,7 +173,7 @@ std::string_view MappedFile::bytes() const {
   return {static_cast<const char*>(mapping_->data), mapping_->size};
 }
 
-bool MappedFile::was_cut() const {
+bool MappedFile::was_truncated() const {
   if (!mapping_) return false;
   const auto& [data, size, watch, kept] = *mapping_;
   if (watch >= 0 && watches[static_cast<std::size_t>(watch)].cut) return true;

@@ -77,11 +77,11 @@ std::optional<std::uint64_t> memory_limit_of_groups(const std::filesystem::path&
   return least;
 }
 
-void watch_for_lack_of_memory() {
+void watch_for_out_of_memory() {
   std::set_new_handler(note_lack_of_memory);
 }
 
-bool memory_ran_out() {
+bool is_out_of_memory() {
   return ran_out;
 }
 

@@ -23,11 +23,11 @@ std::optional<std::uint64_t> memory_limit_of_groups(
 /// Peak resident memory of this process so far, in bytes.
 std::uint64_t peak_memory();
 
-/// After this call `memory_ran_out` tells whether any `new` has failed. Libraries may catch
+/// After this call `is_out_of_memory` tells whether any `new` has failed. Libraries may catch
 /// std::bad_alloc and continue with incomplete results, so the program has to ask. Call it at
 /// program start.
-void watch_for_lack_of_memory();
-bool memory_ran_out();
+void watch_for_out_of_memory();
+bool is_out_of_memory();
 
 /// Parses "4 GiB", "512 MiB" or "3 GB" as bytes; nothing if the text is not a size with a unit.
 std::optional<std::uint64_t> parse_bytes(std::string_view text);

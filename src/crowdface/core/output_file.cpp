@@ -25,7 +25,7 @@ using FileId = std::pair<dev_t, ino_t>;
 std::optional<FileId> id_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    require_look(path, {errno, std::generic_category()});
+    require_stat(path, {errno, std::generic_category()});
     return std::nullopt;
   }
   return FileId(status.st_dev, status.st_ino);

@@ -30,34 +30,34 @@ std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
 fs::file_status status_of(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  require_look(path, error);
+  require_stat(path, error);
   return fs::status_known(status) ? status : fs::file_status(fs::file_type::not_found);
 }
 
 }  // namespace
 
-bool is_machines_fault(int error) {
+bool is_system_error(int error) {
   constexpr std::array kFaults = {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, ESTALE, ETIMEDOUT};
   return std::ranges::find(kFaults, error) != kFaults.end();
 }
 
-void require_look(const fs::path& path, const std::error_code& error) {
-  if (!is_machines_fault(error.value())) return;
+void require_stat(const fs::path& path, const std::error_code& error) {
+  if (!is_system_error(error.value())) return;
   throw IoError(concat(path.string(), ": cannot be looked at: ", error.message()));
 }
 
-bool still_names(const fs::path& path, const Descriptor& file) {
+bool path_leads_to(const fs::path& path, const Descriptor& file) {
   struct stat by_name {
   }, by_descriptor{};
   const auto look = [&](int failed) {
-    if (failed != 0) require_look(path, {errno, std::generic_category()});
+    if (failed != 0) require_stat(path, {errno, std::generic_category()});
     return failed == 0;
   };
   return look(::stat(path.c_str(), &by_name)) && look(::fstat(file.get(), &by_descriptor)) &&
          by_name.st_ino == by_descriptor.st_ino && by_name.st_dev == by_descriptor.st_dev;
 }
 
-bool is_there(const fs::path& path) {
+bool path_exists(const fs::path& path) {
   return fs::exists(status_of(path));
 }
 
@@ -69,7 +69,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(status_of(path));
 }
 
-void remove_if_there(const fs::path& path) {
+void remove_if_exists(const fs::path& path) {
   std::error_code ignored;
   fs::remove(path, ignored);
 }
@@ -80,7 +80,7 @@ OpenedFile open_for_reading(const fs::path& path) {
     fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (fd < 0 && errno == EINTR);
   if (fd < 0) {
-    if (is_machines_fault(errno)) throw_with_reason<IoError>(path, "cannot be opened");
+    if (is_system_error(errno)) throw_with_reason<IoError>(path, "cannot be opened");
     throw_with_reason<MissingInput>(path, "cannot be opened");
   }
   struct stat status {};

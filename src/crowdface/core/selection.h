@@ -10,7 +10,8 @@ namespace crowdface {
 
 /// At most `most` items, evenly spaced, in their original order.
 template <class Items>
-std::vector<std::ranges::range_value_t<Items>> some_of(const Items& all, std::size_t most) {
+std::vector<std::ranges::range_value_t<Items>> evenly_spaced_items(const Items& all,
+                                                                   std::size_t most) {
   const std::size_t count = std::min(all.size(), most);
   std::vector<std::ranges::range_value_t<Items>> some;
   some.reserve(count);
@@ -18,7 +19,7 @@ std::vector<std::ranges::range_value_t<Items>> some_of(const Items& all, std::si
   return some;
 }
 /// The value at position `rank` (from 0) in ascending order. \param rank  < values.size().
-inline double value_of_rank(std::vector<double> values, std::size_t rank) {
+inline double nth_smallest(std::vector<double> values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), at, values.end());
   return *at;

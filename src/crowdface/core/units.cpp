@@ -30,10 +30,10 @@ std::string name_of(LengthUnit unit) {
 }
 
 std::optional<LengthUnit> parse_length_unit(std::string_view text) {
-  constexpr double kLeastMm = 1e-6, kMostMm = 1e9;
+  constexpr double kMinMm = 1e-6, kMaxMm = 1e9;
   if (const auto unit = unit_called(text)) return unit;
   const auto mm = parse_length_mm(text);
-  if (!mm || !(*mm >= kLeastMm && *mm <= kMostMm)) return std::nullopt;
+  if (!mm || !(*mm >= kMinMm && *mm <= kMaxMm)) return std::nullopt;
   return LengthUnit{*mm};
 }
 

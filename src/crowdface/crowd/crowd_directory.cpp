@@ -74,7 +74,7 @@ std::set<std::string> recorded_files(const CrowdDirectory& directory, std::strin
 std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   const std::set<std::string> recorded = recorded_files(directory, "faces/");
   std::set<std::string> ids;
-  if (is_there(directory.plan())) {
+  if (path_exists(directory.plan())) {
     for (std::string& id : ids_in_plan(directory)) ids.insert(std::move(id));
   }
   std::vector<fs::path> files;
@@ -140,7 +140,7 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   const auto stands_at = [](const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    require_look(path, error);
+    require_stat(path, error);
     return status;
   };
   for (const fs::path& folder : crowd_folders(directory)) {
@@ -167,19 +167,19 @@ void refuse_obstacles(const CrowdDirectory& directory) {
 /// Whether a folder without a config has files that a crowd would overwrite. A ledger identifies a
 /// crowd that lost only its config.
 bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
-  if (is_there(directory.config())) return false;
+  if (path_exists(directory.config())) return false;
   const std::string name = directory.relative(directory.config());
   for (const fs::path& ledger : directory.ledgers()) {
     for (const LedgerEntry& entry : read_ledger(ledger, name).entries) {
       if (entry.key == hash_bytes(effective_config)) return false;
     }
   }
-  const bool holds_any = std::ranges::any_of(record_files(directory), is_there) ||
+  const bool holds_any = std::ranges::any_of(record_files(directory), path_exists) ||
                          std::ranges::any_of(crowd_folders(directory), [](const fs::path& folder) {
                            return !list_folder(folder).empty();
                          });
   // Another shard may have begun in the meantime; it writes its config first.
-  return holds_any && !is_there(directory.config());
+  return holds_any && !path_exists(directory.config());
 }
 
 /// Refuses links that would lead a run to write, append or remove outside the crowd's folder.
@@ -193,7 +193,7 @@ void refuse_links(const CrowdDirectory& directory) {
   for (const fs::path& file : files) {
     std::error_code error;
     const bool is_link = fs::is_symlink(fs::symlink_status(file, error));
-    require_look(file, error);
+    require_stat(file, error);
     if (!is_link) continue;
     throw CannotCreate(concat(file.string(), ": is a link; expected a file of this crowd"));
   }
@@ -227,7 +227,7 @@ void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& fo
   if (error) {
     throw CannotCreate(concat(folder.string(), ": cannot be reached: ", error.message()));
   }
-  if (leads_below(real, root)) return;
+  if (is_inside_folder(real, root)) return;
   throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
                             ", where nothing is written"));
 }
@@ -281,10 +281,10 @@ fs::path CrowdDirectory::sheet(std::size_t page) const {
 
 fs::path CrowdDirectory::folder_of(std::string_view id) const {
   if (faces_per_folder == 0) return {};
-  constexpr std::size_t kMostDigits = 15;
+  constexpr std::size_t kMaxDigits = 15;
   const std::size_t last = id.find_last_not_of("0123456789");
   std::string_view digits = id.substr(last == id.npos ? 0 : last + 1);
-  digits = digits.substr(digits.size() - std::min(digits.size(), kMostDigits));
+  digits = digits.substr(digits.size() - std::min(digits.size(), kMaxDigits));
   return zero_padded(parse_unsigned(digits).value_or(0) / faces_per_folder, 3);
 }
 
@@ -303,7 +303,7 @@ fs::path CrowdDirectory::review(std::size_t number) const {
 
 std::vector<fs::path> CrowdDirectory::kept_reviews() const {
   std::vector<fs::path> kept;
-  while (is_there(review(kept.size() + 1))) kept.push_back(review(kept.size() + 1));
+  while (path_exists(review(kept.size() + 1))) kept.push_back(review(kept.size() + 1));
   return kept;
 }
 
@@ -313,13 +313,13 @@ fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format,
 }
 
 void require_crowd(const CrowdDirectory& directory) {
-  if (is_there(directory.config())) return;
+  if (path_exists(directory.config())) return;
   throw MissingInput(concat(directory.config().string(), ": not there; expected a crowd's folder"));
 }
 
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                            Replace replace) {
-  if (is_there(directory.config()) && replace == Replace::kRefuse) {
+  if (path_exists(directory.config()) && replace == Replace::kRefuse) {
     if (const auto key = config.difference(read_file(directory.config()))) {
       throw UsageError(concat(directory.root.string(),
                               ": holds another config's crowd (its config.yaml differs from this "
@@ -333,7 +333,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
   if (!fs::status_known(fs::status(existing, error))) {  // name too long, or a cycle of links
     throw CannotCreate(concat(directory.root.string(), ": cannot be made: ", error.message()));
   }
-  while (!is_there(existing) && existing.has_relative_path()) {
+  while (!path_exists(existing) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }
   refuse_links(directory);
@@ -354,7 +354,7 @@ void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& co
                           Replace replace) {
   check_crowd_directory(directory, config, replace);
   make_directories(directory.root);
-  const bool is_others = is_there(directory.config())
+  const bool is_others = path_exists(directory.config())
                              ? config.difference(read_file(directory.config())).has_value()
                              : holds_other_files(directory, config.text);
   if (is_others && replace == Replace::kForce) remove_crowd(directory);

@@ -9,7 +9,7 @@
 namespace crowdface {
 CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
   make_directories(directory.root);
-  root_ = std::make_unique<HeldFolder>(directory.root);
+  root_ = std::make_unique<DirectoryHandle>(directory.root);
   const auto tell = [&](std::string_view who) {
     log_info(concat(directory.root.string(), ": ", who, " is at work there; waiting for it"));
   };

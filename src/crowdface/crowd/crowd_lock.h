@@ -25,7 +25,7 @@ class CrowdLock {
   void require_still_there() const { root_->require_same(); }
 
  private:
-  std::unique_ptr<HeldFolder> root_;
+  std::unique_ptr<DirectoryHandle> root_;
   std::unique_ptr<FileLock> crowd_, shard_;
 };
 

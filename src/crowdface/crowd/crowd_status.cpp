@@ -168,10 +168,10 @@ TaskEnd end_of_task(std::string_view log) {
 
 CrowdStatus crowd_status(const fs::path& crowd_directory) {
   const CrowdDirectory directory{crowd_directory};
-  if (!is_there(directory.submitted())) require_crowd(directory);
+  if (!path_exists(directory.submitted())) require_crowd(directory);
   CrowdStatus status;
-  status.planned = is_there(directory.plan());
-  status.gathered = is_there(directory.report());
+  status.planned = path_exists(directory.plan());
+  status.gathered = path_exists(directory.report());
   const std::uint64_t shards = status.gathered ? 1 : shard_count(directory);
   for (std::uint64_t index = 1; shards > 1 && index <= shards; ++index) {
     status.shards.push_back(status_of(directory, {index, shards}));

@@ -15,9 +15,9 @@ namespace {
 /// A column of the table.
 struct TableColumn {
   std::string name;
-  std::function<std::string(const CastFace& face)> value;
+  std::function<std::string(const FacePlan& face)> value;
   /// The table has the column if it applies to any face. Empty: the table always has the column.
-  std::function<bool(const CastFace& face)> applies = {};
+  std::function<bool(const FacePlan& face)> applies = {};
 };
 using TableColumns = std::vector<TableColumn>;
 
@@ -45,7 +45,7 @@ std::string weights_text(const std::vector<SourceWeight>& weights, const PlanNam
 void add_band(const std::string& start, std::size_t region, std::size_t band,
               const PlanNames& names, TableColumns& columns) {
   const auto add = [&](const char* name, const auto& value) {
-    columns.push_back({concat(start, '_', name), [=](const CastFace& face) -> std::string {
+    columns.push_back({concat(start, '_', name), [=](const FacePlan& face) -> std::string {
                          const RegionRecipe& own = face.recipe.regions[region];
                          return band < band_count(own) ? value(band_of(own, band)) : "";
                        }});
@@ -66,7 +66,7 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
 /// To add a column, add a row here.
 /// \param names  must outlive the columns.
 TableColumns table_columns(const PlanNames& names) {
-  using Face = const CastFace&;
+  using Face = const FacePlan&;
   const auto is_mirrored = [](Face face) { return !is_unmirrored(face.recipe); };
   TableColumns columns = {
       {"id", [](Face face) { return face.id; }},
@@ -119,7 +119,7 @@ std::string table_line(const TableColumns& columns, const Text& text) {
 
 }  // namespace
 
-TextPieces table_text(const std::vector<CastFace>& crowd, const PlanNames& names) {
+TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names) {
   TableColumns columns = table_columns(names);
   std::erase_if(columns, [&](const TableColumn& column) {
     return column.applies && std::ranges::none_of(crowd, column.applies);

@@ -48,7 +48,7 @@ Json inherits_to_json(const std::vector<std::string>& inherits, std::size_t regi
 
 }  // namespace
 
-Json face_to_json(const CastFace& face, const PlanNames& names, const Digest& settings) {
+Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& settings) {
   Json json;
   json["id"] = face.id;
   json["index"] = or_null(face.index);

@@ -143,7 +143,7 @@ LedgerLines parse_ledger(std::string_view text) {
 }
 
 LedgerLines read_ledger(const fs::path& path, std::string_view item) {
-  if (!is_there(path)) return {};
+  if (!path_exists(path)) return {};
   std::string start = item.empty() ? "" : concat(R"({"item":)", Json(item).dump());
   if (!start.empty()) start.pop_back();  // drop the quote after the name
   LedgerReader reader;
@@ -155,7 +155,7 @@ LedgerLines read_ledger(const fs::path& path, std::string_view item) {
 
 void remove_recorded(const fs::path& root, const LedgerEntry::File& file) {
   fs::path path = root / file.name;
-  if (!leads_below(path, root) || !holds(path, file.content)) return;
+  if (!is_inside_folder(path, root) || !holds(path, file.content)) return;
   std::error_code error;
   fs::remove(path, error);
   if (error) throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
@@ -188,7 +188,7 @@ Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& 
                        lines.damaged == 1 ? " line is" : " lines are",
                        " not whole; what they stand for is done again"));
   }
-  if (lines.damaged > 0 || !is_there(own)) {
+  if (lines.damaged > 0 || !path_exists(own)) {
     write_file(own, text_of_items(lines.entries.size(),
                                   [&](std::size_t i) { return line_with_end(lines.entries[i]); }));
   }
@@ -260,7 +260,7 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
 }
 
 FileDigest Ledger::write(const std::string& name, const TextPieces& text) {
-  if (!is_there(root_ / name)) {
+  if (!path_exists(root_ / name)) {
     const FileDigest content = write_file(root_ / name, text);
     keep({name, content});
     return content;
@@ -312,7 +312,7 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     LedgerEntry entry = line_of(known_of.lines);
     std::vector<LedgerEntry::File> files = entry.files;
     for (LedgerEntry::File& file : files) {
-      if (!is_in_them(file.name) || !is_there(root_ / file.name)) continue;
+      if (!is_in_them(file.name) || !path_exists(root_ / file.name)) continue;
       file.content = hash_file(root_ / file.name);
     }
     adopt_entry(std::move(entry), std::move(files));
@@ -369,7 +369,7 @@ void Ledger::settle() {
 
 void Ledger::require_files() const {
   const auto require = [&](const fs::path& path) {
-    if (is_there(path)) return;
+    if (path_exists(path)) return;
     throw IoError(concat(path.string(),
                          ": was removed while the run was at work; run the same command again"));
   };

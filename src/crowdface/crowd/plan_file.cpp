@@ -29,7 +29,7 @@ class LineReader {
     const Json json = parse_shallow_json(line);
     if (!json.is_object()) fail("line", "a JSON object", "something else");
     PlanLine result;
-    CastFace& face = result.face;
+    FacePlan& face = result.face;
     face.id = file_name(json, "id", kLongestId);
     if (const Json& index = member(json, "index"); !index.is_null()) {
       face.index = whole(index, "index");
@@ -75,7 +75,7 @@ class LineReader {
         }
       }
     }
-    if (const Json* worn = found(json, "attachments")) face.attachments = attachments(*worn);
+    if (const Json* placed = found(json, "attachments")) face.attachments = attachments(*placed);
     if (json.contains("note")) face.notes.review = text(json, "note");
     if (const Json* near = found(json, "nearest")) face.notes.nearest = nearest(*near);
     result.settings = text(json, "settings");
@@ -150,17 +150,17 @@ class LineReader {
 
   std::vector<std::string> attachments(const Json& json) const {
     if (!json.is_array()) fail("attachments", "a list of names", json.dump());
-    std::vector<std::string> worn;
+    std::vector<std::string> placed;
     for (const Json& value : json) {
       const std::string name = value.is_string() ? value.get<std::string>() : "";
       const auto& known = names_.attachments;
       if (std::find(known.begin(), known.end(), name) == known.end() ||
-          std::find(worn.begin(), worn.end(), name) != worn.end()) {
+          std::find(placed.begin(), placed.end(), name) != placed.end()) {
         fail("attachments", "names of attachments, each once", value.dump());
       }
-      worn.push_back(name);
+      placed.push_back(name);
     }
-    return worn;
+    return placed;
   }
 
   double coordinate(const Json& value) const {
@@ -253,7 +253,7 @@ class LineReader {
 
 }  // namespace
 
-std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings) {
+std::string format_recipe(const FacePlan& face, const PlanNames& names, const Digest& settings) {
   return face_to_json(face, names, settings).dump();
 }
 
@@ -272,7 +272,7 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
   return plan;
 }
 
-TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
+TextPieces plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                      const Digest& settings) {
   return text_of_items(crowd.size(), [&crowd, &names, settings](std::size_t i) {
     return format_recipe(crowd[i], names, settings) + '\n';

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/core/text_pieces.h"
@@ -15,11 +15,11 @@ namespace crowdface {
 
 /// One line of plan.jsonl without a line end (docs/crowd-directory.md lists the fields). Numbers
 /// have full precision, distances four decimals.
-std::string format_recipe(const CastFace& face, const PlanNames& names, const Digest& settings);
+std::string format_recipe(const FacePlan& face, const PlanNames& names, const Digest& settings);
 
 /// A face read from a plan, and the hash of the settings under which it was cast.
 struct PlanLine {
-  CastFace face;
+  FacePlan face;
   std::string settings;
 };
 
@@ -32,7 +32,7 @@ PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::
 std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names);
 
 /// The text of a plan. All arguments must outlive the text.
-TextPieces plan_text(const std::vector<CastFace>& crowd, const PlanNames& names,
+TextPieces plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                      const Digest& settings);
 
 }  // namespace crowdface

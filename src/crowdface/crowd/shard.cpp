@@ -31,12 +31,12 @@ std::string Shard::name() const {
 }
 
 std::optional<Shard> parse_shard(std::string_view text) {
-  constexpr std::uint64_t kMost = 9999;
+  constexpr std::uint64_t kMax = 9999;
   const std::size_t slash = text.find('/');
   if (slash == text.npos) return std::nullopt;
   const auto index = parse_unsigned(text.substr(0, slash));
   const auto count = parse_unsigned(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *index > *count || *count > kMost) return std::nullopt;
+  if (!index || !count || *index < 1 || *index > *count || *count > kMax) return std::nullopt;
   return Shard{*index, *count};
 }
 

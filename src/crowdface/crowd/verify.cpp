@@ -75,7 +75,7 @@ CrowdCheck verify_crowd(const fs::path& crowd_directory) {
   CrowdCheck check;
   const auto entries = read_ledgers(directory, check);
   compare_files(directory, entries, check);
-  if (is_there(directory.plan())) {
+  if (path_exists(directory.plan())) {
     for (const std::string& id : ids_in_plan(directory)) {
       if (!entries.contains(concat("faces/", id))) check.unfinished.push_back(id);
     }

@@ -56,7 +56,7 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
 
   YamlNode edits;
   // A file that the config does not name yet may contain the edits of an editor that was killed.
-  if (named != nullptr || is_there(file)) edits = parsed(read_file(file), file.string());
+  if (named != nullptr || path_exists(file)) edits = parsed(read_file(file), file.string());
   merge_edits(parsed(sections, "edits"), edits);
   const std::string text = text_of(edits);
 
@@ -66,7 +66,7 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   with_trial.set.push_back(concat("edits=", write_scalar(concat(name, ".trial"))));
   Problems problems;
   read_config(config, with_trial, problems);
-  remove_if_there(trial);
+  remove_if_exists(trial);
   problems.throw_if_any();
   write_file(file, text);
   if (named != nullptr) return file;

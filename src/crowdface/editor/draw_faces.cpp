@@ -19,7 +19,7 @@ double between(double a, double b, double share) {
 
 /// \param sources  sources of the band
 BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index target,
-                   const std::vector<Index>& sources, const Casting& casting) {
+                   const std::vector<Index>& sources, const CastingOptions& casting) {
   BandRecipe band;
   if (a.position && b.position) {
     band.position = *a.position + share * (*b.position - *a.position);
@@ -34,14 +34,15 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
   return band;
 }
 
-CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint32_t attempt) {
+FacePlan draw_one(const CastingOptions& casting, const DrawRequest& request,
+                  std::uint32_t attempt) {
   const bool keeps_target = request.like || !request.locked.empty();
-  const CastFace& old = request.like ? *request.like : request.from;
+  const FacePlan& old = request.like ? *request.like : request.from;
   HandRecipe open;
   open.id = request.from.id;
   open.age = Range{0, 0};
   if (keeps_target) open.target = old.recipe.target;
-  CastFace face =
+  FacePlan face =
       draw_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
   if (keeps_target) {
     face.recipe.mixture = old.recipe.mixture;
@@ -63,22 +64,22 @@ CastFace draw_one(const Casting& casting, const DrawRequest& request, std::uint3
 
 }  // namespace
 
-std::vector<CastFace> draw_faces(const Casting& casting, const FaceJudge& judge,
+std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge& judge,
                                  const FacePointIndex& crowd, const DrawRequest& request) {
   constexpr std::uint32_t kAttemptsEach = 40;
   const auto most = static_cast<std::uint32_t>(request.count) * kAttemptsEach;
-  std::vector<CastFace> faces;
+  std::vector<FacePlan> faces;
   std::map<Reason, std::uint32_t> reasons;
   for (std::uint32_t i = 0; i < most && faces.size() < request.count; ++i) {
     throw_if_interrupted();
-    CastFace face = draw_one(casting, request, request.first_attempt + i);
+    FacePlan face = draw_one(casting, request, request.first_attempt + i);
     const FaceSpace::Point point = judge.space().point(face.recipe);
-    std::optional<Reason> why = judge.at_a_glance(face.recipe, point);
+    std::optional<Reason> why = judge.check_recipe(face.recipe, point);
     const double least = casting.diversity.min_distance_mm;
     if (!why && !request.like && least > 0 && crowd.nearest(point, least).face >= 0) {
       why = Reason::kMinDistance;
     }
-    if (!why) why = judge.closely(face.recipe);
+    if (!why) why = judge.check_skin(face.recipe);
     if (why) {
       ++reasons[*why];
     } else {

@@ -13,10 +13,10 @@ namespace crowdface {
 
 /// A request to draw faces for the user to choose from.
 struct DrawRequest {
-  CastFace from;  ///< supplies the id and all locked parts
+  FacePlan from;  ///< supplies the id and all locked parts
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
-  std::optional<CastFace> like;  ///< draw variations of this face
+  std::optional<FacePlan> like;  ///< draw variations of this face
   double amount = 1;  ///< how far variations move from `like` towards a freely drawn face, 0 to 1
   std::size_t count = 1;            ///< number of faces to draw
   std::uint32_t first_attempt = 0;  ///< a different number yields different faces
@@ -26,7 +26,7 @@ struct DrawRequest {
 /// distance from the crowd.
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.
-std::vector<CastFace> draw_faces(const Casting& casting, const FaceJudge& judge,
+std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge& judge,
                                  const FacePointIndex& crowd, const DrawRequest& request);
 
 }  // namespace crowdface

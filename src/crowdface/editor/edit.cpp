@@ -39,12 +39,12 @@ class EditorLock {
   explicit EditorLock(const std::filesystem::path& folder)
       : address_(folder / ".address"),
         lock_(folder / ".editor.lock", LockKind::kExclusive, [&] { refuse(folder, address_); }) {}
-  ~EditorLock() { remove_if_there(address_); }
+  ~EditorLock() { remove_if_exists(address_); }
 
   /// Writes the address for other editors to report.
   /// \throws CannotCreate
   void tell(const std::string& address) {
-    remove_if_there(address_);
+    remove_if_exists(address_);
     constexpr mode_t kOwnerOnly = 0600;
     Descriptor file(
         ::open(address_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));

@@ -24,7 +24,7 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       open_again_(std::move(open_again)),
       page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
-      worn_(session.job(), session.crowd()),
+      placed_(session.job(), session.crowd()),
       painting_(session, folder.path() / "strokes.jsonl") {
   folder_.finish_saves(session_.job(), mesh_writer());
 }
@@ -69,7 +69,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
 HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
   Json json = session_.description();
   json["can_edit_config"] = may_edit_config_;
-  json["attachments"] = worn_.kinds();
+  json["attachments"] = placed_.kinds();
   return json_answer(json);
 }
 
@@ -96,12 +96,12 @@ HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
 }
 
 HttpAnswer EditApi::attachment(const HttpRequest&, const std::string& rest) {
-  auto look = worn_.look(rest);
+  auto look = placed_.look(rest);
   if (!look) return refusal(404, "there is no such attachment");
   return {200, "application/json", std::move(*look)};
 }
 
-CastFace EditApi::face_of(const Json& body, const std::string& key) const {
+FacePlan EditApi::face_of(const Json& body, const std::string& key) const {
   return face_of_json(body.contains(key) ? body[key] : Json(), session_.casting(),
                       session_.job().config);
 }
@@ -119,27 +119,27 @@ std::vector<std::size_t> EditApi::parts_in(const Json& body, const std::string& 
 }
 
 HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
-  constexpr double kMostFaces = 64;
+  constexpr double kMaxFaces = 64;
   constexpr std::uint32_t kAttempts = 4096;  // more than one request needs
   const Json body = body_of(request);
   DrawRequest draw{face_of(body), parts_in(body, "locked"), std::nullopt};
   if (body.contains("like") && !body["like"].is_null()) draw.like = face_of(body, "like");
   if (body.contains("amount")) draw.amount = number_in(body, "amount", 0, 1);
   if (body.contains("count")) {
-    draw.count = static_cast<std::size_t>(number_in(body, "count", 1, kMostFaces));
+    draw.count = static_cast<std::size_t>(number_in(body, "count", 1, kMaxFaces));
   }
   draw.first_attempt = draws_.fetch_add(kAttempts);
   Json recipes = Json::array();
-  for (const CastFace& face : session_.draw(draw)) {
+  for (const FacePlan& face : session_.draw(draw)) {
     recipes.push_back(recipe_to_json(face, session_.casting(), session_.job().config));
   }
   return json_answer({{"recipes", recipes}});
 }
 
 void EditApi::note_turn(const std::string& page, std::uint64_t turn) {
-  constexpr std::size_t kMostPages = 64;
+  constexpr std::size_t kMaxPages = 64;
   const std::lock_guard lock(turns_mutex_);
-  if (turns_.size() > kMostPages) turns_.clear();
+  if (turns_.size() > kMaxPages) turns_.clear();
   std::uint64_t& newest = turns_[page];
   newest = std::max(newest, turn);
 }
@@ -169,12 +169,12 @@ HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
 }
 
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
-  constexpr double kMostTurns = 1e15;
+  constexpr double kMaxTurns = 1e15;
   const Json body = body_of(request);
-  const CastFace face = face_of(body);
+  const FacePlan face = face_of(body);
   const std::string page = body.contains("page") ? text_in(body, "page") : "";
-  const auto turn = static_cast<std::uint64_t>(
-      body.contains("turn") ? number_in(body, "turn", 0, kMostTurns) : 0);
+  const auto turn =
+      static_cast<std::uint64_t>(body.contains("turn") ? number_in(body, "turn", 0, kMaxTurns) : 0);
   if (!page.empty()) note_turn(page, turn);
   const std::lock_guard lock(building_);
   if (!page.empty() && overtaken(page, turn)) return refusal(409, "overtaken by a newer request");
@@ -191,8 +191,8 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   const std::string opened =
       body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
   answer.head["worn"] = Json::array();
-  for (const WornAttachment& one : worn_.worn_by(face, opened, chosen, positions)) {
-    const std::vector<float> places = worn_.points(one);
+  for (const PlacedAttachment& one : placed_.attachments_of(face, opened, chosen, positions)) {
+    const std::vector<float> places = placed_.points(one);
     answer.head["worn"].push_back(one.item->name);
     answer.add(concat("worn ", one.item->name), std::span(places));
   }

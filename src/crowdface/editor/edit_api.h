@@ -12,9 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/editor/edit_attachments.h"
 #include "crowdface/editor/edit_pictures.h"
 #include "crowdface/editor/edit_session.h"
-#include "crowdface/editor/edit_worn.h"
 #include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/generate_run.h"
 #include "crowdface/editor/region_painting.h"
@@ -61,7 +61,7 @@ class EditApi {
   // Readers for the body of a request.
   // \throws UsageError with the key's name.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
-  CastFace face_of(const Json& body, const std::string& key = "recipe") const;
+  FacePlan face_of(const Json& body, const std::string& key = "recipe") const;
   Json told(const FaceMeasures& measures) const;
   void note_turn(const std::string& page, std::uint64_t turn);
   bool overtaken(const std::string& page, std::uint64_t turn);
@@ -73,7 +73,7 @@ class EditApi {
   std::function<void()> open_again_;
   PageFiles page_;
   EditPictures pictures_;
-  EditWorn worn_;
+  EditAttachments placed_;
   RegionPainting painting_;  ///< guarded by `building_`
   std::mutex building_;      ///< builds one face at a time, because each build uses all cores
   /// Attempts so far, so that each draw differs from the previous draws.

@@ -60,7 +60,7 @@ HttpAnswer EditApi::keep_state(const HttpRequest& request, const std::string&) {
 }
 
 EditedFolder::WriteMesh EditApi::mesh_writer() {
-  return [this](const CastFace& face, MeshFormat format, const std::filesystem::path& file) {
+  return [this](const FacePlan& face, MeshFormat format, const std::filesystem::path& file) {
     write_face(session_.job(), pictures_.textures(), face, format, session_.build(face.recipe),
                file);
   };
@@ -68,7 +68,7 @@ EditedFolder::WriteMesh EditApi::mesh_writer() {
 
 HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   const Json body = body_of(request);
-  const CastFace face = face_of(body);
+  const FacePlan face = face_of(body);
   const std::string name = text_in(body, "format");
   const auto format = mesh_format_of("face." + name);
   if (!format) {
@@ -82,12 +82,12 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
 }
 
 HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
-  constexpr double kLeast = 64, kMost = 4096;
+  constexpr double kMin = 64, kMax = 4096;
   const Json body = body_of(request);
-  const CastFace face = face_of(body);
+  const FacePlan face = face_of(body);
   const View view = view_in(body);
   const auto size =
-      body.contains("size") ? static_cast<int>(number_in(body, "size", kLeast, kMost)) : 1024;
+      body.contains("size") ? static_cast<int>(number_in(body, "size", kMin, kMax)) : 1024;
   const std::lock_guard lock(building_);
   painting_.apply();
   std::string png = pictures_.picture(face.recipe, session_.build(face.recipe), view, size);
@@ -151,8 +151,8 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
   const Json body = body_of(request);
   ReviewMark mark;
   mark.id = text_in(body, "id");
-  const std::vector<CastFace>* crowd = session_.crowd();
-  if (crowd == nullptr || std::ranges::find(*crowd, mark.id, &CastFace::id) == crowd->end()) {
+  const std::vector<FacePlan>* crowd = session_.crowd();
+  if (crowd == nullptr || std::ranges::find(*crowd, mark.id, &FacePlan::id) == crowd->end()) {
     throw UsageError(concat("no face of this crowd is called ", crowdface::quoted(mark.id)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");

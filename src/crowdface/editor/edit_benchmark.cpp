@@ -15,7 +15,7 @@ namespace {
 using Change = std::function<void(Recipe& recipe, double turn)>;
 
 /// Moves a region between the anchors of two heads.
-void move(const Casting& casting, Recipe& recipe, std::size_t region, double share) {
+void move(const CastingOptions& casting, Recipe& recipe, std::size_t region, double share) {
   const std::vector<PlanePoint>& anchors = casting.anchors;
   const PlanePoint at = (1 - share) * anchors[region % anchors.size()] +
                         share * anchors[(region + 1) % anchors.size()];
@@ -57,7 +57,7 @@ std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverr
   const EditSession session(load_edited_job(given, overrides, options.cache), options.cache,
                             options.preview_vertices);
   const std::chrono::duration<double> opened = std::chrono::steady_clock::now() - begin;
-  const Casting& casting = session.casting();
+  const CastingOptions& casting = session.casting();
   Recipe start;
   for (const RegionSampling& sampling : casting.sampling.regions) {
     start.regions.push_back({});

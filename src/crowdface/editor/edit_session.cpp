@@ -31,15 +31,15 @@ std::string sentence(Reason reason, const Config& config) {
 /// The faces in the job's output folder if the folder holds a plan with the same heads, masks and
 /// smoothing settings. Returns nothing without a plan; warns and returns nothing if the plan does
 /// not match.
-std::optional<std::vector<CastFace>> crowd_of_job(const Job& job) {
+std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
   const CrowdDirectory directory = directory_of(job.config);
-  if (!is_there(directory.plan())) return std::nullopt;
+  if (!path_exists(directory.plan())) return std::nullopt;
   const auto refuse = [&](std::string_view why) {
     log_warning(concat(directory.root.string(), ": its faces are not shown: ", why));
     return std::nullopt;
   };
   try {
-    std::vector<CastFace> faces;
+    std::vector<FacePlan> faces;
     for (PlanLine& line : read_plan(directory.plan(), job.names)) {
       if (line.settings != job.settings.hex()) {
         return refuse("they were cast under other settings");
@@ -66,7 +66,7 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       textures_(job_.inputs),
       reducing_(std::async(std::launch::async,
                            [this, preview_vertices] {
-                             const FaceSet& faces = job_.inputs.faces;
+                             const HeadSet& faces = job_.inputs.faces;
                              return preview_mesh(faces.topology, textures_.coordinates(),
                                                  mean_head(faces),
                                                  drawn_faces(surfaces_of(job_.config, job_.inputs)),
@@ -76,10 +76,10 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
       builder_(job_.config, job_.inputs, prepared_),
       judging_(std::async(std::launch::async, [this] { return judging(); }).share()),
-      casting_(casting_of(job_.config, job_.inputs,
-                          job_.config.plane.layout == Layout::kSimilarity
-                              ? judging_.get().where->space.head_distances()
-                              : Eigen::MatrixXd())),
+      casting_(casting_options(job_.config, job_.inputs,
+                               job_.config.plane.layout == Layout::kSimilarity
+                                   ? judging_.get().where->space.head_distances()
+                                   : Eigen::MatrixXd())),
       preview_(reducing_.get()),
       around_(job_.inputs.faces.topology) {
   if (job_.config.smoothing.levels == Levels::kExact) {
@@ -118,7 +118,7 @@ void EditSession::use_masks(const RegionWeights& masks) {
   kept_ = {};
 }
 
-FaceMeasures EditSession::measure(const CastFace& recipe) const {
+FaceMeasures EditSession::measure(const FacePlan& recipe) const {
   const Judging& judging = judging_.get();
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
@@ -127,7 +127,7 @@ FaceMeasures EditSession::measure(const CastFace& recipe) const {
   measures.head = head.face;
   measures.head_mm = head.mm;
   if (crowd_) {
-    const auto own = std::ranges::find(*crowd_, recipe.id, &CastFace::id);
+    const auto own = std::ranges::find(*crowd_, recipe.id, &FacePlan::id);
     const Index at = own - crowd_->begin();
     FacePointIndex::Nearest nearest = judging.crowd.nearest(point, HUGE_VAL, 0, at);
     if (own != crowd_->end()) {
@@ -139,16 +139,16 @@ FaceMeasures EditSession::measure(const CastFace& recipe) const {
       measures.face_mm = nearest.mm;
     }
   }
-  if (const auto why = judge.at_a_glance(recipe.recipe, point)) {
+  if (const auto why = judge.check_recipe(recipe.recipe, point)) {
     measures.warnings.push_back(sentence(*why, job_.config));
   }
-  if (const auto why = judge.closely(recipe.recipe)) {
+  if (const auto why = judge.check_skin(recipe.recipe)) {
     measures.warnings.push_back(sentence(*why, job_.config));
   }
   return measures;
 }
 
-FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face) const {
+FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face) const {
   FaceMeasures measures = measure(recipe);
   if (job_.config.believability.check &&
       builder_.wider_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
@@ -157,7 +157,7 @@ FaceMeasures EditSession::measure(const CastFace& recipe, const Positions& face)
   return measures;
 }
 
-std::vector<CastFace> EditSession::draw(const DrawRequest& request) const {
+std::vector<FacePlan> EditSession::draw(const DrawRequest& request) const {
   const Judging& judging = judging_.get();
   return draw_faces(casting_, judging.judge, judging.crowd, request);
 }

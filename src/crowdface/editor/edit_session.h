@@ -50,8 +50,8 @@ class EditSession {
   EditSession& operator=(const EditSession&) = delete;
 
   const Job& job() const { return job_; }
-  const Casting& casting() const { return casting_; }
-  const std::vector<CastFace>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+  const CastingOptions& casting() const { return casting_; }
+  const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   const PreviewMesh& preview() const { return preview_; }
   /// The heads' textures, in the layout of the preview's texture coordinates.
   const TextureAtlas& textures() const { return textures_; }
@@ -74,11 +74,11 @@ class EditSession {
   /// previous face in few regions.
   Positions build(const Recipe& recipe) const;
   /// Measures a face without its mesh, and therefore does not check for gaps between parts.
-  FaceMeasures measure(const CastFace& recipe) const;
+  FaceMeasures measure(const FacePlan& recipe) const;
   /// \param face  result of `build`
-  FaceMeasures measure(const CastFace& recipe, const Positions& face) const;
+  FaceMeasures measure(const FacePlan& recipe, const Positions& face) const;
   /// See draw_faces.
-  std::vector<CastFace> draw(const DrawRequest& request) const;
+  std::vector<FacePlan> draw(const DrawRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.
   std::vector<float> normals(const Positions& face) const;
   /// Positions at the preview's vertices, #preview by 3.
@@ -94,21 +94,21 @@ class EditSession {
   };
   Judging judging() const;
   nlohmann::ordered_json regions_json() const;
-  CastFace first_face() const;
+  FacePlan first_face() const;
   std::vector<HeadLevels> preview_levels() const;
 
   Job job_;
   TextureAtlas textures_;
   /// Runs in parallel with the construction of the following members.
   std::future<PreviewMesh> reducing_;
-  std::optional<std::vector<CastFace>> crowd_;
+  std::optional<std::vector<FacePlan>> crowd_;
   Prepared prepared_;
   std::optional<Prepared> fitted_;  ///< set for `levels: exact`: fields for the preview only
   FaceBuilder builder_;
   mutable std::mutex kept_mutex_;
   mutable FaceBuilder::Kept kept_;
   std::shared_future<Judging> judging_;
-  Casting casting_;
+  CastingOptions casting_;
   PreviewMesh preview_;
   FacesAround around_;
 };

@@ -32,7 +32,7 @@ constexpr const char* kPlan = "edited.jsonl";
 
 /// All lines of a plan except the line with the given id.
 std::string other_lines(const fs::path& plan, const std::string& id, const PlanNames& names) {
-  if (!is_there(plan)) return {};
+  if (!path_exists(plan)) return {};
   std::string lines;
   for (const PlanLine& line : read_plan(plan, names)) {
     if (line.face.id == id) continue;
@@ -74,7 +74,7 @@ std::vector<std::string> EditedFolder::formats() {
 
 std::string EditedFolder::state() const {
   const fs::path file = path_ / "state.json";
-  return is_there(file) ? read_file(file) : std::string();
+  return path_exists(file) ? read_file(file) : std::string();
 }
 
 void EditedFolder::keep_state(std::string_view text) {
@@ -83,21 +83,21 @@ void EditedFolder::keep_state(std::string_view text) {
   write_file(path_ / "state.json", text);
 }
 
-void EditedFolder::write_meshes(const CastFace& face, const std::string& ending,
+void EditedFolder::write_meshes(const FacePlan& face, const std::string& ending,
                                 const WriteMesh& write) const {
   for (const MeshFormat format : all_mesh_formats()) {
     const fs::path mesh = path_ / concat(face.id, extension_of(format));
-    if (extension_of(format) == ending || is_there(mesh)) write(face, format, mesh);
+    if (extension_of(format) == ending || path_exists(mesh)) write(face, format, mesh);
   }
 }
 
-fs::path EditedFolder::save(const Job& job, const CastFace& face, MeshFormat format,
+fs::path EditedFolder::save(const Job& job, const FacePlan& face, MeshFormat format,
                             const WriteMesh& write) {
   const std::lock_guard lock(mutex_);
   require_same();
   const fs::path plan = path_ / kPlan, saving = path_ / concat(kSaving, face.id);
   const std::string ending(extension_of(format));
-  const std::string before = is_there(plan) ? read_file(plan) : std::string();
+  const std::string before = path_exists(plan) ? read_file(plan) : std::string();
   const std::string others = other_lines(plan, face.id, job.names);
   write_file(saving, ending);
   write_file(plan, others + format_recipe(face, job.names, job.settings) + '\n');
@@ -107,7 +107,7 @@ fs::path EditedFolder::save(const Job& job, const CastFace& face, MeshFormat for
     take_back(plan, before);
     throw;
   }
-  remove_if_there(saving);
+  remove_if_exists(saving);
   return path_ / concat(face.id, ending);
 }
 
@@ -119,12 +119,12 @@ void EditedFolder::finish_saves(const Job& job, const WriteMesh& write) {
     try {
       const fs::path plan = path_ / kPlan;
       const std::vector<PlanLine> lines =
-          is_there(plan) ? read_plan(plan, job.names) : std::vector<PlanLine>();
+          path_exists(plan) ? read_plan(plan, job.names) : std::vector<PlanLine>();
       for (const PlanLine& line : lines) {
         if (line.face.id != name.substr(kSaving.size())) continue;
         write_meshes(line.face, read_file(saving), write);
       }
-      remove_if_there(saving);
+      remove_if_exists(saving);
     } catch (const RecoverableError& error) {
       log_warning(concat(saving.string(), ": a face was not saved to the end: ", error.what()));
     }
@@ -143,7 +143,7 @@ fs::path EditedFolder::save_mark(const Config& config, const ReviewMark& mark) {
   fs::path file = path_ / "review.yaml";
   Problems problems;
   Review review;
-  if (is_there(file)) review = parse_review(read_file(file), file.string(), config, problems);
+  if (path_exists(file)) review = parse_review(read_file(file), file.string(), config, problems);
   problems.throw_if_any();
   const auto known = std::ranges::find(review, mark.id, &ReviewMark::id);
   if (known == review.end()) {

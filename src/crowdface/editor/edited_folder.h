@@ -39,12 +39,12 @@ class EditedFolder {
 
   /// Writes the mesh of a face in one format.
   using WriteMesh =
-      std::function<void(const CastFace&, MeshFormat, const std::filesystem::path& file)>;
+      std::function<void(const FacePlan&, MeshFormat, const std::filesystem::path& file)>;
   /// Writes the recipe to edited.jsonl, in place of a recipe with the same id, then the mesh that
   /// `crowdface blend` makes from the recipe. If meshes of this face exist in other formats,
   /// rewrites them, too.
   /// \return the file of the mesh
-  std::filesystem::path save(const Job& job, const CastFace& face, MeshFormat format,
+  std::filesystem::path save(const Job& job, const FacePlan& face, MeshFormat format,
                              const WriteMesh& write);
   /// Writes the meshes that are older than their recipe because a save was interrupted by a crash
   /// or a disk error.
@@ -55,10 +55,10 @@ class EditedFolder {
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
 
  private:
-  void write_meshes(const CastFace& face, const std::string& ending, const WriteMesh& write) const;
+  void write_meshes(const FacePlan& face, const std::string& ending, const WriteMesh& write) const;
 
   std::filesystem::path path_;
-  HeldFolder held_;
+  DirectoryHandle held_;
   std::mutex mutex_;
 };
 

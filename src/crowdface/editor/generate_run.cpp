@@ -127,7 +127,7 @@ void GenerateRun::look(int options) {
 }
 
 RunProgress GenerateRun::progress() const {
-  return is_there(log_) ? read_progress(read_file(log_)) : RunProgress{};
+  return path_exists(log_) ? read_progress(read_file(log_)) : RunProgress{};
 }
 
 }  // namespace crowdface

@@ -15,14 +15,14 @@ using Json = nlohmann::ordered_json;
 
 /// Whether the weights are exactly those that the position determines.
 bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sources, Index target,
-                         const Casting& casting) {
+                         const CastingOptions& casting) {
   return band.position &&
          weights_at(casting.anchors, target, sources, *band.position, casting.normalization,
                     casting.sampling.max_sources) == band.weights;
 }
 
 Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
-                  const Casting& casting, const std::vector<std::string>& heads) {
+                  const CastingOptions& casting, const std::vector<std::string>& heads) {
   Json json;
   // Empty weights, which a printed normalisation may yield, cannot be written out.
   if (comes_from_position(band, sources, target, casting) || band.weights.empty()) {
@@ -43,7 +43,7 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
 }
 
 /// The values of the first band directly, and those of the other bands under their names.
-Json region_to_json(const RegionRecipe& region, Index target, const Casting& casting,
+Json region_to_json(const RegionRecipe& region, Index target, const CastingOptions& casting,
                     const std::vector<std::string>& heads) {
   const SamplingOptions& sampling = casting.sampling;
   Json json = band_to_json(region, sources_of(sampling, 0), target, casting, heads);
@@ -82,7 +82,7 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
 
 }  // namespace
 
-Json recipe_to_json(const CastFace& face, const Casting& casting, const Config& config) {
+Json recipe_to_json(const FacePlan& face, const CastingOptions& casting, const Config& config) {
   const std::vector<std::string>& heads = config.faces.names;
   Json json;
   json["id"] = face.id;
@@ -113,7 +113,7 @@ HandRecipe hand_recipe_of_json(const Json& recipe, const Config& config) {
   return std::move(*hand);
 }
 
-CastFace face_of_json(const Json& recipe, const Casting& casting, const Config& config) {
+FacePlan face_of_json(const Json& recipe, const CastingOptions& casting, const Config& config) {
   Json entry = recipe;
   std::vector<SourceWeight> mixture;
   if (entry.is_object() && entry.contains("mixture")) {
@@ -124,7 +124,7 @@ CastFace face_of_json(const Json& recipe, const Casting& casting, const Config& 
   if (!hand.age) hand.age = Range{0, 0};
   if (!hand.asymmetry) hand.asymmetry = Range{1, 1};
   if (!hand.mirrored) hand.mirrored = false;
-  CastFace face = draw_hand_recipe(casting, hand);
+  FacePlan face = draw_hand_recipe(casting, hand);
   if (!is_unmirrored(face.recipe) && mirroring_key(config).empty()) {
     throw UsageError(
         "asymmetry and mirrored: expected a config that has sampling.asymmetry, "

@@ -10,13 +10,13 @@ namespace crowdface {
 
 /// The recipe as an entry of the config's `recipes`, with all regions written out. If the target is
 /// a mixture of heads, the entry also has `mixture: {head: share}`, which a config must not have.
-nlohmann::ordered_json recipe_to_json(const CastFace& face, const Casting& casting,
+nlohmann::ordered_json recipe_to_json(const FacePlan& face, const CastingOptions& casting,
                                       const Config& config);
 
 /// Reads a face from an entry that recipe_to_json or a user wrote. Ignores the ages of the config:
 /// a recipe without an age keeps its shape.
 /// \throws UsageError with all mistakes, in the words of the config's messages.
-CastFace face_of_json(const nlohmann::ordered_json& recipe, const Casting& casting,
+FacePlan face_of_json(const nlohmann::ordered_json& recipe, const CastingOptions& casting,
                       const Config& config);
 
 /// Converts the entry for saving in a config's `recipes` section.

@@ -119,19 +119,19 @@ Index RegionPainting::region_in(const Json& body, const std::string& key) const 
 }
 
 void RegionPainting::paint(const Json& body) {
-  constexpr std::size_t kMostPoints = 1000;
-  constexpr double kLeastRadius = 0.1, kMostRadius = 200;
+  constexpr std::size_t kMaxPoints = 1000;
+  constexpr double kMinRadius = 0.1, kMaxRadius = 200;
   const Index region = region_in(body, "region");
   Brush brush;
   brush.mode = mode_in(body);
-  brush.radius = number_in(body, "radius_mm", kLeastRadius, kMostRadius) /
+  brush.radius = number_in(body, "radius_mm", kMinRadius, kMaxRadius) /
                  mm_per(session_.job().config.faces.units);
   brush.strength = number_in(body, "strength", 0, 1);
   brush.falloff = number_in(body, "falloff", 0, 1);
   brush.mirror = is_true(body, "mirror");
   if (!body.contains("points") || !body["points"].is_array() || body["points"].empty() ||
-      body["points"].size() > kMostPoints) {
-    throw UsageError(concat("points: expected a list of 1 to ", kMostPoints));
+      body["points"].size() > kMaxPoints) {
+    throw UsageError(concat("points: expected a list of 1 to ", kMaxPoints));
   }
   std::vector<SurfacePoint> places;
   for (const Json& point : body["points"]) places.push_back(place_of(point));
@@ -197,7 +197,7 @@ PaintedRegions RegionPainting::regions(const Json& change) {
 
 std::vector<std::filesystem::path> RegionPainting::save(const PaintedRegions& regions,
                                                         const std::filesystem::path& path) const {
-  const FaceSet& faces = session_.job().inputs.faces;
+  const HeadSet& faces = session_.job().inputs.faces;
   const int size = mask_size(faces.topology.vertex_count);
   const MaskFiles images =
       encode_masks(paint_masks(faces.topology, faces.uvs, regions.alpha, mean_.skin, size), path);

@@ -83,9 +83,9 @@ Json EditSession::regions_json() const {
   return regions;
 }
 
-CastFace EditSession::first_face() const {
+FacePlan EditSession::first_face() const {
   if (crowd_ && !crowd_->empty()) return crowd_->front();
-  CastFace face;
+  FacePlan face;
   face.id = "edited";
   for (std::size_t k = 0; k < casting_.sampling.regions.size(); ++k) {
     RegionRecipe region;
@@ -156,7 +156,7 @@ Json EditSession::description() const {
   json["crowd"] = nullptr;
   if (crowd_) {
     json["crowd"] = {{"directory", config.output.directory.string()}, {"faces", Json::array()}};
-    for (const CastFace& face : *crowd_) {
+    for (const FacePlan& face : *crowd_) {
       Json entry = recipe_to_json(face, casting_, config);
       if (face.family) entry["family"] = *face.family;
       if (face.group) entry["group"] = *face.group;
@@ -169,7 +169,7 @@ Json EditSession::description() const {
 }
 
 std::string EditSession::mesh() const {
-  const FaceSet& faces = job_.inputs.faces;
+  const HeadSet& faces = job_.inputs.faces;
   const Surfaces surfaces = surfaces_of(job_.config, job_.inputs);
   const Positions mean = mean_head(faces);
   const VertexColours of_all =

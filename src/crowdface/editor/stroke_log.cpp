@@ -20,7 +20,7 @@ constexpr const char* kPaintedOn = "painted_on";
 
 StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
     : file_(std::move(file)), painted_on_(painted_on) {
-  if (!is_there(file_)) return;
+  if (!path_exists(file_)) return;
   std::istringstream lines(read_file(file_));
   bool known = false;
   for (std::string line; std::getline(lines, line) && !lines.eof();) {
@@ -35,7 +35,7 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
   }
   if (!known) {
     log_info(concat(file_.string(), ": was painted on other masks and is left out"));
-    remove_if_there(file_);
+    remove_if_exists(file_);
   } else {
     log_info(concat(file_.string(),
                     ": strokes that were not saved are painted again: ", strokes_.size()));
@@ -63,7 +63,7 @@ void StrokeLog::add(const Json& stroke) {
 void StrokeLog::clear() {
   open_.reset();
   strokes_.clear();
-  remove_if_there(file_);
+  remove_if_exists(file_);
 }
 
 }  // namespace crowdface

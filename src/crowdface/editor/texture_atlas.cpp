@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 // Width or height of a head's picture, and of the atlas.
-constexpr int kMostTexels = 2048, kMostOfAll = 4096;
+constexpr int kMaxTexels = 2048, kMaxOfAll = 4096;
 
 void append(std::vector<std::uint8_t>& pixels, const Light& texel) {
   for (const std::uint8_t value : to_srgb8(texel)) pixels.push_back(value);
@@ -31,19 +31,20 @@ TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {
     cells_ = static_cast<std::uint32_t>(textures.blended.layout.pictures.size());
   } else {
     const auto first = std::ranges::find_if(
-        textures.coats, [](const TextureCoat& coat) { return !coat.textures.empty(); });
-    if (first == textures.coats.end()) return;
+        textures.texture_sets,
+        [](const TextureSet& texture_set) { return !texture_set.textures.empty(); });
+    if (first == textures.texture_sets.end()) return;
     cell_of_face_ = first->of_face;
     cells_ = static_cast<std::uint32_t>(first->textures.size());
-    for (const TextureCoat& coat : textures.coats) {
-      for (const auto& texture : coat.textures) {
+    for (const TextureSet& texture_set : textures.texture_sets) {
+      for (const auto& texture : texture_set.textures) {
         largest = std::max({largest, texture->width, texture->height});
       }
     }
   }
   columns_ = static_cast<int>(std::ceil(std::sqrt(cells_)));
   rows_ = (static_cast<int>(cells_) + columns_ - 1) / columns_;
-  cell_px_ = std::min({largest, kMostTexels, kMostOfAll / columns_});
+  cell_px_ = std::min({largest, kMaxTexels, kMaxOfAll / columns_});
 }
 
 TextureCoordinates TextureAtlas::coordinates() const {
@@ -55,7 +56,7 @@ TextureCoordinates TextureAtlas::coordinates() const {
   const double margin = 0.5 / cell_px_;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t cell = cell_of_face_[static_cast<std::size_t>(f)];
-    if (cell == TextureCoat::kNone) continue;
+    if (cell == TextureSet::kNone) continue;
     const auto corners = topology.face_uvs(f);
     Eigen::RowVector2d middle = Eigen::RowVector2d::Zero();
     for (const std::uint32_t uv : corners) middle += uvs.row(uv);
@@ -74,25 +75,27 @@ TextureCoordinates TextureAtlas::coordinates() const {
 bool TextureAtlas::has(Index head) const {
   const HeadTextures& textures = inputs_.textures;
   const auto h = static_cast<std::size_t>(head);
-  if (!textures.blend()) return !textures.coats.empty() && !textures.coats[h].textures.empty();
+  if (!textures.blend())
+    return !textures.texture_sets.empty() && !textures.texture_sets[h].textures.empty();
   const auto& maps = textures.blended.maps;
   return std::ranges::any_of(maps, [&](const auto& map) { return map[h] != nullptr; });
 }
 
 std::optional<std::string> TextureAtlas::picture(Index head) const {
   if (!has(head)) return std::nullopt;
-  const TextureCoat coat = *coat_of_head(inputs_.textures, head, cell_px_);
+  const TextureSet texture_set = *texture_set_of_head(inputs_.textures, head, cell_px_);
   std::vector<std::uint8_t> pixels;
-  if (cells_ == 1 && coat.textures.size() == 1) {
-    const Texture& texture = *coat.textures.front();
+  if (cells_ == 1 && texture_set.textures.size() == 1) {
+    const Texture& texture = *texture_set.textures.front();
     for (const Light& texel : texture.texels) append(pixels, texel);
     return encode_jpeg(texture.width, texture.height, pixels);
   }
   std::vector<const Texture*> shown(cells_, nullptr);
-  for (std::size_t f = 0; f < coat.of_face.size(); ++f) {
-    if (coat.of_face[f] == TextureCoat::kNone || cell_of_face_[f] == TextureCoat::kNone) continue;
+  for (std::size_t f = 0; f < texture_set.of_face.size(); ++f) {
+    if (texture_set.of_face[f] == TextureSet::kNone || cell_of_face_[f] == TextureSet::kNone)
+      continue;
     const Texture*& texture = shown[cell_of_face_[f]];
-    if (texture == nullptr) texture = coat.textures[coat.of_face[f]].get();
+    if (texture == nullptr) texture = texture_set.textures[texture_set.of_face[f]].get();
   }
   const int width = columns_ * cell_px_, height = rows_ * cell_px_;
   const auto side = static_cast<float>(cell_px_);

@@ -25,7 +25,7 @@ class TextureAtlas {
 
  private:
   const Inputs& inputs_;
-  std::vector<std::uint32_t> cell_of_face_;  ///< or TextureCoat::kNone; empty: no head has textures
+  std::vector<std::uint32_t> cell_of_face_;  ///< or TextureSet::kNone; empty: no head has textures
   std::uint32_t cells_ = 0;
   int columns_ = 1, rows_ = 1, cell_px_ = 0;
 };

@@ -17,11 +17,11 @@ namespace {
 
 // Even well-aligned heads of different people differ by a few degrees and a few hundredths of their
 // size. Larger differences mean that their coordinate frames differ.
-constexpr double kMostDegrees = 6;
-constexpr double kMostShift = 0.06;
-constexpr double kMostScale = 1.3;
+constexpr double kMaxDegrees = 6;
+constexpr double kMaxShift = 0.06;
+constexpr double kMaxScale = 1.3;
 constexpr double kOtherUnit = 5;  // ratio of sizes; beyond it, the head is in another unit
-constexpr double kMostTurn = 45;  // degrees; a larger rotation cannot be blended as detail
+constexpr double kMaxTurn = 45;   // degrees; a larger rotation cannot be blended as detail
 constexpr Index kPoints = 2000;
 
 /// Vertices of the skin at regular steps of their index.
@@ -56,22 +56,21 @@ HeadPose pose_against(const Positions& head, const Positions& reference) {
 }
 
 bool is_of_other_size(const HeadPose& pose) {
-  return pose.scale > kMostScale || pose.scale < 1 / kMostScale;
+  return pose.scale > kMaxScale || pose.scale < 1 / kMaxScale;
 }
 
 bool is_off(const HeadPose& pose) {
-  return pose.angle_degrees > kMostDegrees || pose.shift > kMostShift || is_of_other_size(pose);
+  return pose.angle_degrees > kMaxDegrees || pose.shift > kMaxShift || is_of_other_size(pose);
 }
 
 double badness(const HeadPose& pose) {
   const double scale = std::max(pose.scale, 1 / std::max(pose.scale, 1e-9));
-  return pose.angle_degrees / kMostDegrees + pose.shift / kMostShift +
-         (scale - 1) / (kMostScale - 1);
+  return pose.angle_degrees / kMaxDegrees + pose.shift / kMaxShift + (scale - 1) / (kMaxScale - 1);
 }
 
 }  // namespace
 
-std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& components) {
+std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& components) {
   const std::vector<Index> chosen = some_skin(components, kPoints);
   const std::size_t count = faces.heads.size();
   if (chosen.size() < 3) return std::vector<HeadPose>(count);
@@ -83,7 +82,7 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
   parallel_for_each(count, [&](std::size_t r) {
     std::vector<double> against;
     for (const Positions& head : points) against.push_back(badness(pose_against(head, points[r])));
-    disagreement[r] = value_of_rank(std::move(against), count / 2);
+    disagreement[r] = nth_smallest(std::move(against), count / 2);
   });
   const auto reference =
       static_cast<std::size_t>(std::ranges::min_element(disagreement) - disagreement.begin());
@@ -92,7 +91,7 @@ std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& compone
   return poses;
 }
 
-std::vector<std::string> align_heads(FaceSet& faces, const Components& components, Align align) {
+std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align) {
   if (align == Align::kNone) return {};
   if (align == Align::kRigid) {
     const std::vector<Index> chosen =
@@ -116,7 +115,7 @@ std::vector<std::string> align_heads(FaceSet& faces, const Components& component
                                 format_fixed(poses[h].scale, 2),
                                 " times the size of the others (faces.align: none takes it)"));
     }
-    if (align == Align::kCheck && poses[h].angle_degrees > kMostTurn) {
+    if (align == Align::kCheck && poses[h].angle_degrees > kMaxTurn) {
       throw InvalidInput(concat("head ", faces.heads[h].name, " is turned by ",
                                 format_fixed(poses[h].angle_degrees, 1),
                                 " degrees against the others: faces.align: rigid turns it back "

@@ -19,13 +19,13 @@ struct HeadPose {
 
 /// Poses of all heads relative to the medoid (the head nearest in pose to all others). Only skin
 /// vertices count.
-std::vector<HeadPose> head_poses(const FaceSet& faces, const Components& components);
+std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& components);
 
 /// Warns about heads that are rotated, shifted or scaled relative to the others, because blending
 /// would treat that as detail. With `check`, heads stay as they are; with `rigid`, each head is
 /// first aligned with the first head.
 /// \throws InvalidInput if a head has another unit or, with `check`, is rotated by more than 45
 ///         degrees.
-std::vector<std::string> align_heads(FaceSet& faces, const Components& components, Align align);
+std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align);
 
 }  // namespace crowdface

@@ -24,17 +24,17 @@ namespace fs = std::filesystem;
 constexpr int kLargestUnasked = 4096;
 
 /// The first use of an image of the layout.
-struct FirstWorn {
+struct FirstAttachmentHit {
   std::size_t head = 0;
   std::uint32_t row = 0;  ///< index of the head's file
   Index face = 0;
 };
 
 /// Assigns an image to each polygon: that of the first head with a texture there.
-std::vector<FirstWorn> lay_out(const HeadsTextures& found, TextureLayout& layout) {
+std::vector<FirstAttachmentHit> lay_out(const HeadsTextures& found, TextureLayout& layout) {
   layout.tile = found.tile;
   layout.of_face.assign(found.tile.size(), kNoIndex);
-  std::vector<FirstWorn> first;
+  std::vector<FirstAttachmentHit> first;
   std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> known;
   for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
     for (std::size_t h = 0; h < found.heads.size(); ++h) {
@@ -61,11 +61,11 @@ std::string part_name(const std::string& material) {
 }
 
 std::vector<PictureName> picture_names(const HeadsTextures& found,
-                                       const std::vector<FirstWorn>& pictures,
+                                       const std::vector<FirstAttachmentHit>& pictures,
                                        const FaceMaterials& materials) {
   std::map<fs::path, std::string> parts;
   std::set<std::string> taken;
-  for (const FirstWorn& picture : pictures) {
+  for (const FirstAttachmentHit& picture : pictures) {
     const fs::path& file = found.heads[picture.head].files[picture.row].name;
     if (parts.contains(file)) continue;
     const auto face = static_cast<std::size_t>(picture.face);
@@ -75,7 +75,7 @@ std::vector<PictureName> picture_names(const HeadsTextures& found,
     parts.emplace(file, part);
   }
   std::vector<PictureName> names;
-  for (const FirstWorn& picture : pictures) {
+  for (const FirstAttachmentHit& picture : pictures) {
     const fs::path& file = found.heads[picture.head].files[picture.row].name;
     const auto& tile = found.tile[static_cast<std::size_t>(picture.face)];
     const bool tiled = file.native().find(kTileWord) != std::string::npos;
@@ -87,12 +87,12 @@ std::vector<PictureName> picture_names(const HeadsTextures& found,
 
 /// For each image, the head's files that it is composed of; none if a polygon of the image has no
 /// texture on this head.
-std::vector<std::vector<std::uint32_t>> rows_in_pictures(const WornTextures& worn,
+std::vector<std::vector<std::uint32_t>> rows_in_pictures(const AttachmentTextures& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
   std::vector<std::set<std::uint32_t>> rows(pictures);
   for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
-    if (layout.of_face[f] != kNoIndex) rows[layout.of_face[f]].insert(worn.of_face[f]);
+    if (layout.of_face[f] != kNoIndex) rows[layout.of_face[f]].insert(placed.of_face[f]);
   }
   std::vector<std::vector<std::uint32_t>> result;
   for (const auto& of_picture : rows) {
@@ -120,7 +120,7 @@ using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 bool holds_normals(const Image& image) {
   if (image.channels < 3) return false;
   constexpr int kStep = 7;
-  constexpr double kLeastExcess = 0.15;
+  constexpr double kMinExcess = 0.15;
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double count = 0;
   for (int y = 0; y < image.height; y += kStep) {
@@ -129,7 +129,7 @@ bool holds_normals(const Image& image) {
       count += 1;
     }
   }
-  return sum[2] - (sum[0] + sum[1]) / 2 > kLeastExcess * count;
+  return sum[2] - (sum[0] + sum[1]) / 2 > kMinExcess * count;
 }
 
 MapCoding coding_of_values(const Image& image, int channels) {
@@ -187,7 +187,7 @@ void read_maps(LoadedMaps& maps, const fs::path& scratch) {
 
 /// Merges several maps, each of which covers some of the image's polygons.
 std::shared_ptr<const TextureMap> compose(
-    const FaceSet& faces, const TextureLayout& layout, std::uint32_t picture,
+    const HeadSet& faces, const TextureLayout& layout, std::uint32_t picture,
     const std::vector<std::uint32_t>& of_face,
     const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps,
     const fs::path& scratch) {
@@ -267,12 +267,12 @@ NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
 
 }  // namespace
 
-HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
+HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& materials,
                                    HeadsTextures found, std::optional<std::uint64_t> size,
                                    const fs::path& scratch) {
   HeadTextures result;
   TextureLayout& layout = result.blended.layout;
-  const std::vector<FirstWorn> pictures = lay_out(found, layout);
+  const std::vector<FirstAttachmentHit> pictures = lay_out(found, layout);
   layout.pictures.resize(pictures.size());
   result.names = picture_names(found, pictures, materials);
 
@@ -280,17 +280,17 @@ HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& ma
   std::map<fs::path, ImageSize> sizes;
   std::map<fs::path, Digest> contents;
   Hasher hasher;
-  for (const WornTextures& worn : found.heads) {
-    rows.push_back(rows_in_pictures(worn, layout, pictures.size()));
-    hasher.add(worn.files.size());
-    for (const WornTextures::File& file : worn.files) {
+  for (const AttachmentTextures& placed : found.heads) {
+    rows.push_back(rows_in_pictures(placed, layout, pictures.size()));
+    hasher.add(placed.files.size());
+    for (const AttachmentTextures::File& file : placed.files) {
       if (!sizes.contains(file.path)) {
         sizes[file.path] = read_image_size(file.path, {.jpeg = true});
         contents[file.path] = hash_file(file.path).digest;
       }
       hasher.add(contents[file.path]);
     }
-    hasher.add_array(std::span<const std::uint32_t>(worn.of_face));
+    hasher.add_array(std::span<const std::uint32_t>(placed.of_face));
   }
   choose_sizes(found, sizes, rows, size, layout);
 

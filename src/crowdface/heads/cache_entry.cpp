@@ -88,8 +88,8 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
                                            const std::optional<Digest>& known) {
   CacheEntry entry;
   entry.path_ = cache_entry(cache, key);
-  if (!is_there(entry.path_)) return std::nullopt;
-  entry.file_ = std::make_shared<const MappedFile>(entry.path_, WhenCut::kFill);
+  if (!path_exists(entry.path_)) return std::nullopt;
+  entry.file_ = std::make_shared<const MappedFile>(entry.path_, OnTruncation::kFill);
   const std::string_view bytes = entry.file_->bytes();
   EntryHeader header;
   entry.require_size(bytes.size() >= sizeof header + sizeof(Digest));
@@ -136,7 +136,8 @@ void CacheEntry::require(bool holds) const {
 }
 
 void CacheEntry::require_whole() const {
-  if (file_->was_cut()) throw InvalidInput(concat(path_.string(), ": cache entry is being cut"));
+  if (file_->was_truncated())
+    throw InvalidInput(concat(path_.string(), ": cache entry is being cut"));
 }
 
 void CacheEntry::require_same(bool same) const {

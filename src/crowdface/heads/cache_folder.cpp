@@ -48,7 +48,7 @@ CacheContents list_cache(const fs::path& cache) {
   std::error_code error, ignored;
   CacheContents contents;
   contents.entries = list_files(
-      cache, [](const fs::path& path) { return has_name_of_entry(path) && is_there(path); },
+      cache, [](const fs::path& path) { return has_name_of_entry(path) && path_exists(path); },
       &error);
   if (error && error != std::errc::no_such_file_or_directory) {
     throw MissingInput(concat(cache.string(), ": cannot be read as a folder: ", error.message()));

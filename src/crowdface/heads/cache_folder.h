@@ -17,7 +17,7 @@ std::filesystem::path cache_directory();
 struct CacheFolder {
   std::filesystem::path path;  ///< empty: no cache
   /// Whether head files and cache entries count as unchanged, without hashing them again, if nobody
-  /// has written to them since they were last read completely (see SeenFile).
+  /// has written to them since they were last read completely (see FileFingerprint).
   bool trusts_seen_files = false;
 
   CacheFolder() = default;

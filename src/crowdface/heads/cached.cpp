@@ -3,13 +3,13 @@
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/seen_files.h"
+#include "crowdface/heads/file_fingerprint.h"
 
 namespace crowdface {
 
 std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& key) {
   if (cache.path.empty()) return std::nullopt;
-  const SeenFile seen(cache, cache_entry(cache, key));
+  const FileFingerprint seen(cache, cache_entry(cache, key));
   auto entry = CacheEntry::open(cache, key, seen.digest());
   if (entry) seen.remember(entry->checksum());
   return entry;

@@ -17,8 +17,8 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kFewestHeads = 4, kFewestVertices = 50;
-constexpr double kLeastMm = 2, kMostOfOthers = 3.2;
+constexpr std::size_t kMinHeads = 4, kMinVertices = 50;
+constexpr double kMinMm = 2, kMaxOfOthers = 3.2;
 constexpr double kShare = 0.9;  ///< the compared deviation is this quantile over the vertices
 
 /// A box around a facial feature. Unit: distance from mouth to eyes.
@@ -52,11 +52,11 @@ std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const Hea
 
 double median(std::vector<double> values) {
   const std::size_t rank = values.size() / 2;
-  return value_of_rank(std::move(values), rank);
+  return nth_smallest(std::move(values), rank);
 }
 
 /// The vertex-wise median of all heads, which one odd head does not change.
-Positions middle_head(const FaceSet& faces) {
+Positions middle_head(const HeadSet& faces) {
   Positions middle(faces.heads[0].positions.rows(), 3);
   parallel_for_each(static_cast<std::size_t>(middle.rows()), [&](std::size_t v) {
     for (Index c = 0; c < 3; ++c) {
@@ -72,16 +72,16 @@ Positions middle_head(const FaceSet& faces) {
 
 }  // namespace
 
-std::vector<std::string> odd_expressions(const FaceSet& faces, const std::vector<bool>& skin,
+std::vector<std::string> odd_expressions(const HeadSet& faces, const std::vector<bool>& skin,
                                          const HeadAxes& axes, double mm) {
-  if (faces.heads.size() < kFewestHeads) return {};
+  if (faces.heads.size() < kMinHeads) return {};
   const HeadShape head{middle_head(faces), skin, {}};
   const auto marks = find_face_marks(faces.topology, head, axes);
   if (!marks) return {};
   std::vector<std::string> warnings;
   for (const Box& box : kBoxes) {
     const std::vector<Index> vertices = vertices_in(box, *marks, head, axes);
-    if (vertices.size() < kFewestVertices) continue;
+    if (vertices.size() < kMinVertices) continue;
     const Positions middle = head.positions(vertices, kAllColumns);
     std::vector<double> off(faces.heads.size());
     parallel_for_each(off.size(), [&](std::size_t h) {
@@ -91,11 +91,11 @@ std::vector<std::string> odd_expressions(const FaceSet& faces, const std::vector
       for (Index i = 0; i < middle.rows(); ++i)
         apart.push_back((moved.row(i) - middle.row(i)).norm());
       const auto rank = static_cast<std::size_t>(kShare * static_cast<double>(apart.size()));
-      off[h] = mm * value_of_rank(std::move(apart), rank);
+      off[h] = mm * nth_smallest(std::move(apart), rank);
     });
     const double usual = median(off);
     for (std::size_t h = 0; h < off.size(); ++h) {
-      if (off[h] < kLeastMm || off[h] < kMostOfOthers * usual) continue;
+      if (off[h] < kMinMm || off[h] < kMaxOfOthers * usual) continue;
       warnings.push_back(concat(
           faces.heads[h].name, ": the form of its ", box.name, " is ", format_fixed(off[h], 1),
           " mm from the middle of all heads, where the others are ", format_fixed(usual, 1),

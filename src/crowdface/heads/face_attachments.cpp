@@ -28,10 +28,10 @@ FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : i
 }
 
 FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs,
-                                 std::span<const CastFace> faces)
+                                 std::span<const FacePlan> faces)
     : inputs_(inputs) {
   std::vector<bool> wanted(inputs.attachments.items.size());
-  for (const CastFace& face : faces) {
+  for (const FacePlan& face : faces) {
     for (const std::string& name : face.attachments) wanted[inputs.attachments.index(name)] = true;
   }
   bind(config, wanted);
@@ -63,23 +63,22 @@ void FaceAttachments::bind(const Config& config, const std::vector<bool>& wanted
   });
 }
 
-std::vector<WornAttachment> FaceAttachments::worn_by(const CastFace& face,
-                                                     const Positions& positions,
-                                                     std::span<const Displacements> moves) const {
-  std::vector<WornAttachment> worn;
-  if (face.attachments.empty() || skin_ == nullptr) return worn;
+std::vector<PlacedAttachment> FaceAttachments::attachments_of(
+    const FacePlan& face, const Positions& positions, std::span<const Displacements> moves) const {
+  std::vector<PlacedAttachment> placed;
+  if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
   for (const std::string& name : face.attachments) {
     const std::size_t i = inputs_.attachments.index(name);
     const Bound& bound = bound_[of_item_[i]];
-    worn.push_back({&inputs_.attachments.items[i], bound.carrier->carry(positions, normals)});
-    WornAttachment& one = worn.back();
+    placed.push_back({&inputs_.attachments.items[i], bound.carrier->carry(positions, normals)});
+    PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {
       one.moves.push_back(bound.bend ? bound.bend->in_shape(positions, one.positions, shape)
                                      : Displacements{{}, Positions(0, 3)});
     }
   }
-  return worn;
+  return placed;
 }
 
 std::size_t FaceAttachments::memory_bytes() const {
@@ -91,7 +90,7 @@ std::size_t FaceAttachments::memory_bytes() const {
 }
 
 /// A face wears at most one attachment of each kind.
-std::size_t FaceAttachments::worn_bytes() const {
+std::size_t FaceAttachments::placed_bytes() const {
   // the bent mesh, the mesh pushed off the skin, and the mesh before that
   constexpr std::size_t kCopies = 3;
   std::map<std::string, std::size_t> largest;

@@ -7,14 +7,14 @@
 
 #include "crowdface/attach/attachment_carrier.h"
 #include "crowdface/attach/shape_bend.h"
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 
 namespace crowdface {
 
 /// An attachment placed on a face.
-struct WornAttachment {
+struct PlacedAttachment {
   const Attachment* item;
   Positions positions;  ///< the attachment's vertices on the face
   /// one per face shape: displacements of the attachment's vertices
@@ -28,18 +28,18 @@ class FaceAttachments {
   /// Binds all attachments. \param inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs);
   /// Binds only the attachments that these faces wear. \param inputs  must outlive this object.
-  FaceAttachments(const Config& config, const Inputs& inputs, std::span<const CastFace> faces);
+  FaceAttachments(const Config& config, const Inputs& inputs, std::span<const FacePlan> faces);
 
   /// The attachments of a face, in the order of its recipe. The result refers to the inputs.
   /// \param positions  the face's vertices, #V by 3
   /// \param moves      displacements of the face, one per shape of the inputs; empty: the face at
   ///                   rest
-  std::vector<WornAttachment> worn_by(const CastFace& face, const Positions& positions,
-                                      std::span<const Displacements> moves = {}) const;
+  std::vector<PlacedAttachment> attachments_of(const FacePlan& face, const Positions& positions,
+                                               std::span<const Displacements> moves = {}) const;
 
   /// Memory of this object, and the maximum memory of one face's attachments, in bytes.
   std::size_t memory_bytes() const;
-  std::size_t worn_bytes() const;
+  std::size_t placed_bytes() const;
 
  private:
   /// An attachment mesh bound to the fitted head.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "crowdface/cast/face_area.h"
-#include "crowdface/heads/kept_statistics.h"
+#include "crowdface/heads/cached_statistics.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/level_size.h"
 #include "crowdface/smooth/smoothing_operator.h"
@@ -60,7 +60,7 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
   const auto add = [&](const HeadTextures& textures) {
     const auto find = [&](const std::function<SurfaceStatistics()>& make) {
       if (inputs.cache.empty()) return make();
-      return kept_statistics(
+      return cached_statistics(
           inputs.cache,
           statistics_key(rows, topology, inputs.faces.uvs, textures.blended, options.scale),
           static_cast<std::size_t>(topology.vertex_count), inputs.faces.heads.size(), make);
@@ -115,8 +115,8 @@ std::uint64_t texture_bytes(const Inputs& inputs) {
     if (map != nullptr) bytes += map->planes.size() * sizeof(Density);
   }
   std::set<const Texture*> shown;
-  for (const TextureCoat& coat : inputs.textures.coats) {
-    for (const auto& texture : coat.textures) {
+  for (const TextureSet& texture_set : inputs.textures.texture_sets) {
+    for (const auto& texture : texture_set.textures) {
       if (shown.insert(texture.get()).second) bytes += texture->texels.size() * sizeof(Light);
     }
   }

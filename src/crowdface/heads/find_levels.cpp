@@ -80,7 +80,7 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
 }
 
 /// A level of detail, and its error on the heads and their shapes.
-MeasuredLevel measured_level(const Inputs& inputs, const FaceSet& typical, double share,
+MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, double share,
                              double mm) {
   DetailLevel level = std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1})[0]);
   const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
@@ -92,7 +92,7 @@ MeasuredLevel measured_level(const Inputs& inputs, const FaceSet& typical, doubl
 }
 
 /// Hash of everything that a level depends on.
-Digest key_of(const Inputs& inputs, const FaceSet& typical, double share, double mm) {
+Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double mm) {
   Hasher key;
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
   key.add_array(std::span(inputs.faces.topology.corner_uvs));
@@ -149,7 +149,7 @@ bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs) {
   if (config.output.lods.empty() || config.output.meshes.empty()) return;
   const double mm = mm_per(config.faces.units);
-  const FaceSet typical{
+  const HeadSet typical{
       inputs.faces.topology, inputs.faces.uvs, {{"mean", weighted(inputs.mean, inputs.parts)}}};
   inputs.levels.resize(config.output.lods.size());
   parallel_for_each(inputs.levels.size(), [&](std::size_t l) {

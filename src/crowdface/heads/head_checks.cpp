@@ -107,16 +107,16 @@ void check_stance(const Config& config, const Inputs& inputs) {
         " (faces.align: none takes them as they are)"));
   }
   // eyes to mouth: 45 mm (child) to about 85 mm, with a margin
-  constexpr double kLeastMm = 35, kMostMm = 120;
+  constexpr double kMinMm = 35, kMaxMm = 120;
   const double mm = marks->face() * mm_per(config.faces.units);
-  if (mm >= kLeastMm && mm <= kMostMm) return;
+  if (mm >= kMinMm && mm <= kMaxMm) return;
   const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
   const double units = up.maxCoeff() - up.minCoeff();
   constexpr double kTypicalMm = 65;
   LengthUnit fitting = fitting_unit(marks->face(), kTypicalMm);
   for (const LengthUnit unit : kLengthUnits) {
     const double other = marks->face() * mm_per(unit);
-    if (other >= kLeastMm && other <= kMostMm) fitting = unit;
+    if (other >= kMinMm && other <= kMaxMm) fitting = unit;
   }
   throw InvalidInput(concat(
       "the first head is ", format_fixed(units, 2), " units high, with faces.units ",
@@ -128,8 +128,8 @@ void check_stance(const Config& config, const Inputs& inputs) {
 
 std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
-  // kMostOfOthers: fraction of the median distance between a head and its nearest head.
-  constexpr double kMostMm = 1, kMostOfOthers = 0.4;
+  // kMaxOfOthers: fraction of the median distance between a head and its nearest head.
+  constexpr double kMaxMm = 1, kMaxOfOthers = 0.4;
   const std::vector<Head>& heads = inputs.faces.heads;
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;
@@ -166,7 +166,7 @@ std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   for (std::size_t a = 0; a < heads.size(); ++a) {
     for (std::size_t b = a + 1; b < heads.size(); ++b) {
       const double mean = apart[a][b];
-      if (mean > kMostMm || (mean > kMostOfOthers * middle && mean > 0)) continue;
+      if (mean > kMaxMm || (mean > kMaxOfOthers * middle && mean > 0)) continue;
       warnings.push_back(concat("heads ", heads[a].name, " and ", heads[b].name, " are ",
                                 format_fixed(mean, 2),
                                 " mm apart in the mean: is this one person twice? Faces of both "
@@ -177,13 +177,13 @@ std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
 }
 
 std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs) {
-  constexpr double kLeastMm = 0.01, kHalfStep = 0x1p-24;
+  constexpr double kMinMm = 0.01, kHalfStep = 0x1p-24;
   double farthest = 0;
   for (const Head& head : inputs.faces.heads) {
     farthest = std::max(farthest, head.positions.cwiseAbs().maxCoeff());
   }
   const double farthest_mm = farthest * mm_per(config.faces.units);
-  if (farthest_mm * kHalfStep <= kLeastMm) return std::nullopt;
+  if (farthest_mm * kHalfStep <= kMinMm) return std::nullopt;
   return concat("heads reach ", format_fixed(farthest_mm / 1000, 0),
                 " m from the origin, where meshes, in single precision, lose up to ",
                 format_fixed(farthest_mm * kHalfStep, 2), " mm: move the heads to the origin");

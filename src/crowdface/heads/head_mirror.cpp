@@ -10,7 +10,7 @@ namespace crowdface {
 namespace {
 
 /// Minimum fraction of vertices that must have a mirror partner.
-constexpr double kLeastShare = 0.9;
+constexpr double kMinShare = 0.9;
 
 std::string key_of(const SamplingOptions& sampling, const std::string& section) {
   if (sampling.asymmetry != Range{1, 1}) return concat(section, ".asymmetry");
@@ -44,9 +44,9 @@ std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& 
                                             const std::string& key) {
   if (inputs.mirror != nullptr) return inputs.mirror;
   FoundMirror found = find_mirror(config, inputs);
-  if (found.share() < kLeastShare) {
+  if (found.share() < kMinShare) {
     throw InvalidInput(concat(config.file.string(), ": ", key, ": the heads are not symmetric ",
-                              "enough: expected ", 100 * kLeastShare, " % of the vertices to have ",
+                              "enough: expected ", 100 * kMinShare, " % of the vertices to have ",
                               "a place on the other side, found ", describe_mirror(config, found)));
   }
   return std::make_shared<const MirrorMap>(std::move(found.map));

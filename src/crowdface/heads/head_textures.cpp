@@ -21,24 +21,24 @@ struct TextureFile {
 };
 
 /// Reads a texture and reserves its share of the image memory for its lifetime.
-TextureFile read_texture(const fs::path& path, int most_px) {
+TextureFile read_texture(const fs::path& path, int max_px) {
   struct Kept {
     ImageMemory memory;
     Texture texture;
   };
   const Image image = read_image(path, {.jpeg = true});
-  const auto texels = static_cast<std::uint64_t>(std::min(image.width, most_px)) *
-                      static_cast<std::uint64_t>(std::min(image.height, most_px));
+  const auto texels = static_cast<std::uint64_t>(std::min(image.width, max_px)) *
+                      static_cast<std::uint64_t>(std::min(image.height, max_px));
   ImageMemory memory = take_image_memory(path, texels * sizeof(Light));
   const LightRows light = light_of(image);
   const auto kept = std::make_shared<const Kept>(
-      Kept{std::move(memory), shrunk_texture(light.width, light.height, most_px, light.row)});
+      Kept{std::move(memory), shrunk_texture(light.width, light.height, max_px, light.row)});
   return {{kept, &kept->texture}, hash_file(path).digest};
 }
 
-Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb, int most_px) {
+Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb, int max_px) {
   const std::array<float, 256>& light = light_of_srgb8();
-  return shrunk_texture(width, height, most_px, [&](int y, std::span<Light> texels) {
+  return shrunk_texture(width, height, max_px, [&](int y, std::span<Light> texels) {
     const std::uint8_t* at =
         srgb.data() + 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y);
     for (Light& texel : texels) {
@@ -49,12 +49,12 @@ Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb,
 
 /// Texels a side of normal and roughness maps in renders: fewer than for colour, each an average,
 /// because relief finer than pixels only causes noise.
-int finish_texels(int most_px) {
-  return std::max(1, most_px / 2);
+int finish_texels(int max_px) {
+  return std::max(1, max_px / 2);
 }
 
 /// The values of a map; normals become slopes.
-Texture finish_of(const BlendedPicture& picture, bool normals, int most_px) {
+Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<Light> texels) {
     const std::uint16_t* at = picture.words.data() + channels *
@@ -70,11 +70,11 @@ Texture finish_of(const BlendedPicture& picture, bool normals, int most_px) {
       texel /= std::max(texel[2], 1e-3F);
     }
   };
-  return shrunk_texture(picture.width, picture.height, most_px, row);
+  return shrunk_texture(picture.width, picture.height, max_px, row);
 }
 
-Texture finish_of(const TextureMap& map, int most_px) {
-  return shrunk_texture(map.width, map.height, most_px, [&](int y, std::span<Light> texels) {
+Texture finish_of(const TextureMap& map, int max_px) {
+  return shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<Light> texels) {
     for (std::size_t x = 0; x < texels.size(); ++x) {
       texels[x] = Light::Zero();
       for (int c = 0; c < map.coding.channels; ++c) texels[x][c] = map.number(map.row(c, y)[x]);
@@ -83,16 +83,16 @@ Texture finish_of(const TextureMap& map, int most_px) {
 }
 
 /// The layer of a coat for a rendered kind of texture.
-TextureLayer& layer_of(TextureKind kind, TextureCoat& coat) {
-  if (kind == TextureKind::kColour) return coat;
-  return kind == TextureKind::kNormal ? coat.slopes : coat.roughness;
+TextureLayer& layer_of(TextureKind kind, TextureSet& texture_set) {
+  if (kind == TextureKind::kColour) return texture_set;
+  return kind == TextureKind::kNormal ? texture_set.slopes : texture_set.roughness;
 }
 
 }  // namespace
 
 int shown_texels(const Config::ContactSheet& sheet) {
-  constexpr int kLeast = 1024;
-  return std::max(kLeast, 2 * sheet.cell);
+  constexpr int kMin = 1024;
+  return std::max(kMin, 2 * sheet.cell);
 }
 
 bool any_is_shown(const std::vector<HeadTextures>& maps) {
@@ -100,39 +100,39 @@ bool any_is_shown(const std::vector<HeadTextures>& maps) {
       maps, [](const HeadTextures& of_kind) { return is_shown(of_kind.names.front().kind); });
 }
 
-OwnCoat::OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
-                 int most_px)
-    : most_px_(most_px) {
+FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
+                               Index target, int max_px)
+    : max_px_(max_px) {
   const auto add_kind = [&](const HeadTextures& textures) {
     const TextureLayout& layout = textures.blended.layout;
     const TextureKind kind = textures.names.front().kind;
     for (std::size_t p = 0; p < layout.pictures.size(); ++p) places_.push_back({kind, p});
     if (kind != TextureKind::kColour && !is_shown(kind)) return;
-    TextureLayer& layer = layer_of(kind, coat_);
+    TextureLayer& layer = layer_of(kind, texture_set_);
     layer.of_face = layout.of_face;
     layer.textures.resize(layout.pictures.size());
   };
   if (colours.blend()) {
     add_kind(colours);
-  } else if (auto of_target = coat_of_head(colours, target, most_px)) {
-    coat_ = std::move(*of_target);
+  } else if (auto of_target = texture_set_of_head(colours, target, max_px)) {
+    texture_set_ = std::move(*of_target);
   } else {
-    coat_.of_face.assign(maps.front().blended.layout.of_face.size(), TextureLayer::kNone);
+    texture_set_.of_face.assign(maps.front().blended.layout.of_face.size(), TextureLayer::kNone);
   }
   for (const HeadTextures& of_kind : maps) add_kind(of_kind);
 }
 
-void OwnCoat::add(std::size_t picture, const BlendedPicture& blended) {
+void FaceTextureSet::add(std::size_t picture, const BlendedPicture& blended) {
   const auto [kind, number] = places_[picture];
   const bool is_colour = kind == TextureKind::kColour;
   if (!is_colour && !is_shown(kind)) return;
-  layer_of(kind, coat_).textures[number] = std::make_shared<const Texture>(
-      is_colour ? texture_of(blended.width, blended.height, blended.srgb, most_px_)
-                : finish_of(blended, kind == TextureKind::kNormal, finish_texels(most_px_)));
+  layer_of(kind, texture_set_).textures[number] = std::make_shared<const Texture>(
+      is_colour ? texture_of(blended.width, blended.height, blended.srgb, max_px_)
+                : finish_of(blended, kind == TextureKind::kNormal, finish_texels(max_px_)));
 }
 
-std::uint64_t OwnCoat::bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
-                             int most_px) {
+std::uint64_t FaceTextureSet::bytes(const HeadTextures& colours,
+                                    const std::vector<HeadTextures>& maps, int max_px) {
   std::uint64_t texels = 0;
   const auto add_kind = [&](const HeadTextures& textures, int most) {
     for (const TextureLayout::Picture& picture : textures.blended.layout.pictures) {
@@ -140,68 +140,69 @@ std::uint64_t OwnCoat::bytes(const HeadTextures& colours, const std::vector<Head
                 static_cast<std::uint64_t>(std::min(picture.height, most));
     }
   };
-  add_kind(colours, most_px);
+  add_kind(colours, max_px);
   for (const HeadTextures& of_kind : maps) {
-    if (is_shown(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(most_px));
+    if (is_shown(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(max_px));
   }
   return texels * sizeof(Light);
 }
 
-void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
-                        TextureCoat& coat) {
+void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head, int max_px,
+                              TextureSet& texture_set) {
   for (const HeadTextures& of_kind : maps) {
     const TextureKind kind = of_kind.names.front().kind;
     if (!is_shown(kind)) continue;
-    TextureLayer& layer = layer_of(kind, coat);
+    TextureLayer& layer = layer_of(kind, texture_set);
     layer.of_face = of_kind.blended.layout.of_face;
     for (std::size_t p = 0; p < of_kind.names.size(); ++p) {
       const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
-      layer.textures.push_back(map == nullptr ? nullptr
-                                              : std::make_shared<const Texture>(
-                                                    finish_of(*map, finish_texels(most_px))));
+      layer.textures.push_back(
+          map == nullptr ? nullptr
+                         : std::make_shared<const Texture>(finish_of(*map, finish_texels(max_px))));
       if (map != nullptr) continue;
       std::ranges::replace(layer.of_face, static_cast<std::uint32_t>(p), TextureLayer::kNone);
     }
   }
 }
 
-std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px) {
+std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Index head,
+                                              int max_px) {
   const auto h = static_cast<std::size_t>(head);
-  if (!textures.coats.empty()) return textures.coats[h];
+  if (!textures.texture_sets.empty()) return textures.texture_sets[h];
   if (!textures.blend()) return std::nullopt;
   const TextureLayout& layout = textures.blended.layout;
-  TextureCoat coat;
-  std::vector<std::uint32_t> row(layout.pictures.size(), TextureCoat::kNone);
+  TextureSet texture_set;
+  std::vector<std::uint32_t> row(layout.pictures.size(), TextureSet::kNone);
   for (std::size_t p = 0; p < row.size(); ++p) {
     const TextureMap* map = textures.blended.maps[p][h].get();
     if (map == nullptr) continue;
-    row[p] = static_cast<std::uint32_t>(coat.textures.size());
-    coat.textures.push_back(std::make_shared<const Texture>(
-        texture_of(map->width, map->height, srgb8_of(*map), most_px)));
+    row[p] = static_cast<std::uint32_t>(texture_set.textures.size());
+    texture_set.textures.push_back(std::make_shared<const Texture>(
+        texture_of(map->width, map->height, srgb8_of(*map), max_px)));
   }
   for (const std::uint32_t picture : layout.of_face) {
-    coat.of_face.push_back(picture == kNoIndex ? TextureCoat::kNone : row[picture]);
+    texture_set.of_face.push_back(picture == kNoIndex ? TextureSet::kNone : row[picture]);
   }
-  return coat;
+  return texture_set;
 }
 
-HeadTextures load_coats(HeadsTextures found, int most_px) {
+HeadTextures load_render_textures(HeadsTextures found, int max_px) {
   HeadTextures result;
   result.warnings = std::move(found.warnings);
   std::map<fs::path, TextureFile> shelf;  // each file is read once, even if several heads name it
   Hasher hasher;
-  for (WornTextures& worn : found.heads) {
-    TextureCoat coat;
-    hasher.add(worn.files.size());
-    for (const WornTextures::File& file : worn.files) {
+  for (AttachmentTextures& placed : found.heads) {
+    TextureSet texture_set;
+    hasher.add(placed.files.size());
+    for (const AttachmentTextures::File& file : placed.files) {
       const auto [known, is_new] = shelf.try_emplace(file.path);
-      if (is_new) known->second = read_texture(file.path, most_px);
-      coat.textures.push_back(known->second.texture);
+      if (is_new) known->second = read_texture(file.path, max_px);
+      texture_set.textures.push_back(known->second.texture);
       hasher.add(known->second.content);
     }
-    coat.of_face = std::move(worn.of_face);
-    hasher.add_array(std::span<const std::uint32_t>(coat.of_face));
-    result.coats.push_back(std::move(coat));
+    texture_set.of_face = std::move(placed.of_face);
+    hasher.add_array(std::span<const std::uint32_t>(texture_set.of_face));
+    result.texture_sets.push_back(std::move(texture_set));
   }
   result.digest = hasher.digest();
   return result;

@@ -10,7 +10,7 @@
 
 #include "crowdface/config/config.h"
 #include "crowdface/core/hash.h"
-#include "crowdface/heads/worn_textures.h"
+#include "crowdface/heads/attachment_textures.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/texture/crowd_textures.h"
 
@@ -31,13 +31,14 @@ struct HeadTextures {
   CrowdTextures blended;
   std::vector<PictureName> names;  ///< one per image of the layout
 
-  std::vector<TextureCoat> coats;  ///< #heads, for renders; empty if surfaces have plain colours
+  std::vector<TextureSet>
+      texture_sets;  ///< #heads, for renders; empty if surfaces have plain colours
   /// hash of the files read, and of the texture that each polygon of each head uses
   Digest digest;
   std::vector<std::string> warnings;  ///< messages about missing files
 
   bool blend() const { return !names.empty(); }
-  bool any() const { return blend() || !coats.empty(); }
+  bool any() const { return blend() || !texture_sets.empty(); }
 };
 
 /// Maximum side length, in texels, of textures for renders: contact sheets cannot show finer
@@ -49,46 +50,46 @@ bool any_is_shown(const std::vector<HeadTextures>& maps);
 
 /// A face's own textures for renders: colours in linear light, and normals and roughness for
 /// shading.
-class OwnCoat {
+class FaceTextureSet {
  public:
   /// \param maps     textures of all kinds except colour
   /// \param target   head whose colours the face has if colours are not blended
-  /// \param most_px  maximum side length; larger images are downscaled
-  OwnCoat(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
-          int most_px);
+  /// \param max_px  maximum side length; larger images are downscaled
+  FaceTextureSet(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
+                 int max_px);
 
   /// Adds an image. All images must be added before the coat is used. Thread-safe.
   /// \param picture  index of the image: blended colour images come first, then the images of each
   ///                 other kind
   void add(std::size_t picture, const BlendedPicture& blended);
-  const TextureCoat& coat() const { return coat_; }
+  const TextureSet& texture_set() const { return texture_set_; }
 
   /// Memory of a coat made from these textures, in bytes.
   static std::uint64_t bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
-                             int most_px);
+                             int max_px);
 
  private:
   struct Place {
     TextureKind kind = TextureKind::kColour;
     std::size_t number = 0;  ///< index among the images of its kind
   };
-  TextureCoat coat_;
+  TextureSet texture_set_;
   std::vector<Place> places_;  ///< one per image, see `add`
-  int most_px_;
+  int max_px_;
 };
 
 /// Adds a head's own normal and roughness maps to its coat.
-void add_finish_of_head(const std::vector<HeadTextures>& maps, Index head, int most_px,
-                        TextureCoat& coat);
+void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head, int max_px,
+                              TextureSet& texture_set);
 
 /// The coat of an input head; nothing if the head has no texture.
-std::optional<TextureCoat> coat_of_head(const HeadTextures& textures, Index head, int most_px);
+std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Index head, int max_px);
 
 /// Loads textures to be rendered as the heads have them. Reads each file once. PNG, TIFF and JPEG
 /// files count as sRGB, floats as linear light.
-/// \param most_px  maximum side length; larger textures are downscaled
+/// \param max_px  maximum side length; larger textures are downscaled
 /// \throws InvalidInput that names the file if a file is damaged.
-HeadTextures load_coats(HeadsTextures found, int most_px);
+HeadTextures load_render_textures(HeadsTextures found, int max_px);
 
 /// Loads textures of one kind for blending and converts all to one layout: that of the first head
 /// with a texture. For each head, merges the files of an image into one, which has the size of the
@@ -98,7 +99,7 @@ HeadTextures load_coats(HeadsTextures found, int most_px);
 ///                 left for images
 /// \throws InvalidInput if a file is damaged, or cannot be what its material says, such as a grey
 ///         image as a normal map.
-HeadTextures load_blended_textures(const FaceSet& faces, const FaceMaterials& materials,
+HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& materials,
                                    HeadsTextures found, std::optional<std::uint64_t> size,
                                    const std::filesystem::path& scratch);
 

@@ -66,7 +66,7 @@ struct MeasuredLevel {
 /// All inputs of a job, checked: heads, their topology, masks, and data computed from these.
 struct Inputs {
   std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
-  FaceSet faces;
+  HeadSet faces;
   Positions mean;              ///< the mean head
   std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
   std::vector<Digest> texts;   ///< #heads, hashes of the files' bytes

@@ -75,11 +75,11 @@ LightRows light_of(const Image& image) {
 
 LightRows slopes_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
-    constexpr float kLeastUp = 1.0F / 8;  // steepest slope that MapCoding::slopes() can store
+    constexpr float kMinUp = 1.0F / 8;  // steepest slope that MapCoding::slopes() can store
     for (int x = 0; x < image.width; ++x) {
       Eigen::Array3f normal;
       for (int c = 0; c < 3; ++c) normal[c] = 2 * image.at(x, y, c) - 1;
-      const float up = std::max(normal[2], kLeastUp);
+      const float up = std::max(normal[2], kMinUp);
       texels[static_cast<std::size_t>(x)] = {normal[0] / up, normal[1] / up, 0};
     }
   };

@@ -118,7 +118,7 @@ void hash_heads(Inputs& inputs) {
 
 /// A message if only some heads have a texture and all of these have the same one: it is not
 /// blended.
-std::optional<std::string> told_of_single(const HeadsTextures& textures, const FaceSet& faces) {
+std::optional<std::string> told_of_single(const HeadsTextures& textures, const HeadSet& faces) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {
     (textures.heads[h].files.empty() ? without : with).push_back(faces.heads[h].name);
@@ -158,7 +158,7 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
       config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
   if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
   try {
-    std::vector<HeadsTextures> kinds = find_worn_textures(inputs.faces, inputs.files);
+    std::vector<HeadsTextures> kinds = find_attachment_textures(inputs.faces, inputs.files);
     HeadsTextures& found = kinds.front();
     const bool asked_for = sheet && sheet->texture == SheetTexture::kYes;
     if (asked_for && !found.any()) {
@@ -176,7 +176,7 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
     };
     const auto load_colours = [&](const HeadsTextures& textures) {
       if (textures.any() && blend && textures.differ()) return load_blended(textures);
-      if (textures.any() && shown) return load_coats(textures, shown_texels(*sheet));
+      if (textures.any() && shown) return load_render_textures(textures, shown_texels(*sheet));
       HeadTextures none;
       if (!textures.any()) none.warnings = textures.warnings;
       return none;
@@ -211,7 +211,7 @@ void Inputs::warn(std::string text) {
 
 void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Problems& problems) {
   // The config reader has already reported missing files.
-  const auto is_missing = [](const std::filesystem::path& file) { return !is_there(file); };
+  const auto is_missing = [](const std::filesystem::path& file) { return !path_exists(file); };
   if (reading.heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;
     std::erase_if(heads, is_missing);
@@ -224,13 +224,13 @@ void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Proble
   }
 }
 
-std::optional<FaceSet> load_faces(const Config::Faces& faces, const CacheFolder& cache,
+std::optional<HeadSet> load_faces(const Config::Faces& faces, const CacheFolder& cache,
                                   Problems& problems) {
   const std::size_t before = problems.size();
   std::vector<HeadFile> heads = read_heads(faces.files, cache, problems);
   compare_with_first(heads, problems);
   if (problems.size() > before) return std::nullopt;
-  FaceSet set;
+  HeadSet set;
   set.topology = heads[0].mesh->topology;
   set.uvs = heads[0].mesh->uvs;
   for (std::size_t h = 0; h < heads.size(); ++h) {

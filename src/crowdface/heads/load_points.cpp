@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostPoints = 1000;
+constexpr std::size_t kMaxPoints = 1000;
 constexpr double kFarthest = 1e7;  ///< same limit as for the heads' coordinates
 
 std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
@@ -41,8 +41,8 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
       if (!is_name(entry.key)) complaints.about(entry.value, "its name is none");
       names.push_back(entry.key);
     }
-    if (names.empty() || names.size() > kMostPoints) {
-      complaints.expected(node, concat("1 to ", kMostPoints, " points"));
+    if (names.empty() || names.size() > kMaxPoints) {
+      complaints.expected(node, concat("1 to ", kMaxPoints, " points"));
     }
   }
   Positions positions(static_cast<Index>(names.size()), 3);

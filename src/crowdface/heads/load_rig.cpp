@@ -138,14 +138,14 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
 
 /// \throws InvalidInput unless the rig's mesh is about as large as the heads and close to them.
 void require_near_heads(const Fit& fit, const Config& config, const Inputs& inputs) {
-  constexpr double kMostTimes = 2, kMostOff = 10;
+  constexpr double kMaxTimes = 2, kMaxOff = 10;
   const auto size_of = [](const Positions& mesh) {
     return (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).norm();
   };
   const Positions& head = inputs.faces.heads.front().positions;
   const double heads = size_of(head), size = size_of(fit.mesh);
   const double off = (fit.mesh.colwise().mean() - head.colwise().mean()).norm();
-  if (size <= kMostTimes * heads && heads <= kMostTimes * size && off <= kMostOff * heads) return;
+  if (size <= kMaxTimes * heads && heads <= kMaxTimes * size && off <= kMaxOff * heads) return;
   const double mm = mm_per(config.faces.units);
   refuse_file(config.rig,
               concat("as its joints hold it, its mesh is ", format_fixed(size * mm, 1),
@@ -213,11 +213,11 @@ Digest digest_of_rig(const Rig& rig) {
 void load_rig(const Config& config, Inputs& inputs, Problems& problems) {
   if (config.rig.empty()) return;
   try {
-    constexpr std::size_t kMostJoints = 65535;
+    constexpr std::size_t kMaxJoints = 65535;
     const GltfRig file = read_gltf_rig(config.rig);
-    if (file.joints.size() > kMostJoints) {
+    if (file.joints.size() > kMaxJoints) {
       refuse_file(config.rig,
-                  concat("expected at most ", kMostJoints, " joints, found ", file.joints.size()));
+                  concat("expected at most ", kMaxJoints, " joints, found ", file.joints.size()));
     }
     Fit fit = file.vertex_ids.empty() ? fit_by_place(file, config, inputs)
                                       : fit_by_id(file, config, inputs);

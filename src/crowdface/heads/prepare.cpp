@@ -121,8 +121,8 @@ HeadCacheShape cache_shape(const Config& config, const Inputs& inputs, const Pre
 }
 
 /// Patches of all heads' fields, from the cache or computed.
-KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                       const std::vector<Digest>& keys, const CacheFolder& cache) {
+CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                         const std::vector<Digest>& keys, const CacheFolder& cache) {
   const double tolerance = config.smoothing.tolerance_mm / mm_per(config.faces.units);
   double missed = 0;  // largest error of the heads' own fields
   std::vector<Index> ranks;
@@ -134,7 +134,7 @@ KeptPatches patches_of(const Config& config, const Inputs& inputs, const Prepare
     missed = std::max(missed, prepared.levels[h].error.max);
   }
   const double left = std::max(0.0, tolerance - missed);
-  return kept_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
+  return cached_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
     const double two_edges = 2 * inputs.edge_length_mm / mm_per(config.faces.units);
     Progress progress("comparing heads patch by patch",
                       patch_count(static_cast<std::size_t>(inputs.faces.topology.vertex_count)));
@@ -214,13 +214,13 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
 }
 
 void require_whole(const Prepared& prepared) {
-  const auto was_cut = [](const std::shared_ptr<const MappedFile>& mapped) {
-    return mapped && mapped->was_cut();
+  const auto was_truncated = [](const std::shared_ptr<const MappedFile>& mapped) {
+    return mapped && mapped->was_truncated();
   };
-  if (was_cut(prepared.patches.mapped) ||
+  if (was_truncated(prepared.patches.mapped) ||
       std::ranges::any_of(prepared.levels,
-                          [&](const auto& head) { return was_cut(head.mapped); })) {
-    throw CutWhileInUse("an entry of the cache was cut while it was in use");
+                          [&](const auto& head) { return was_truncated(head.mapped); })) {
+    throw TruncatedWhileInUse("an entry of the cache was cut while it was in use");
   }
 }
 

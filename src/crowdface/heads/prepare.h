@@ -13,9 +13,9 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
+#include "crowdface/heads/cached_patches.h"
 #include "crowdface/heads/head_cache.h"
 #include "crowdface/heads/inputs.h"
-#include "crowdface/heads/kept_patches.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 
 namespace crowdface {
@@ -28,18 +28,18 @@ struct Prepared {
   std::vector<Trajectory> trajectories;     ///< #heads, of `traced`
   std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
   std::shared_ptr<const LevelNodes> nodes;  ///< the nodes that `mixing` refers to
-  KeptPatches patches;                      ///< all heads' fields; empty with `levels: exact`
+  CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`
   std::size_t from_cache = 0;               ///< number of heads found in the cache
 };
 
 /// A cache entry was truncated while its fields were in use. Results computed from it must be
 /// discarded; preparing the heads again repairs the entry.
-struct CutWhileInUse : IoError {
+struct TruncatedWhileInUse : IoError {
   using IoError::IoError;
 };
 
-/// Call after the fields were used and before the results are. \throws CutWhileInUse.
+/// Call after the fields were used and before the results are. \throws TruncatedWhileInUse.
 void require_whole(const Prepared& prepared);
 
 /// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
@@ -60,13 +60,13 @@ std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepar
 /// Runs `work` again, at most three times in all and with a warning, if a cache entry was truncated
 /// while in use. `work` must prepare the heads anew and skip what it has finished before.
 template <class Work>
-void going_on_if_cut(const Work& work) {
-  constexpr int kMostTimes = 3;
+void retry_if_truncated(const Work& work) {
+  constexpr int kMaxTimes = 3;
   for (int times = 1;; ++times) {
     try {
       return work();
-    } catch (const CutWhileInUse& error) {
-      if (times == kMostTimes) throw;
+    } catch (const TruncatedWhileInUse& error) {
+      if (times == kMaxTimes) throw;
       log_warning(concat(error.what(), "; it is made anew, and the run goes on"));
     }
   }

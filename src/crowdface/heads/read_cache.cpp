@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kVersion = 1;
 
 bool is_topology(const Topology& topology) {
-  constexpr std::uint32_t kLeastCorners = 3;
+  constexpr std::uint32_t kMinCorners = 3;
   const auto& offsets = topology.face_offsets;
   if (offsets.empty() || offsets.front() != 0 || offsets.back() != topology.corner_vertices.size())
     return false;
   for (std::size_t f = 1; f < offsets.size(); ++f) {
-    if (offsets[f] < offsets[f - 1] || offsets[f] - offsets[f - 1] < kLeastCorners) return false;
+    if (offsets[f] < offsets[f - 1] || offsets[f] - offsets[f - 1] < kMinCorners) return false;
   }
   return all_below(topology.corner_vertices, static_cast<std::uint64_t>(topology.vertex_count));
 }

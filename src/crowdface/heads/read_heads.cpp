@@ -19,7 +19,7 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached.h"
-#include "crowdface/heads/seen_files.h"
+#include "crowdface/heads/file_fingerprint.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
@@ -97,7 +97,7 @@ bool fits(const ObjFile& head, const HeadMesh& mesh) {
 }
 
 bool is_worth_keeping(const ObjFile& file) {
-  return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kLeastKeptBytes;
+  return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kMinKeptBytes;
 }
 
 /// Logs the readers' notes on files; identical notes are merged.
@@ -165,7 +165,7 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
   const fs::path folder = cache_entry(cache, {"textures", hasher.digest()});
   const fs::path stem = head.file.path.stem();
   std::string library = stem.string() + ".mtl";
-  if (!is_there(folder / library)) library = write_mesh_textures(mesh, folder, stem.string());
+  if (!path_exists(folder / library)) library = write_mesh_textures(mesh, folder, stem.string());
   return {folder / stem, std::move(library)};
 }
 
@@ -188,7 +188,7 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   HeadReading reading;
   HeadFile& head = reading.head;
   head.file.path = path;
-  const SeenFile seen(cache, path);
+  const FileFingerprint seen(cache, path);
   head.file.file = MappedFile(path);
   head.text = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
   if (is_obj(path)) {

@@ -17,7 +17,7 @@
 namespace crowdface {
 
 /// Smaller files are not cached: reading them takes no longer than reading their cache entry.
-inline constexpr std::uint64_t kLeastKeptBytes = 1'000'000;
+inline constexpr std::uint64_t kMinKeptBytes = 1'000'000;
 
 /// A head's file. The topology, texture coordinates and corner normals of its ObjFile are empty.
 struct HeadFile {

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Index kLeastKeptVertices = 50'000;
+constexpr Index kMinKeptVertices = 50'000;
 
 Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
   return hasher.add(kSharedVersion).add(inputs.topology_digest);
@@ -123,7 +123,7 @@ bool is_mirror(const FoundMirror& found, std::size_t vertices) {
 }  // namespace
 
 fs::path folder_for(const fs::path& cache, const Topology& topology) {
-  return topology.vertex_count >= kLeastKeptVertices ? cache : fs::path();
+  return topology.vertex_count >= kMinKeptVertices ? cache : fs::path();
 }
 
 void find_neighbours(Inputs& inputs) {

@@ -22,7 +22,7 @@ struct Collected {
 
 void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::string& material,
                   Collected& all) {
-  constexpr unsigned kLeastCorners = 3;
+  constexpr unsigned kMinCorners = 3;
   FileMesh& mesh = all.mesh;
   const auto first = static_cast<std::uint32_t>(all.points.size() / 3);
   const bool has_uvs = from.HasTextureCoords(0), has_colours = from.HasVertexColors(0);
@@ -44,7 +44,7 @@ void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::strin
   }
   for (unsigned f = 0; f < from.mNumFaces; ++f) {
     const aiFace& face = from.mFaces[f];
-    if (face.mNumIndices < kLeastCorners) continue;
+    if (face.mNumIndices < kMinCorners) continue;
     for (unsigned c = 0; c < face.mNumIndices; ++c) {
       const std::uint32_t vertex = first + face.mIndices[mirrored ? face.mNumIndices - 1 - c : c];
       mesh.topology.corner_vertices.push_back(vertex);

@@ -6,14 +6,14 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/io/own_library.h"
+#include "crowdface/io/project_library.h"
 
 namespace crowdface {
 
 FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
   static auto* const read = reinterpret_cast<ReadFbx*>(
-      function_of_own_library("libcrowdface_meshes.so", "crowdface_read_fbx",
-                              "FBX files need (Assimp)", "FBX files cannot be read"));
+      project_library_function("libcrowdface_meshes.so", "crowdface_read_fbx",
+                               "FBX files need (Assimp)", "FBX files cannot be read"));
   // Assimp 5.2 writes out of bounds if the base64 text of an image ends in more padding characters
   // than base64 allows.
   if (!bytes.starts_with("Kaydara FBX") && bytes.find("===") != bytes.npos) {

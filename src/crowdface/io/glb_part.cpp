@@ -50,7 +50,7 @@ void add_targets(std::span<const Displacements> moves, std::span<const std::uint
 GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
                  const std::vector<GlbPartMaterial>& materials,
                  const std::vector<std::uint32_t>& face_materials,
-                 const std::vector<GlbImage>& images, const Grouped<Influence>& influences,
+                 const std::vector<GlbImage>& images, const CompressedRows<Influence>& influences,
                  std::vector<std::string> targets)
     : name_(std::move(name)),
       topology_(topology),

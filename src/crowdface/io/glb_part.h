@@ -51,7 +51,7 @@ class GlbPart {
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbPartMaterial>& materials,
           const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
-          const Grouped<Influence>& influences = {}, std::vector<std::string> targets = {});
+          const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {});
 
   /// Adds node, mesh, materials and accessors to a scene.
   /// \param size  bytes in the buffer so far, a multiple of four.

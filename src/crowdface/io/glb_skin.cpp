@@ -38,7 +38,7 @@ Json rotation_json(const Eigen::Matrix3d& rotation) {
 
 }  // namespace
 
-std::vector<GlbSkinAttribute> skin_attributes(const Grouped<Influence>& influences,
+std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices) {
   std::size_t most = 1;
   for (const std::uint32_t v : vertices) most = std::max(most, influences.of(v).size());

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -29,8 +29,8 @@ struct GlbJoint {
 
 /// Joints under a face's node, and their weights for the face's vertices.
 struct GlbSkin {
-  std::vector<GlbJoint> joints;        ///< empty: no rig
-  Grouped<Influence> influences = {};  ///< #V
+  std::vector<GlbJoint> joints;               ///< empty: no rig
+  CompressedRows<Influence> influences = {};  ///< #V
 
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }
 };
@@ -44,7 +44,7 @@ struct GlbSkinAttribute {
 /// Builds as many pairs of JOINTS_n and WEIGHTS_n (four influences each) as the vertex with the
 /// most influences needs.
 /// \param vertices  for each vertex of the file the row of `influences`
-std::vector<GlbSkinAttribute> skin_attributes(const Grouped<Influence>& influences,
+std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);
 
 /// Adds the nodes of the joints, as children of the first node, and the skin. `place_joints` sets

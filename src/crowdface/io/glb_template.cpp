@@ -160,9 +160,9 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
       colours_(options.colours),
       images_(options.image_types.size()),
       points_(static_cast<Index>(options.points.size())) {
-  constexpr Index kMostVertices = 1 << 24;
-  if (vertices_ > kMostVertices || topology.face_count() == 0) {
-    throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMostVertices,
+  constexpr Index kMaxVertices = 1 << 24;
+  if (vertices_ > kMaxVertices || topology.face_count() == 0) {
+    throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMaxVertices,
                               " vertices, found ", vertices_, " vertices and ",
                               topology.face_count(), " faces"));
   }

@@ -9,12 +9,12 @@
 namespace crowdface {
 
 std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptView& view) {
-  constexpr std::size_t kMostStride = 256;
+  constexpr std::size_t kMaxStride = 256;
   // The codec's largest compression ratio
-  constexpr std::size_t kMostTimes = 256, kTail = 4096;
+  constexpr std::size_t kMaxTimes = 256, kTail = 4096;
   const bool attributes = view.mode == "ATTRIBUTES";
-  const bool sound = view.stride > 0 && view.stride <= kMostStride && view.count > 0 &&
-                     view.count <= (kMostTimes * bytes.size() + kTail) / view.stride &&
+  const bool sound = view.stride > 0 && view.stride <= kMaxStride && view.count > 0 &&
+                     view.count <= (kMaxTimes * bytes.size() + kTail) / view.stride &&
                      (attributes ? view.stride % 4 == 0 : view.stride == 2 || view.stride == 4);
   if (!sound || (view.mode == "TRIANGLES" && view.count % 3 != 0)) return std::nullopt;
   std::string out(view.count * view.stride, '\0');

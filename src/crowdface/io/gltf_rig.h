@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/io/glb_skin.h"
 #include "crowdface/mesh/topology.h"
 
@@ -23,7 +23,7 @@ struct GltfRig {
   Positions points;  ///< vertices of all meshes, one mesh after the other
   /// #points values of `_VERTEX_ID`; empty if the file has none
   std::vector<std::uint32_t> vertex_ids;
-  Grouped<Influence> influences;  ///< #points
+  CompressedRows<Influence> influences;  ///< #points
 };
 
 /// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.

@@ -89,14 +89,14 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 /// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`);
 /// OpenEXR and JPEG have no such bound, only the memory limit for all images.
 void check_png_claim(const path& file, std::string_view bytes, const PictureFacts& spec) {
-  constexpr std::uint64_t kMostOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
+  constexpr std::uint64_t kMaxOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
   const std::uint64_t bits = png_bits_per_pixel(bytes);
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
   const std::uint64_t claimed = row * static_cast<std::uint64_t>(spec.height);
-  if (claimed <= kMostOfOneByte * bytes.size() + row) return;
+  if (claimed <= kMaxOfOneByte * bytes.size() + row) return;
   refuse_file(file,
               concat("is too short for the ", spec.width, " x ", spec.height, " pixels of ", bits,
-                     " bits that it claims to hold: expected at least ", claimed / kMostOfOneByte,
+                     " bits that it claims to hold: expected at least ", claimed / kMaxOfOneByte,
                      " bytes, found ", bytes.size(), " (cut short?)"));
 }
 

@@ -13,8 +13,8 @@ std::string converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = ::iconv_open("UTF-8", encoding);
   // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open says -1 for failure
   if (converter == reinterpret_cast<iconv_t>(-1)) return {};
-  constexpr std::size_t kMostPerByte = 4;
-  std::string in(bytes), out(kMostPerByte * bytes.size(), '\0');
+  constexpr std::size_t kMaxPerByte = 4;
+  std::string in(bytes), out(kMaxPerByte * bytes.size(), '\0');
   char *from = in.data(), *to = out.data();
   std::size_t left = in.size(), room = out.size();
   const bool failed = ::iconv(converter, &from, &left, &to, &room) == static_cast<std::size_t>(-1);

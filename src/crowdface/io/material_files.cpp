@@ -28,9 +28,9 @@ constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 /// All suffixes of a text that begin at a word, longest first: a file name may contain spaces, and
 /// follows the options. Limited to the last 32 words.
 std::vector<std::string_view> tails_of(std::string_view text) {
-  constexpr std::size_t kMostTails = 32;
+  constexpr std::size_t kMaxTails = 32;
   std::vector<std::string_view> tails;
-  for (std::size_t end = text.size(); end > 0 && tails.size() < kMostTails;) {
+  for (std::size_t end = text.size(); end > 0 && tails.size() < kMaxTails;) {
     const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
     tails.push_back(text.substr(begin));
     end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
@@ -141,10 +141,10 @@ class Collector {
       return refuse("is missing; OBJ files name it all the same, pictures do without");
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
-      require_look(folder_ / relative, {errno, std::generic_category()});
+      require_stat(folder_ / relative, {errno, std::generic_category()});
       return refuse("cannot be read and is not copied");
     }
-    if (!leads_below(folder_ / relative, folder_)) {
+    if (!is_inside_folder(folder_ / relative, folder_)) {
       return refuse("is a link that leads out of the head's folder and is not copied");
     }
     const fs::path normal = relative.lexically_normal();
@@ -160,7 +160,7 @@ class Collector {
     const fs::path file = folder_ / name;
     std::error_code error;
     const bool is_too_large = fs::file_size(file, error) > kLargestMaterialFile;
-    require_look(file, error);
+    require_stat(file, error);
     if (is_too_large || error) return;
     textures_of_.clear();
     std::string material;
@@ -178,7 +178,7 @@ class Collector {
       if (seen == Seen::kTooMany) continue;
       const std::optional<TextureKind> kind = texture_kind_of(word);
       if (kind && stays_inside(relative) &&
-          leads_below(folder_ / with_tile(relative, kFirstTile), folder_)) {
+          is_inside_folder(folder_ / with_tile(relative, kFirstTile), folder_)) {
         of_kind_[*kind].emplace(material, (folder_ / relative).lexically_normal());
       }
       taken_[relative].kinds.insert(kind);

@@ -37,10 +37,10 @@ std::string positions_header(Index vertices) {
 }
 
 void write_indices(const std::vector<std::uint32_t>& indices, const std::filesystem::path& path) {
-  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-  if (indices.size() > kMost) {
+  constexpr std::size_t kMax = std::numeric_limits<std::int32_t>::max();
+  if (indices.size() > kMax) {
     throw InvalidInput(
-        concat("points: expected at most ", kMost, " corners, found ", indices.size()));
+        concat("points: expected at most ", kMax, " corners, found ", indices.size()));
   }
   EncodedFile file;
   file.add(npy_header("'<i4'", concat(indices.size(), ",")));

@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::string_view kPolypaint = "#MRGB";
-constexpr double kMostByte = 255;
+constexpr double kMaxByte = 255;
 
 bool is_vertex(std::string_view line) {
   const std::size_t at = line.find_first_not_of(" \t");
@@ -23,21 +23,21 @@ bool is_vertex(std::string_view line) {
 }  // namespace
 
 ColourRows byte_colours(const Positions& shares) {
-  return (kMostByte * shares.array()).round().matrix().cast<std::uint8_t>();
+  return (kMaxByte * shares.array()).round().matrix().cast<std::uint8_t>();
 }
 
 Positions colour_shares(const ColourRows& colours) {
-  return colours.cast<double>() / kMostByte;
+  return colours.cast<double>() / kMaxByte;
 }
 
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
-  constexpr std::size_t kFirst = 4, kFewestWords = 7;  // "v", x y z, r g b
+  constexpr std::size_t kFirst = 4, kMinWords = 7;  // "v", x y z, r g b
   std::vector<std::array<double, 3>> found;
   double most = 1;
   for (const std::string_view line : split_lines(text)) {
     if (!is_vertex(line)) continue;
     const std::vector<std::string> words = words_of(line);
-    if (words.size() < kFewestWords) return ColourRows(0, 3);
+    if (words.size() < kMinWords) return ColourRows(0, 3);
     if (found.empty()) found.reserve(static_cast<std::size_t>(vertices));
     std::array<double, 3>& colour = found.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) {
@@ -49,11 +49,11 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
   }
   if (static_cast<Eigen::Index>(found.size()) != vertices) return ColourRows(0, 3);
   ColourRows colours(vertices, 3);
-  const double scale = most > 1 ? 1 : kMostByte;
+  const double scale = most > 1 ? 1 : kMaxByte;
   for (Eigen::Index v = 0; v < vertices; ++v) {
     for (Eigen::Index c = 0; c < 3; ++c) {
       const double value = scale * found[static_cast<std::size_t>(v)][static_cast<std::size_t>(c)];
-      colours(v, c) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, kMostByte)));
+      colours(v, c) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, kMaxByte)));
     }
   }
   return colours;
@@ -76,7 +76,7 @@ std::string with_colours(std::string_view text, const ColourRows& colours) {
       out += concat(w == 0 ? "" : " ", words[w]);
     }
     for (Eigen::Index c = 0; c < 3; ++c) {
-      out += concat(' ', format_fixed(colours(vertex, c) / kMostByte, kDigits));
+      out += concat(' ', format_fixed(colours(vertex, c) / kMaxByte, kDigits));
     }
     out += '\n';
     ++vertex;

@@ -142,10 +142,10 @@ class Mender {
     if (is_face(statement)) return add_face(line, out);
     if (statement == "v") {
       const auto words = words_after(line);
-      constexpr std::size_t kMost = 8;  // x y z, w, and a colour
-      const bool colours = words.size() > 3 && words.size() <= kMost && are_numbers(line, 4, kMost);
+      constexpr std::size_t kMax = 8;  // x y z, w, and a colour
+      const bool colours = words.size() > 3 && words.size() <= kMax && are_numbers(line, 4, kMax);
       lost_colours_ += words.size() > 3 && !colours ? 1U : 0U;
-      return add_words("v", words, colours ? kMost : 3, line, out);
+      return add_words("v", words, colours ? kMax : 3, line, out);
     }
     if (statement == "vt") {
       const bool bad = bad_uvs_[uvs_so_far_++];
@@ -182,8 +182,8 @@ class Mender {
 
   void add_face(std::string_view line, std::string& out) {
     const auto words = words_after(line);
-    constexpr std::size_t kLeastCorners = 3;
-    if (words.size() < kLeastCorners) {
+    constexpr std::size_t kMinCorners = 3;
+    if (words.size() < kMinCorners) {
       ++small_faces_;
       return;
     }

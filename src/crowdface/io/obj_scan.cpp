@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostCorners = 255;  // the loader counts corners in one byte
-constexpr std::uint64_t kMostPerVertex = 8;
+constexpr std::size_t kMaxCorners = 255;  // the loader counts corners in one byte
+constexpr std::uint64_t kMaxPerVertex = 8;
 // Longest material name, group name, or list of material files, in bytes.
 constexpr std::size_t kLongestObjName = 1000;
 // Beyond this, single precision cannot resolve a tenth of a unit
@@ -134,8 +134,8 @@ class Scanner {
     }
     require_at_most(input_limits().vertices, total_.vertices, "vertices");
     // A vertex may have several texture coordinates and normals, but not arbitrarily many.
-    require_at_most(kMostPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
-    require_at_most(kMostPerVertex * input_limits().vertices, total_.normals, "normals");
+    require_at_most(kMaxPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
+    require_at_most(kMaxPerVertex * input_limits().vertices, total_.normals, "normals");
     require_at_most(input_limits().faces, total_.faces, "faces");
     scan_.positions.resize(static_cast<Index>(total_.vertices), 3);
     scan_.uvs.resize(lines_ == ObjLines::kAll ? static_cast<Index>(total_.uvs) : 0, 2);
@@ -295,8 +295,8 @@ class Scanner {
     if (words_.size() < 4) {
       fail(concat("expected a face of at least 3 corners, found ", words_.size() - 1));
     }
-    if (words_.size() - 1 > kMostCorners) {
-      fail(concat("expected a face of at most ", kMostCorners, " corners, found ",
+    if (words_.size() - 1 > kMaxCorners) {
+      fail(concat("expected a face of at most ", kMaxCorners, " corners, found ",
                   words_.size() - 1));
     }
     int form = -1;

@@ -23,14 +23,14 @@ char* copy(std::string_view text, char* out) {
 
 /// Writes three coordinates, then red, green and blue.
 char* write_coloured(char* out, const Positions& rows, const ColourRows& colours, Index i) {
-  constexpr double kMostByte = 255, kSteps = 1e4;
+  constexpr double kMaxByte = 255, kSteps = 1e4;
   for (Index c = 0; c < 3; ++c) {
     if (c > 0) *out++ = ' ';
     out = write_single(out, rows(i, c));
   }
   for (Index c = 0; c < 3; ++c) {
     *out++ = ' ';
-    out = write_single(out, std::round(kSteps * colours(i, c) / kMostByte) / kSteps);
+    out = write_single(out, std::round(kSteps * colours(i, c) / kMaxByte) / kSteps);
   }
   return out;
 }

@@ -95,16 +95,16 @@ void add_page(const PackedPicture& picture, std::size_t first_object, PdfWriter&
 
 std::string encode_pdf(std::span<const std::string> pngs) {
   require(!pngs.empty(), "a PDF without a page");
-  constexpr std::size_t kFirst = 3, kObjectsAPage = 3;
+  constexpr std::size_t kFirst = 3, kObjectsPerPage = 3;
   PdfWriter pdf;
   pdf.object("<< /Type /Catalog /Pages 2 0 R >>");
   std::string pages;
   for (std::size_t p = 0; p < pngs.size(); ++p) {
-    pages += concat(p > 0 ? " " : "", kFirst + kObjectsAPage * p, " 0 R");
+    pages += concat(p > 0 ? " " : "", kFirst + kObjectsPerPage * p, " 0 R");
   }
   pdf.object(concat("<< /Type /Pages /Kids [", pages, "] /Count ", pngs.size(), " >>"));
   for (std::size_t p = 0; p < pngs.size(); ++p) {
-    add_page(unwrap(pngs[p]), kFirst + kObjectsAPage * p, pdf);
+    add_page(unwrap(pngs[p]), kFirst + kObjectsPerPage * p, pdf);
   }
   return pdf.finish();
 }

@@ -270,8 +270,8 @@ class PlyReader {
   }
 
   void add_face(const std::vector<std::int64_t>& corners, const std::vector<double>& uvs) {
-    constexpr std::size_t kLeast = 3;
-    if (corners.size() < kLeast) {
+    constexpr std::size_t kMin = 3;
+    if (corners.size() < kMin) {
       ++flat_faces_;
       return;
     }

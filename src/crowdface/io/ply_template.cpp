@@ -37,8 +37,8 @@ PlyTemplate::PlyTemplate(const Topology& topology)
                  topology.corner_vertices.size() * sizeof(std::uint32_t));
   for (Index f = 0; f < face_count_; ++f) {
     const auto face = topology.face(f);
-    constexpr std::size_t kMostCorners = 255;
-    if (face.size() > kMostCorners) {
+    constexpr std::size_t kMaxCorners = 255;
+    if (face.size() > kMaxCorners) {
       throw InvalidInput(concat("PLY: expected faces of at most 255 corners, found one of ",
                                 face.size(), ", face ", f + 1));
     }

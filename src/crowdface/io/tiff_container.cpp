@@ -103,7 +103,7 @@ class Directory {
 /// compressions.
 std::optional<std::uint64_t> most_of_one_byte(std::uint64_t compression, bool jpeg) {
   constexpr std::uint64_t kJpeg = 7;
-  constexpr std::pair<std::uint64_t, std::uint64_t> kMost[] = {
+  constexpr std::pair<std::uint64_t, std::uint64_t> kMax[] = {
       {1, 1},         // uncompressed
       {5, 2600},      // LZW: longest string of 12-bit codes
       {8, 1100},      // Deflate: the longest match takes 2 bits, 1032 bytes per byte
@@ -111,7 +111,7 @@ std::optional<std::uint64_t> most_of_one_byte(std::uint64_t compression, bool jp
       {32773, 64},    // PackBits: 128 from 2
       {kJpeg, 1000},  // JPEG: three blocks of 64 values, 2 bits each
   };
-  for (const auto& [known, most] : kMost) {
+  for (const auto& [known, most] : kMax) {
     if (known == compression && (jpeg || known != kJpeg)) return most;
   }
   return std::nullopt;
@@ -139,7 +139,7 @@ struct Cut {
 };
 
 std::string defect_of(const Directory& directory, bool jpeg) {
-  constexpr std::uint64_t kMostSide = 1U << 24U, kMostBits = 64, kMostSamples = 1U << 16U;
+  constexpr std::uint64_t kMaxSide = 1U << 24U, kMaxBits = 64, kMaxSamples = 1U << 16U;
   const std::uint64_t width = directory.first(kWidth, 0), height = directory.first(kHeight, 0);
   const std::uint64_t samples = directory.first(kSamplesPerPixel, 1);
   const std::vector<std::uint64_t> depths = directory.numbers(kBitsPerSample);
@@ -149,9 +149,9 @@ std::string defect_of(const Directory& directory, bool jpeg) {
   const std::uint64_t down = tiled ? directory.first(kTileLength, 0)
                                    : std::min(directory.first(kRowsPerStrip, height), height);
   for (const std::uint64_t side : {width, height, across, down}) {
-    if (side < 1 || side > kMostSide) return concat("expected a picture, found a side of ", side);
+    if (side < 1 || side > kMaxSide) return concat("expected a picture, found a side of ", side);
   }
-  if (depth < 1 || depth > kMostBits || samples < 1 || samples > kMostSamples) {
+  if (depth < 1 || depth > kMaxBits || samples < 1 || samples > kMaxSamples) {
     return concat("expected samples of 8, 16 or 32 bits, found ", samples, " of ", depth);
   }
   const std::uint64_t compression = directory.first(kCompression, 1);

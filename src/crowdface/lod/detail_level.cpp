@@ -14,8 +14,8 @@ namespace crowdface {
 namespace {
 
 DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
-                     const FaceSet& faces) {
-  triangles = in_order_of_looks(std::move(triangles), split);
+                     const HeadSet& faces) {
+  triangles = grouped_by_material(std::move(triangles), split);
   DetailLevel level;
   std::vector<std::uint32_t> vertices, uvs;
   for (const Triangle& triangle : triangles) {
@@ -23,7 +23,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
       vertices.push_back(split.corners[corner].vertex);
       uvs.push_back(split.corners[corner].uv);
     }
-    level.faces.push_back(split.face_of_look[split.corners[triangle[0]].look]);
+    level.faces.push_back(split.face_of_material[split.corners[triangle[0]].look]);
   }
   level.vertices = renumber(vertices, faces.topology.vertex_count);
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
@@ -65,7 +65,7 @@ Displacements DetailLevel::of(const Displacements& whole) const {
   return some;
 }
 
-std::vector<DetailLevel> detail_levels(const FaceSet& faces, std::span<const std::uint32_t> looks,
+std::vector<DetailLevel> detail_levels(const HeadSet& faces, std::span<const std::uint32_t> looks,
                                        std::span<const double> shares) {
   const SplitMesh split = split_mesh(faces.topology, faces.uvs, looks);
   const Positions positions = split.of(mean_head(faces));

@@ -40,7 +40,7 @@ struct LevelError {
 /// \param shares  fractions of the triangles, each in (0, 1). A level has more triangles if its
 ///                borders need them.
 /// \return        #shares levels.
-std::vector<DetailLevel> detail_levels(const FaceSet& faces, std::span<const std::uint32_t> looks,
+std::vector<DetailLevel> detail_levels(const HeadSet& faces, std::span<const std::uint32_t> looks,
                                        std::span<const double> shares);
 
 }  // namespace crowdface

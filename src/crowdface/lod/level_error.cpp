@@ -28,9 +28,9 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
 /// nearest vertex so far. Returns the smallest distance.
 double walk(const DetailLevel& level, const FacesAround& around, const Positions& rows,
             std::uint32_t start, const Eigen::Vector3d& point) {
-  constexpr int kMostSteps = 16;
+  constexpr int kMaxSteps = 16;
   SurfacePoint best = nearest_around(level.topology, around, rows, start, point);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const auto most = std::ranges::max_element(best.shares);
     const std::uint32_t vertex = best.corners[static_cast<std::size_t>(most - best.shares.begin())];
     const SurfacePoint next = nearest_around(level.topology, around, rows, vertex, point);

@@ -15,8 +15,8 @@ constexpr std::size_t kBlock = 16384;
 
 /// Both directions of all polygon edges, grouped by their first vertex. An edge occurs once for
 /// each of its polygons.
-Grouped<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
-  return grouped<std::uint32_t>(
+CompressedRows<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
+  return compressed_rows<std::uint32_t>(
       static_cast<std::size_t>(topology.vertex_count), [&](const auto& put) {
         for (Index f = 0; f < topology.face_count(); ++f) {
           const auto face = topology.face(f);
@@ -33,7 +33,7 @@ Grouped<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
 }  // namespace
 
 Adjacency build_adjacency(const Topology& topology) {
-  Grouped<std::uint32_t> all = half_edges_by_vertex(topology);
+  CompressedRows<std::uint32_t> all = half_edges_by_vertex(topology);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   // A neighbour that occurs once in the list is the other end of an edge with one polygon.
   std::vector<std::uint8_t> on_boundary(vertices, 0);

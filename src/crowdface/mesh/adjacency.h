@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// The edge-neighbours (one-ring) of every vertex in ascending order, and the vertices on the
 /// mesh's boundary. Opposite corners of a quad are not neighbours.
-struct Adjacency : Grouped<std::uint32_t> {
+struct Adjacency : CompressedRows<std::uint32_t> {
   /// #V: whether the vertex is an end of an edge with exactly one polygon.
   std::vector<bool> boundary;
 

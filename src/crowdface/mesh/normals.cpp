@@ -39,7 +39,7 @@ NormalFans::NormalFans(const Topology& topology) : faces_(FacesAround(topology))
 
 NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows,
                        Index rows)
-    : faces_(grouped<std::uint32_t>(static_cast<std::size_t>(rows), [&](const auto& put) {
+    : faces_(compressed_rows<std::uint32_t>(static_cast<std::size_t>(rows), [&](const auto& put) {
         for (Index f = 0; f < topology.face_count(); ++f) {
           const auto [begin, end] = topology.corners(f);
           for (auto c = begin; c < end; ++c) {

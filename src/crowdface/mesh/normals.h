@@ -35,7 +35,7 @@ class NormalFans {
   }
 
  private:
-  Grouped<std::uint32_t> faces_;  ///< polygons around each row, ascending
+  CompressedRows<std::uint32_t> faces_;  ///< polygons around each row, ascending
 };
 
 /// Unit normals of the vertices, #V by 3, as NormalFans computes them; (0, 0, 1) where the sum

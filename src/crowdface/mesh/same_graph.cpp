@@ -8,15 +8,15 @@
 #include <unordered_map>
 
 #include "crowdface/mesh/alignment.h"
-#include "crowdface/mesh/grouping.h"
+#include "crowdface/mesh/disjoint_sets.h"
 
 namespace crowdface {
 namespace {
 
-constexpr int kRounds = 12;                   ///< rounds of colour refinement
-constexpr std::size_t kMostCandidates = 256;  ///< start corners that are tried for each component
+constexpr int kRounds = 12;                  ///< rounds of colour refinement
+constexpr std::size_t kMaxCandidates = 256;  ///< start corners that are tried for each component
 /// Limit of all traversal steps, as a multiple of the number of corners.
-constexpr std::size_t kMostSteps = 64;
+constexpr std::size_t kMaxSteps = 64;
 
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
@@ -102,7 +102,7 @@ class Matcher {
         at_a_(at_a),
         at_b_(at_b),
         placed_(at_b.rowwise() + (at_a.colwise().mean() - at_b.colwise().mean())),
-        steps_left_(kMostSteps * a.topology().corner_vertices.size()) {}
+        steps_left_(kMaxSteps * a.topology().corner_vertices.size()) {}
 
   std::optional<std::vector<std::uint32_t>> match() {
     const auto count = static_cast<std::size_t>(a_.topology().vertex_count);
@@ -112,7 +112,7 @@ class Matcher {
     if (of_a != of_b) return std::nullopt;
     to_b_.assign(count, kNoIndex);
     to_a_.assign(count, kNoIndex);
-    corners_at_b_ = grouped<std::uint32_t>(count, [&](const auto& put) {
+    corners_at_b_ = compressed_rows<std::uint32_t>(count, [&](const auto& put) {
       for (std::uint32_t c = 0; c < b_.topology().corner_vertices.size(); ++c) put(b_.vertex(c), c);
     });
     for (std::uint32_t v = 0; v < count; ++v) with_colour_[b_.colours()[v]].push_back(v);
@@ -131,7 +131,7 @@ class Matcher {
   /// colour. Larger sets come first.
   std::vector<std::uint32_t> seeds() const {
     const Topology& topology = a_.topology();
-    Grouping groups(static_cast<std::size_t>(topology.face_count()));
+    DisjointSets groups(static_cast<std::size_t>(topology.face_count()));
     for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
       if (a_.twin(c) != kNoIndex) groups.join(a_.face(c), a_.face(a_.twin(c)));
     }
@@ -165,7 +165,7 @@ class Matcher {
     for (const std::uint32_t candidate : with_colour_.at(a_.colours()[a_.vertex(seed)])) {
       if (known != kNoIndex ? candidate != known : to_a_[candidate] != kNoIndex) continue;
       for (const std::uint32_t corner : corners_at_b_.of(candidate)) {
-        if (++tried > kMostCandidates) break;
+        if (++tried > kMaxCandidates) break;
         auto pairs = walk(seed, corner);
         if (!pairs) continue;
         const double distance = distance_of(*pairs);
@@ -262,7 +262,7 @@ class Matcher {
   bool is_aligned_ = false;
   std::size_t steps_left_;
   std::vector<std::uint32_t> to_b_, to_a_;
-  Grouped<std::uint32_t> corners_at_b_;
+  CompressedRows<std::uint32_t> corners_at_b_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> with_colour_;
   std::vector<bool> seen_;  ///< polygons of a that the traversal has visited
 };

@@ -34,8 +34,8 @@ FacesAround::FacesAround(const Topology& topology) {
       for (const std::uint32_t v : topology.face(f)) put(v, static_cast<std::uint32_t>(f));
     }
   };
-  Grouped<std::uint32_t>::operator=(
-      grouped<std::uint32_t>(static_cast<std::size_t>(topology.vertex_count), for_each_corner));
+  CompressedRows<std::uint32_t>::operator=(compressed_rows<std::uint32_t>(
+      static_cast<std::size_t>(topology.vertex_count), for_each_corner));
 }
 
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count) {
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index coun
   return used;
 }
 
-Positions mean_head(const FaceSet& faces) {
+Positions mean_head(const HeadSet& faces) {
   constexpr Index kBlock = 4096;
   Positions mean(faces.topology.vertex_count, 3);
   parallel_blocks(mean.rows(), kBlock, [&](Index begin, Index end) {

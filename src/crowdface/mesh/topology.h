@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 
 namespace crowdface {
 
@@ -56,7 +56,7 @@ struct Topology {
 };
 
 /// The polygons that meet at each vertex, ascending.
-struct FacesAround : Grouped<std::uint32_t> {
+struct FacesAround : CompressedRows<std::uint32_t> {
   explicit FacesAround(const Topology& topology);
 };
 
@@ -73,7 +73,7 @@ struct Head {
 };
 
 /// Heads that share one topology and its texture coordinates.
-struct FaceSet {
+struct HeadSet {
   Topology topology;
   TextureCoordinates uvs;
   std::vector<Head> heads;
@@ -85,7 +85,7 @@ struct FaceSet {
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);
 
 /// The mean of all heads, #V by 3.
-Positions mean_head(const FaceSet& faces);
+Positions mean_head(const HeadSet& faces);
 
 /// Describes the first difference between two topologies in one sentence ("face 12: expected
 /// vertices 1 2 3 4, found 1 2 4 3"). Counts polygons and vertices from 1, as OBJ does. Returns an

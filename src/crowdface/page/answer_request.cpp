@@ -80,7 +80,7 @@ std::optional<HttpAnswer> PageFiles::file(std::string_view name) const {
       name != kLicense) {
     return std::nullopt;
   }
-  if (!folder_ || !is_there(*folder_ / name)) {
+  if (!folder_ || !path_exists(*folder_ / name)) {
     if (name != html) return std::nullopt;
     return HttpAnswer{.type = std::string(type_of(name)), .bytes = std::string(kNotice)};
   }

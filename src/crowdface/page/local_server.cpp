@@ -32,7 +32,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostHeadBytes = std::size_t{16} << 10U, kMostConnections = 64, kThreads = 16;
+constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 64, kThreads = 16;
 constexpr auto kMoment = std::chrono::milliseconds(100);
 /// Time limits: for the head of a request, counted from its first byte; for a request with a body;
 /// and for a client to accept more of its answer.
@@ -171,7 +171,7 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
     return refuse(411, "expected a body of a known length");
   }
   if (head.count("content-encoding") > 0) return refuse(415, "expected a body that is not packed");
-  if (length.value_or(0) > kMostBytes) return refuse(413, "the body is larger than 4 MiB");
+  if (length.value_or(0) > kMaxBytes) return refuse(413, "the body is larger than 4 MiB");
   return std::nullopt;
 }
 
@@ -180,9 +180,9 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
 void LocalServer::State::accept_clients() {
   for (;;) {
     Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    const bool is_short = !accepted.valid() && is_machines_fault(errno);
+    const bool is_short = !accepted.valid() && is_system_error(errno);
     if (!accepted.valid() && !is_short) return;
-    if (is_short || connections.size() >= kMostConnections) {
+    if (is_short || connections.size() >= kMaxConnections) {
       auto oldest = connections.end();
       for (auto client = connections.begin(); client != connections.end(); ++client) {
         const bool may_go = client->state == Connection::State::kReading;
@@ -220,7 +220,7 @@ void LocalServer::State::take_request(Connection& client) {
     constexpr std::string_view kEnd = "\r\n\r\n";
     const std::size_t end = client.in.find(kEnd);
     client.closes = true;
-    if (std::min(end, client.in.size()) > kMostHeadBytes) {
+    if (std::min(end, client.in.size()) > kMaxHeadBytes) {
       return give(refuse(431, "the head of the request is larger than 16 KiB"), client);
     }
     if (end == std::string::npos) return;

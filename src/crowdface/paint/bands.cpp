@@ -23,9 +23,9 @@ constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSof
                  kBelowChin = 0.12, kNeckSoft = 0.12;
 
 // Fractions of the distance from eyes to mouth, about 65 mm. The head's breadth without ears is
-// measured this far above the eyes and below the mouth; kLeastEar is the smallest protrusion of an
+// measured this far above the eyes and below the mouth; kMinEar is the smallest protrusion of an
 // ear.
-constexpr double kAbove = 0.9, kBelow = 0.1, kLeastEar = 0.06;
+constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 /// A place belongs to an ear if it protrudes by more than this fraction of the ear's maximum.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
@@ -85,7 +85,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     most = stands_out(i);
     at = i;
   }
-  if (most < kLeastEar * face) return std::nullopt;
+  if (most < kMinEar * face) return std::nullopt;
   // The range of heights around it in which the ears protrude enough.
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kOfMost * most) --bottom;

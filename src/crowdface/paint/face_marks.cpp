@@ -178,7 +178,7 @@ constexpr double kPriorMm = 3;  ///< penalty at the end of the search range
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 constexpr double kFineMm = 5;  ///< edges up to this length resolve the lips
 // Fractions of the distance from eyes to mouth, about 65 mm.
-constexpr double kLeastChin = 0.4, kMostChin = 1.05, kChinWay = 0.15;
+constexpr double kMinChin = 0.4, kMaxChin = 1.05, kChinWay = 0.15;
 
 /// Typical edge length of the skin around a face: the edge of a square that has the median area of
 /// the polygons there.
@@ -192,12 +192,12 @@ double edge_length_near(const Topology& topology, const HeadShape& head, const R
       areas.push_back(face_area_vector(topology, f, head.positions).norm());
     }
   }
-  return areas.empty() ? 0 : std::sqrt(value_of_rank(areas, areas.size() / 2));
+  return areas.empty() ? 0 : std::sqrt(nth_smallest(areas, areas.size() / 2));
 }
 
 }  // namespace
 
-HeadShape shape_of_mean(const FaceSet& faces) {
+HeadShape shape_of_mean(const HeadSet& faces) {
   HeadShape head;
   head.positions = mean_head(faces);
   const Adjacency adjacency = build_adjacency(faces.topology);
@@ -231,7 +231,7 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
                                      const HeadAxes& axes) {
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (match && (match->votes < kLeastVotes || match->degrees_off > kMostDegreesOff)) match.reset();
+  if (match && (match->votes < kMinVotes || match->degrees_off > kMaxDegreesOff)) match.reset();
   return match;
 }
 
@@ -276,7 +276,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   if (!head.eyeballs.empty() && std::abs(of_balls - eyes) < kEyesNearMm * mm) marks.eyes = of_balls;
   // The chin is the most convex point of the profile below the mouth.
   const double face = marks.face();
-  marks.chin = outline.best(marks.mouth - kMostChin * face, marks.mouth - kLeastChin * face,
+  marks.chin = outline.best(marks.mouth - kMaxChin * face, marks.mouth - kMinChin * face,
                             [&](double h) { return -outline.hollow(h, kChinWay * face); });
   marks.chin_front = outline.at(marks.chin);
   return marks;
@@ -312,7 +312,7 @@ std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& h
   for (const Bearing& bearing : bearings) axes.push_back(axes_of(bearing));
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, axes, head.eyeballs);
-  if (!match || match->votes < kLeastVotes) return std::nullopt;
+  if (!match || match->votes < kMinVotes) return std::nullopt;
   return bearings[match->view];
 }
 

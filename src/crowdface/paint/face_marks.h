@@ -31,7 +31,7 @@ struct HeadShape {
   std::vector<bool> skin;                 ///< #V
   std::vector<Eigen::Vector3d> eyeballs;  ///< centres of the eyeballs, if the head has eyeballs
 };
-HeadShape shape_of_mean(const FaceSet& faces);
+HeadShape shape_of_mean(const HeadSet& faces);
 
 /// Position of the symmetry plane along HeadAxes::side(): the middle of the skin.
 double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes);

@@ -62,10 +62,10 @@ int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes,
 /// \param coarseness  step width as a multiple of the finest steps
 Candidate search_view(const Positions& samples, const HeadAxes& axes,
                       const std::vector<Eigen::Vector3d>& eyes, double coarseness) {
-  constexpr double kLeastAmplitude = 0.45, kMostAmplitude = 2;
+  constexpr double kMinAmplitude = 0.45, kMaxAmplitude = 2;
   constexpr double kSquares = 150;  // number of squares along the diagonal
-  constexpr double kLeastShare = 0.15,
-                   kMostShare = 0.85;  // width of the relief as fractions of the surface's breadth
+  constexpr double kMinShare = 0.15,
+                   kMaxShare = 0.85;  // width of the relief as fractions of the surface's breadth
   constexpr double kReliefMm = kReliefSpacingMm * (kReliefColumns - 1);
   const double grow = std::pow(1.15, coarseness), up_mm = 6 * coarseness,
                aside_mm = 10 * coarseness;
@@ -74,7 +74,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   const double breadth = box.sizes().x();
   // Sizes to try, in a geometric sequence; each size is searched in parallel.
   std::vector<Candidate> of_scale;
-  for (double scale = kLeastShare * breadth / kReliefMm; scale < kMostShare * breadth / kReliefMm;
+  for (double scale = kMinShare * breadth / kReliefMm; scale < kMaxShare * breadth / kReliefMm;
        scale *= grow) {
     of_scale.emplace_back().scale = scale;
   }
@@ -89,7 +89,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
       for (int i = -aside; i <= aside; ++i) {
         const double across = box.center().x() + i * aside_mm * scale;
         const ReliefFit fit = map.fit(across, height, scale);
-        if (!(fit.amplitude >= kLeastAmplitude && fit.amplitude <= kMostAmplitude)) continue;
+        if (!(fit.amplitude >= kMinAmplitude && fit.amplitude <= kMaxAmplitude)) continue;
         const double votes =
             fit.agreement + kVoteOfEyes * vote_of_eyes(eyes, axes, across, height, scale);
         if (votes > best.votes) best = {across, height, scale, 1, fit, votes};
@@ -118,13 +118,13 @@ class Refinement {
  public:
   Refinement(const Positions& samples, const ReliefMatch& first) : best_(first) {
     constexpr double kAroundMm = 110, kBehindMm = 80;
-    constexpr std::size_t kMost = 20'000;
+    constexpr std::size_t kMax = 20'000;
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
       const Eigen::Vector3d off = (row3(samples, i) - first.between) / first.scale;
       if (off.norm() < kAroundMm && off.dot(first.axes.front) > -kBehindMm) near.push_back(i);
     }
-    if (const std::size_t step = near.size() / kMost; step > 1) {
+    if (const std::size_t step = near.size() / kMax; step > 1) {
       for (std::size_t i = 0; i * step < near.size(); ++i) near[i] = near[i * step];
       near.resize(near.size() / step);
     }
@@ -138,7 +138,7 @@ class Refinement {
     // A slope of the depths shows that the head is pitched: compensate the pitch and search again.
     // Smaller angles come from the person's posture or from the form of the face.
     const double pitch = std::atan(slope_up_) / kRadians;
-    if (std::abs(pitch) > kLeastPitch) {
+    if (std::abs(pitch) > kMinPitch) {
       ReliefMatch next = best_;
       next.axes = turned(best_.axes, best_.axes.side(), pitch);
       best_.agreement = -1;
@@ -150,8 +150,8 @@ class Refinement {
 
  private:
   static constexpr double kSquareMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
-  static constexpr double kMostStretch = 0.25;  // of the logarithm of the stretch
-  static constexpr double kLeastPitch = 10;     // degrees
+  static constexpr double kMaxStretch = 0.25;  // of the logarithm of the stretch
+  static constexpr double kMinPitch = 10;      // degrees
 
   void search() {
     for (double step = 1; step >= 1.0 / 16;) {
@@ -203,7 +203,7 @@ class Refinement {
                         0};
     candidate.fit =
         map_->fit(candidate.across, candidate.height, candidate.scale, candidate.stretch);
-    const bool is_likely = std::abs(std::log(match.stretch)) < kMostStretch;
+    const bool is_likely = std::abs(std::log(match.stretch)) < kMaxStretch;
     if (is_likely && candidate.fit.agreement > best_.agreement) {
       best_ = match_of(candidate, match.axes);
       slope_up_ = candidate.fit.slope_up / match.stretch;
@@ -302,7 +302,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   // face; otherwise the rotated views follow.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
-  if (match.votes < kLeastVotes || match.degrees_off > kTurn) {
+  if (match.votes < kMinVotes || match.degrees_off > kTurn) {
     const ReliefMatch other = search(others, kCoarser);
     if (other.votes > match.votes) match = other;
   }

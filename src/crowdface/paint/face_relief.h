@@ -36,9 +36,9 @@ struct ReliefMatch {
 };
 
 /// A match with fewer votes is not a face.
-inline constexpr double kLeastVotes = 0.65;
+inline constexpr double kMinVotes = 0.65;
 /// A match whose axes differ by more degrees from the requested axes is rejected.
-inline constexpr double kMostDegreesOff = 45;
+inline constexpr double kMaxDegreesOff = 45;
 
 /// Searches a surface for the relief of a face (nose, eye sockets, mouth and chin) by normalised
 /// cross-correlation with the depths of a mean face. Finds faces of any size that are rotated by up

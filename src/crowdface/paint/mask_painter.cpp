@@ -17,7 +17,7 @@ using Alpha = RegionWeights::Alpha;
 // Distances over which smoothing and growing act, as fractions of the radius. They do not depend on
 // the resolution of the mesh.
 constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
-constexpr int kMostRounds = 400;
+constexpr int kMaxRounds = 400;
 
 /// A vertex under the brush.
 struct Touched {
@@ -66,15 +66,15 @@ Index heir_of(const Alpha& alpha, const std::vector<Touched>& touched, Index reg
 }
 
 /// The vertices next to each touched vertex.
-Grouped<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
-                                     const std::vector<Touched>& touched) {
-  Grouped<std::uint32_t> neighbours;
+CompressedRows<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
+                                            const std::vector<Touched>& touched) {
+  CompressedRows<std::uint32_t> neighbours;
   for (const Touched& t : touched) neighbours.add_group(surface.around(t.vertex));
   return neighbours;
 }
 
 double edge_length(const Positions& positions, const std::vector<Touched>& touched,
-                   const Grouped<std::uint32_t>& neighbours) {
+                   const CompressedRows<std::uint32_t>& neighbours) {
   double sum = 0;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     for (const std::uint32_t n : neighbours.of(i)) {
@@ -86,12 +86,12 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
 
 /// Number of steps from vertex to vertex that cover a distance of `edges` edges.
 int rounds(double edges) {
-  return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMostRounds}));
+  return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }
 
 /// Moves the weights of each touched vertex towards the mean of its neighbours.
-void smooth_once(const std::vector<Touched>& touched, const Grouped<std::uint32_t>& neighbours,
-                 Alpha& alpha) {
+void smooth_once(const std::vector<Touched>& touched,
+                 const CompressedRows<std::uint32_t>& neighbours, Alpha& alpha) {
   Alpha next(static_cast<Index>(touched.size()), alpha.cols());
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const auto& [v, strength] = touched[i];
@@ -109,7 +109,7 @@ void smooth_once(const std::vector<Touched>& touched, const Grouped<std::uint32_
   }
 }
 
-void grow_once(const std::vector<Touched>& touched, const Grouped<std::uint32_t>& neighbours,
+void grow_once(const std::vector<Touched>& touched, const CompressedRows<std::uint32_t>& neighbours,
                Index region, Alpha& alpha) {
   std::vector<double> share;
   for (std::size_t i = 0; i < touched.size(); ++i) {

@@ -64,7 +64,7 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
   return propose_bands(topology, mean, *marks, bands);
 }
 
-PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,
+PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean, const Bearing& bearing,
                            const std::vector<Band>& bands, int size) {
   if (faces.topology.corner_uvs.empty()) {
     throw InvalidInput(

@@ -28,7 +28,7 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
 /// Computes the same regions as images in the layout of the heads' texture.
 /// \param size  width and height in texels.
 /// \throws InvalidInput as propose_regions and paint_masks do.
-PaintedMasks propose_masks(const FaceSet& faces, const HeadShape& mean, const Bearing& bearing,
+PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean, const Bearing& bearing,
                            const std::vector<Band>& bands, int size);
 
 }  // namespace crowdface

@@ -69,10 +69,10 @@ struct CellFit {
   Coefficients explained = Coefficients::Zero();
 
   CellFit(const ReliefDepths& depths, const UsedCells& used) {
-    constexpr double kFewest = 0.72 * kReliefCells, kFlatMm = 0.05;
+    constexpr double kMin = 0.72 * kReliefCells, kFlatMm = 0.05;
     const auto& of_cell = terms().of_cell;
     const auto count = static_cast<double>(used.count());
-    if (count < kFewest) return;
+    if (count < kMin) return;
     Products products = terms().products;
     Coefficients by_depth = Coefficients::Zero();
     double squares = 0;

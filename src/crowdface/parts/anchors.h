@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/rigid_motion.h"
@@ -51,7 +51,7 @@ class Anchors {
   std::vector<std::uint32_t> site_of_;         ///< #bound: index into `sites_`
   std::vector<std::array<double, 3>> shares_;  ///< #bound, barycentric
   std::vector<Triangle> sites_;                ///< triangles of the skin
-  Grouped<RingVertex> rings_;                  ///< #sites: the skin around each triangle
+  CompressedRows<RingVertex> rings_;           ///< #sites: the skin around each triangle
 };
 
 /// Ties bound vertices to the rigid parts next to them: gums follow the teeth in them.

@@ -15,7 +15,7 @@ double radius_along(const Topology& topology, const FacesAround& faces, const Po
                     const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, double radius,
                     std::uint32_t& nearest) {
   constexpr int kSteps = 3;
-  constexpr double kLeastSlope = 0.3, kMostChange = 0.5;
+  constexpr double kMinSlope = 0.3, kMaxChange = 0.5;
   double along = radius;
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::Vector3d point = centre + along * direction;
@@ -23,10 +23,10 @@ double radius_along(const Topology& topology, const FacesAround& faces, const Po
     nearest = place.corners[0];
     Eigen::Vector3d outward = normal_at(head, place);
     if (outward.dot(place.position - centre) < 0) outward = -outward;
-    const double slope = std::max(outward.dot(direction), kLeastSlope);
+    const double slope = std::max(outward.dot(direction), kMinSlope);
     along -= outward.dot(point - place.position) / slope;
   }
-  return std::clamp(along, (1 - kMostChange) * radius, (1 + kMostChange) * radius);
+  return std::clamp(along, (1 - kMaxChange) * radius, (1 + kMaxChange) * radius);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace crowdface {
 namespace {
 
 /// Number of a component's vertices whose distance from the skin is measured.
-constexpr std::size_t kMostProbes = 512;
+constexpr std::size_t kMaxProbes = 512;
 
 /// Solves the symmetric 4 by 4 system A x = b by elimination with pivoting; returns zero if A is
 /// singular.
@@ -92,11 +92,11 @@ void measure_roughness(const Topology& topology, const Components& components,
 double distance_to(const PointGrid& skin, const Positions& positions,
                    const std::vector<std::uint32_t>& vertices, double reach) {
   std::vector<double> distances;
-  for (const std::uint32_t vertex : some_of(vertices, kMostProbes)) {
+  for (const std::uint32_t vertex : evenly_spaced_items(vertices, kMaxProbes)) {
     distances.push_back(skin.nearest(positions.row(vertex).transpose(), reach).distance);
   }
   const std::size_t rank = (distances.size() - 1) * 9 / 10;
-  return value_of_rank(std::move(distances), rank);
+  return nth_smallest(std::move(distances), rank);
 }
 
 }  // namespace

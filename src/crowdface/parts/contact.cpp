@@ -9,13 +9,13 @@
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
-#include "crowdface/parts/small_program.h"
+#include "crowdface/parts/quadratic_program.h"
 
 namespace crowdface {
 namespace {
 
 /// Parts with more vertices are subsampled evenly.
-constexpr std::size_t kMostVertices = 2500;
+constexpr std::size_t kMaxVertices = 2500;
 /// Largest number of pairs in a cluster; and the factor from the height differences within a
 /// cluster in the heads to those allowed for in a face.
 constexpr std::size_t kClusterPairs = 16;
@@ -32,7 +32,7 @@ constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
 /// Prices of violations, as multiples of the reach. Vertices that are outside in all heads have
 /// priority.
-constexpr double kNewPrice = 1000, kDeepPrice = 1;
+constexpr double kNewPenalty = 1000, kDeepPenalty = 1;
 
 /// Unknowns of a step, all of them lengths.
 enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepSlack, kUnknowns };
@@ -45,7 +45,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
     : topology_(&topology), faces_(&faces), reach_(reach), middle_(centre_of(positions, part)) {
   radius_ = std::max(radius_about(middle_, positions, part), 1e-3 * reach);
   double sum = 0;
-  for (const std::uint32_t v : some_of(part, kMostVertices)) {
+  for (const std::uint32_t v : evenly_spaced_items(part, kMaxVertices)) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const auto nearest = grid.nearest(point, 2 * reach);
     if (nearest.vertex == kNoIndex) continue;
@@ -215,7 +215,7 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
   const Eigen::Vector3d shifted = middle - start.apply(middle_);
   const double radius = motion.scale * radius_;
   const double grown = (motion.scale / start.scale - 1) * radius;
-  SmallProgram program(kUnknowns);
+  QuadraticProgram program(kUnknowns);
   bool missing = false;
   std::size_t kept = 0;
   // Each pair near the skin gives a constraint.
@@ -230,28 +230,28 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
     const bool never = pair.least > kFree * reach_;
     const double least = never ? std::clamp(pair.least, 0.2 * margin, margin) : pair.least;
     missing = missing || now.height < least - kDone * reach_;
-    SmallProgram::Vector a = {now.outward.x(),
-                              now.outward.y(),
-                              now.outward.z(),
-                              arm.x(),
-                              arm.y(),
-                              arm.z(),
-                              from.dot(now.outward) / radius};
+    QuadraticProgram::Vector a = {now.outward.x(),
+                                  now.outward.y(),
+                                  now.outward.z(),
+                                  arm.x(),
+                                  arm.y(),
+                                  arm.z(),
+                                  from.dot(now.outward) / radius};
     a[never ? kNewSlack : kDeepSlack] = 1;
-    program.demand(a, least - now.height);
+    program.add_lower_bound(a, least - now.height);
   }
   near.resize(kept);
   if (!missing) return false;
   for (std::size_t i = 0; i < 3; ++i) {
-    program.want(kShift + i, -shifted(static_cast<Index>(i)), 1);
-    program.want(kTurn + i, 0, kHoldTurn);
+    program.add_target(kShift + i, -shifted(static_cast<Index>(i)), 1);
+    program.add_target(kTurn + i, 0, kHoldTurn);
   }
   // Keep the total change of size small, within limits.
-  program.want(kSize, -grown, kHoldSize);
-  program.demand_between(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
-  program.add_slack(kNewSlack, kNewPrice * reach_);
-  program.add_slack(kDeepSlack, kDeepPrice * reach_);
-  const SmallProgram::Vector x = program.solve(1e-5 * reach_);
+  program.add_target(kSize, -grown, kHoldSize);
+  program.add_bounds(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
+  program.add_slack(kNewSlack, kNewPenalty * reach_);
+  program.add_slack(kDeepSlack, kDeepPenalty * reach_);
+  const QuadraticProgram::Vector x = program.solve(1e-5 * reach_);
   motion =
       nudged(motion, middle, {x[0], x[1], x[2]},
              Eigen::Vector3d(x[kTurn], x[kTurn + 1], x[kTurn + 2]) / radius, x[kSize] / radius);

@@ -8,7 +8,7 @@
 
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/parts/small_program.h"
+#include "crowdface/parts/quadratic_program.h"
 
 namespace crowdface {
 namespace {
@@ -16,10 +16,10 @@ namespace {
 /// Skin nearer to the eyeball than this belongs to the lids; fraction of the radius (about 12 mm).
 constexpr double kLidReach = 0.3;
 // smallest cosine between a rim vertex's direction and the front
-constexpr double kLeastFront = 0.35;
+constexpr double kMinFront = 0.35;
 constexpr std::size_t kDirections = 60;
 /// More lid vertices than this are subsampled evenly.
-constexpr std::size_t kMostLids = 2500;
+constexpr std::size_t kMaxLids = 2500;
 
 /// Weight of a lid's mean gap relative to the mean square of the rim's gaps; and its tolerance as a
 /// fraction of the radius (0.05 mm).
@@ -38,7 +38,7 @@ constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 constexpr double kDoneShift = 1e-3;
 /// Prices of violations, as multiples of the radius. Lids that are outside in all heads have
 /// priority, then the mean gaps, then the largest depths.
-constexpr double kNewLidPrice = 100, kMeanGapPrice = 10, kDeepLidPrice = 1;
+constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of a step, all of them lengths.
 enum BallUnknown : std::size_t {
@@ -66,7 +66,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   const Eigen::Vector3d side = axes.side();
   struct Innermost {
     std::uint32_t vertex = kNoIndex;
-    double cosine = kLeastFront;
+    double cosine = kMinFront;
   };
   std::array<Innermost, kDirections> innermost;
   std::vector<std::uint32_t> near;
@@ -88,7 +88,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     if (best.vertex != kNoIndex) rim.push_back(best.vertex);
   }
   std::ranges::sort(rim);
-  const std::vector<std::uint32_t> some = some_of(near, kMostLids);
+  const std::vector<std::uint32_t> some = evenly_spaced_items(near, kMaxLids);
   std::set_union(some.begin(), some.end(), rim.begin(), rim.end(),
                  std::back_inserter(lids.vertices));
   for (const std::uint32_t v : rim) {
@@ -158,9 +158,9 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   const Eigen::Vector3d shifted = centre - start.apply(map.centre());
   const double grown = (motion.scale / start.scale - 1) * radius;
   const auto rim = static_cast<double>(lids_.rim.size());
-  SmallProgram program(kBallUnknowns);
+  QuadraticProgram program(kBallUnknowns);
   struct {
-    SmallProgram::Vector a = {};
+    QuadraticProgram::Vector a = {};
     double missing = 0, count = 0;
   } mean[2];
 
@@ -176,13 +176,13 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     lids[kept++] = lid;
     const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
     // A translation by x changes the gap by −x · normal.
-    SmallProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
+    QuadraticProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
     if (size == Size::kFree) {
       a[kBallSize] = -normal.dot(lid.point - gap.gap * normal - centre) / radius;
     }
     if (r != kNoIndex) {
       const double missing = gaps_[target][r] - gap.gap;
-      program.want(a, missing, 1 / rim);
+      program.add_target(a, missing, 1 / rim);
       auto& of = mean[lids_.upper[r] ? 1 : 0];
       for (std::size_t i = 0; i < kMeanGapSlack; ++i) of.a[i] += a[i];
       of.missing += missing;
@@ -191,7 +191,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     const double least = least_[lid.number];
     const bool never = least > kFreeOfLids * map.radius();
     a[never ? kNewLidSlack : kDeepLidSlack] = 1;
-    program.demand(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
+    program.add_lower_bound(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
   // Keep the mean gap of each lid, within a tolerance.
   lids.resize(kept);
@@ -200,25 +200,25 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     if (of.count == 0) continue;
     for (double& value : of.a) value /= of.count;
     const double missing = of.missing / of.count;
-    program.want(of.a, missing, kMeans);
-    SmallProgram::Vector less = of.a;
+    program.add_target(of.a, missing, kMeans);
+    QuadraticProgram::Vector less = of.a;
     for (double& value : less) value = -value;
     of.a[kMeanGapSlack] = less[kMeanGapSlack] = 1;
-    program.demand(of.a, missing - kMeanOff * radius);
-    program.demand(less, -missing - kMeanOff * radius);
+    program.add_lower_bound(of.a, missing - kMeanOff * radius);
+    program.add_lower_bound(less, -missing - kMeanOff * radius);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    program.want(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
+    program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
   // Keep the total shift and change of size small.
-  program.want(kBallSize, size == Size::kFree ? -grown : 0, kHoldBallSize);
+  program.add_target(kBallSize, size == Size::kFree ? -grown : 0, kHoldBallSize);
   if (size == Size::kFree) {
-    program.demand_between(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
+    program.add_bounds(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
   }
-  program.add_slack(kMeanGapSlack, kMeanGapPrice * radius);
-  program.add_slack(kNewLidSlack, kNewLidPrice * radius);
-  program.add_slack(kDeepLidSlack, kDeepLidPrice * radius);
-  const SmallProgram::Vector x = program.solve(1e-5 * radius);
+  program.add_slack(kMeanGapSlack, kMeanGapPenalty * radius);
+  program.add_slack(kNewLidSlack, kNewLidPenalty * radius);
+  program.add_slack(kDeepLidSlack, kDeepLidPenalty * radius);
+  const QuadraticProgram::Vector x = program.solve(1e-5 * radius);
   return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0},
                 size == Size::kFree ? x[kBallSize] / radius : 0);
 }

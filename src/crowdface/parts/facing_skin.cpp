@@ -15,8 +15,8 @@
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
-#include "crowdface/parts/grouping.h"
 #include "crowdface/parts/point_grid.h"
+#include "crowdface/parts/proximity_joiner.h"
 #include "crowdface/smooth/symmetric_eigen.h"
 
 namespace crowdface {
@@ -27,8 +27,8 @@ constexpr double kReach = 0.008;    // largest distance of skin that nearly touc
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // largest overlap: lips that touch intersect a little on the mean head; lids are thicker
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;    // smaller gaps count as this in kSideways
-constexpr double kLeastAway = 0.02;  // smallest distance along the surface
+constexpr double kAside = 0.0035;  // smaller gaps count as this in kSideways
+constexpr double kMinAway = 0.02;  // smallest distance along the surface
 // distance of the midpoints in one group; more in a coarse mesh
 constexpr double kTogether = 0.015;
 // smallest distance along the surface, as a multiple of the distance in space
@@ -127,7 +127,7 @@ double mean_edge(const Adjacency& adjacency, const Positions& positions, const F
   return count > 0 ? sum / count : 0;
 }
 
-std::vector<FacingGroup> grouped(const FacingGroup& pairs, double reach) {
+std::vector<FacingGroup> compressed_rows(const FacingGroup& pairs, double reach) {
   if (pairs.empty()) return {};
   Positions middles(static_cast<Index>(pairs.size()), 3);
   std::vector<std::uint32_t> rows;
@@ -135,8 +135,8 @@ std::vector<FacingGroup> grouped(const FacingGroup& pairs, double reach) {
     middles.row(i) = pairs[i].middle.transpose();
     rows.push_back(i);
   }
-  Grouping grouping(pairs.size());
-  GroupingTree tree(middles, rows, rows, grouping);
+  DisjointSets grouping(pairs.size());
+  ProximityJoiner tree(middles, rows, rows, grouping);
   for (const std::uint32_t i : rows) tree.join_near(pairs[i].middle, reach, i);
   std::map<std::uint32_t, FacingGroup> by_root;
   for (const std::uint32_t i : rows) by_root[grouping.root(i)].push_back(pairs[i]);
@@ -178,9 +178,9 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
       for (const Candidate& candidate : candidates[i]) goals.push_back(candidate.vertex);
       // Keep the nearest candidate that is far away along the surface.
       along.search_for(some[i], goals,
-                       std::max(kTimesAway * candidates[i].back().distance, kLeastAway * extent));
+                       std::max(kTimesAway * candidates[i].back().distance, kMinAway * extent));
       for (const Candidate& candidate : candidates[i]) {
-        const double least = std::max(kTimesAway * candidate.distance, kLeastAway * extent);
+        const double least = std::max(kTimesAway * candidate.distance, kMinAway * extent);
         if (along.distance(candidate.vertex) <= least) continue;
         found[i] = {some[i], candidate.vertex,
                     (positions.row(some[i]) + positions.row(candidate.vertex)).transpose() / 2,
@@ -193,7 +193,7 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   for (const auto& pair : found) {
     if (pair) pairs.push_back(*pair);
   }
-  return grouped(
+  return compressed_rows(
       pairs, std::max(kTogether * extent, kEdgesTogether * mean_edge(adjacency, positions, pairs)));
 }
 

@@ -106,7 +106,7 @@ class PlaceFinder {
     };
     // Seeds are the vertices whose mirror images are nearest to another vertex.
     std::vector<Seed> seeds;
-    for (const std::uint32_t v : some_of(here, 20 * kSeeds)) {
+    for (const std::uint32_t v : evenly_spaced_items(here, 20 * kSeeds)) {
       const auto near = grid.nearest(image(v));
       seeds.push_back({near.distance, v, near.vertex});
     }

@@ -23,7 +23,7 @@ class PlaneSearch {
         mean_(mean),
         start_(start),
         grid_(mean, skin),
-        some_(some_of(skin, kPoints)),
+        some_(evenly_spaced_items(skin, kPoints)),
         places_(some_.size()) {}
 
   MirrorPlane find() {

@@ -19,7 +19,7 @@ namespace {
 /// other parts as a fraction of the skin's extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
 /// Number of a part's vertices used to find its socket.
-constexpr std::size_t kMostRough = 4000;
+constexpr std::size_t kMaxRough = 4000;
 /// Parts nearer to the skin than kContactReach are kept out of it; kContactMargin is the smallest
 /// clearance to keep. Fractions of the skin's extent.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
@@ -57,7 +57,7 @@ struct RigidPart {
 
 /// The mean head and its skin, to which parts are bound.
 struct SkinOfMean {
-  const FaceSet& faces;
+  const HeadSet& faces;
   const FacesAround& around;
   const HeadAxes& axes;
   const Positions& mean;
@@ -72,7 +72,7 @@ struct SkinOfMean {
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
   // The distance between skin and part need not be more precise than the spacing of the part's
   // vertices.
-  const PointGrid rough_grid(skin.mean, some_of(part.vertices, kMostRough));
+  const PointGrid rough_grid(skin.mean, evenly_spaced_items(part.vertices, kMaxRough));
   Socket socket;
   for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {
     socket = find_socket(skin.mean, rough_grid, skin.vertices, skin.areas, reach);
@@ -114,7 +114,7 @@ RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& 
 }  // namespace
 
 struct PartFollower::State {
-  const FaceSet& faces;
+  const HeadSet& faces;
   FacesAround around;
   PartShape shape;
   double extent;  ///< extent of the skin
@@ -135,7 +135,7 @@ struct PartFollower::State {
              Positions& result) const;
 };
 
-PartFollower::PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
+PartFollower::PartFollower(const HeadSet& faces, const PartList& parts, const HeadAxes& axes,
                            PartShape shape) {
   auto state =
       std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}, {}});

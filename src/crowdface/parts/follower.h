@@ -22,7 +22,7 @@ namespace crowdface {
 class PartFollower {
  public:
   /// \param faces  Must outlive this object.
-  PartFollower(const FaceSet& faces, const PartList& parts, const HeadAxes& axes,
+  PartFollower(const HeadSet& faces, const PartList& parts, const HeadAxes& axes,
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
 

@@ -12,7 +12,7 @@
 
 #include "crowdface/core/interrupt.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/parts/grouping.h"
+#include "crowdface/parts/proximity_joiner.h"
 
 namespace crowdface {
 namespace {
@@ -96,7 +96,7 @@ std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_f
 
 /// Joins each eyeball with the components whose centre is inside it.
 void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
-                 const std::vector<bool>& eyeball, Grouping& grouping) {
+                 const std::vector<bool>& eyeball, DisjointSets& grouping) {
   Positions centres(static_cast<Index>(list.shapes.size()), 3);
   std::vector<std::uint32_t> self(list.shapes.size()), found;
   std::iota(self.begin(), self.end(), 0U);
@@ -105,7 +105,7 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
     // a fit to a component without extent may fail
     if (list.shapes[c].centre.allFinite()) found.push_back(c);
   }
-  GroupingTree tree(centres, std::move(found), self, grouping);
+  ProximityJoiner tree(centres, std::move(found), self, grouping);
   for (const std::uint32_t c : rigid) {
     throw_if_interrupted();
     if (!eyeball[c]) continue;
@@ -117,12 +117,12 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
 void join_touching(const Positions& positions, const Components& components,
                    const std::vector<std::vector<std::uint32_t>>& members,
                    const std::vector<std::uint32_t>& rigid, const std::vector<bool>& eyeball,
-                   double reach, Grouping& grouping) {
+                   double reach, DisjointSets& grouping) {
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t c : rigid) {
     if (!eyeball[c]) vertices.insert(vertices.end(), members[c].begin(), members[c].end());
   }
-  GroupingTree tree(positions, vertices, components.of_vertex, grouping);
+  ProximityJoiner tree(positions, vertices, components.of_vertex, grouping);
   for (const std::uint32_t v : vertices) {
     throw_if_interrupted();
     tree.join_near(positions.row(v).transpose(), reach, components.of_vertex[v]);
@@ -132,7 +132,7 @@ void join_touching(const Positions& positions, const Components& components,
 /// Splits groups of teeth into jaws.
 void split_jaws(const Positions& positions, const std::vector<std::vector<std::uint32_t>>& members,
                 const HeadAxes& axes, const std::vector<std::uint32_t>& rigid,
-                const std::vector<bool>& eyeball, Grouping& grouping) {
+                const std::vector<bool>& eyeball, DisjointSets& grouping) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
   for (const std::uint32_t c : rigid) groups[grouping.root(c)].push_back(c);
   for (auto& [root, group] : groups) {
@@ -166,7 +166,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   }
 
   const std::vector<std::vector<std::uint32_t>> members = members_of(components);
-  Grouping grouping(count);
+  DisjointSets grouping(count);
   // Join the components that the user joined.
   std::vector<bool> by_hand(count, false);
   for (const auto& together : overrides.together) {

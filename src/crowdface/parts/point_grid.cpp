@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMostCells = 4e6;
+constexpr double kMaxCells = 4e6;
 
 }  // namespace
 
@@ -23,11 +23,11 @@ PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> 
   const double longest = std::max({size.x(), size.y(), size.z(), 1e-12});
   width_ = longest / std::max(1.0, std::sqrt(static_cast<double>(vertices.size()) / 8));
   const auto count = [&](Index axis) { return std::floor(size(axis) / width_) + 1; };
-  while (count(0) * count(1) * count(2) > kMostCells) width_ *= 1.25;
+  while (count(0) * count(1) * count(2) > kMaxCells) width_ *= 1.25;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cells_[axis] = static_cast<Index>(count(static_cast<Index>(axis)));
   }
-  by_cell_ = grouped<std::uint32_t>(
+  by_cell_ = compressed_rows<std::uint32_t>(
       static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]), [&](const auto& put) {
         for (const std::uint32_t vertex : vertices) {
           put(number_of(cell_of(positions.row(vertex).transpose())), vertex);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -43,9 +43,9 @@ class PointGrid {
 
   const Positions& positions_;
   Eigen::Vector3d low_;
-  double width_ = 1;                ///< edge length of a cell
-  Cell cells_ = {1, 1, 1};          ///< number of cells along x, y, z
-  Grouped<std::uint32_t> by_cell_;  ///< vertices, ascending within each cell
+  double width_ = 1;                       ///< edge length of a cell
+  Cell cells_ = {1, 1, 1};                 ///< number of cells along x, y, z
+  CompressedRows<std::uint32_t> by_cell_;  ///< vertices, ascending within each cell
 };
 
 }  // namespace crowdface

@@ -19,9 +19,9 @@ constexpr double kProfile = 0.015;       // length of a profile to either side o
 constexpr double kMotionReach = 0.07;    // radius of the skin that moves around a place
 // distance along the surface within which the two sides are distinguished
 constexpr double kSide = 0.09;
-constexpr double kRounding = 0.006;    // width of the smoothing of the sides' borders
-constexpr double kTolerance = 1e-5;    // tolerance of a gap
-constexpr double kLeastWeight = 1e-3;  // vertices with smaller weights do not move
+constexpr double kRounding = 0.006;  // width of the smoothing of the sides' borders
+constexpr double kTolerance = 1e-5;  // tolerance of a gap
+constexpr double kMinWeight = 1e-3;  // vertices with smaller weights do not move
 constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices per parallel block
 // profile points per parallel block: their derivatives fit into a core's L1 cache
 constexpr std::size_t kPointsPerBlock = 256;
@@ -31,7 +31,7 @@ constexpr int kRounds = 3;
 /// neighbouring places.
 constexpr double kEvenness = 0.001;
 /// Largest amplitude of a place, as a multiple of the largest deviation of a gap from its range.
-constexpr double kMost = 4;
+constexpr double kMax = 4;
 
 /// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
 /// positive definite, so amplitudes exist for any wanted gaps.
@@ -87,15 +87,15 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   }
   if (!(squares > 0)) return;
   const double edges = size * size * count / squares;
-  constexpr double kMostSteps = 1e4;
-  const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMostSteps));
+  constexpr double kMaxSteps = 1e4;
+  const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMaxSteps));
 
   // The skin outside has no side: it is represented by an extra row that stays 0.
   const auto rows = sides.vertices.size();
   std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
   std::vector<double> side(rows + 1, 0.0);
-  Grouped<std::uint32_t> neighbours;
+  CompressedRows<std::uint32_t> neighbours;
   for (std::size_t i = 0; i < rows; ++i) {
     side[i] = sides.side[sides.vertices[i]];
     std::vector<std::uint32_t> around;
@@ -121,7 +121,7 @@ void append(const std::vector<double>& more, std::vector<double>& values) {
 
 }  // namespace
 
-SkinContacts::SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
+SkinContacts::SkinContacts(const HeadSet& faces, const Adjacency& adjacency,
                            std::span<const std::uint32_t> skin) {
   head_gaps_.resize(faces.heads.size());
   if (skin.empty()) return;
@@ -163,7 +163,7 @@ void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint3
     for (std::size_t p = contact.begin; p < contact.end; ++p) {
       const double distance = (row3(mean, v) - places_[p].middle).norm() / reach;
       const double weight = side[v] * bump(distance);
-      if (std::abs(weight) > kLeastWeight) {
+      if (std::abs(weight) > kMinWeight) {
         shares.push_back({static_cast<std::uint32_t>(p), weight});
       }
     }
@@ -314,7 +314,7 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
       }
       if (missing <= tolerance_) break;
       // Solve for the amplitudes with these points.
-      if (round == 0) most = kMost * missing;
+      if (round == 0) most = kMax * missing;
       changes = ask(contact, ranges, most, profiles, asked);
     }
     if (most > 0) move(contact, asked, positions);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/contact_place.h"
@@ -19,7 +19,7 @@ class SkinContacts {
  public:
   /// \param faces  Heads of one topology; at least one.
   /// \param skin   The skin's vertices, ascending.
-  SkinContacts(const FaceSet& faces, const Adjacency& adjacency,
+  SkinContacts(const HeadSet& faces, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
   std::size_t size() const { return places_.size(); }
@@ -62,7 +62,7 @@ class SkinContacts {
   struct Contact {
     std::size_t begin = 0, end = 0;       ///< range of places
     std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
-    Grouped<Share> shares;                ///< #vertices
+    CompressedRows<Share> shares;         ///< #vertices
     std::vector<Motions> motions;         ///< one for each place of the contact
   };
 

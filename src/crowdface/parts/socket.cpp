@@ -6,9 +6,9 @@
 namespace crowdface {
 namespace {
 
-/// Vertices beyond kMostKept change the motion by less than 0.01 mm. Of larger sockets,
-/// kMostMeasured vertices are measured.
-constexpr std::size_t kMostKept = 1500, kMostMeasured = 16 * kMostKept;
+/// Vertices beyond kMaxKept change the motion by less than 0.01 mm. Of larger sockets,
+/// kMaxMeasured vertices are measured.
+constexpr std::size_t kMaxKept = 1500, kMaxMeasured = 16 * kMaxKept;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
     if (part.in_reach(positions.row(v).transpose(), reach)) around.push_back(v);
   }
   Socket all;
-  for (const std::uint32_t v : some_of(around, kMostMeasured)) {
+  for (const std::uint32_t v : evenly_spaced_items(around, kMaxMeasured)) {
     const auto nearest = part.nearest(positions.row(v).transpose(), reach);
     if (nearest.vertex == kNoIndex) continue;
     const double t = nearest.distance / reach;
@@ -29,7 +29,7 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
     all.vertices.push_back(v);
     all.weights.push_back(weight);
   }
-  return {some_of(all.vertices, kMostKept), some_of(all.weights, kMostKept)};
+  return {evenly_spaced_items(all.vertices, kMaxKept), evenly_spaced_items(all.weights, kMaxKept)};
 }
 
 }  // namespace crowdface

@@ -83,10 +83,10 @@ std::uint32_t descend(const Topology& topology, const FacesAround& faces,
 SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point) {
-  constexpr int kMostSteps = 64;
+  constexpr int kMaxSteps = 64;
   SurfacePoint best = bare_vertex(positions, start, point);
   std::uint32_t vertex = start, before = kNoIndex;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     for (const std::uint32_t f : faces.of(vertex)) {
       const auto face = topology.face(f);
       if (!contains(face, before)) try_face(face, positions, point, best);

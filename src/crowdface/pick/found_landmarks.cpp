@@ -37,7 +37,7 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
 /// Removes the worst landmark, one at a time, until all lie within kOffMm of a similarity fitted to
 /// them.
 void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
-  while (landmarks.size() > kFewestLandmarks) {
+  while (landmarks.size() > kMinLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
     const auto off = [&](const WrapLandmark& landmark) {
       return (carried(back, landmark.place) - row3(shape.positions, landmark.vertex)).norm();

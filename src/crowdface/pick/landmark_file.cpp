@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMost = 100;
-constexpr std::uint64_t kMostVertices = 0xfffffffe;
+constexpr std::size_t kMax = 100;
+constexpr std::uint64_t kMaxVertices = 0xfffffffe;
 
 std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Complaints& out) {
   std::map<std::string, LandmarkFile::Place> places;
@@ -23,9 +23,8 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     out.expected(*node, "a mapping of names to vertices, such as {chin: 966}");
     return places;
   }
-  if (node->entries.size() > kMost) {
-    out.about(*node,
-              concat("expected at most ", kMost, " landmarks, found ", node->entries.size()));
+  if (node->entries.size() > kMax) {
+    out.about(*node, concat("expected at most ", kMax, " landmarks, found ", node->entries.size()));
     return places;
   }
   for (const YamlEntry& entry : node->entries) {
@@ -44,7 +43,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
       }
       if (!whole) continue;
     } else {
-      const auto number = read_whole(entry.value, 0, kMostVertices, out);
+      const auto number = read_whole(entry.value, 0, kMaxVertices, out);
       if (!number) continue;
       place.is_vertex = true;
       place.vertex = *number;

@@ -17,7 +17,7 @@ namespace {
 
 using ListJson = nlohmann::ordered_json;
 
-constexpr std::size_t kMostListed = 1000;
+constexpr std::size_t kMaxListed = 1000;
 
 /// Collects places by name. Errors name the file and the place in it.
 class PlaceList {
@@ -25,8 +25,8 @@ class PlaceList {
   explicit PlaceList(const std::filesystem::path& path) : path_(path.string()) {}
 
   void add(std::string name, const std::vector<double>& numbers, const std::string& where) {
-    if (places_.size() >= kMostListed)
-      fail(where, concat("expected at most ", kMostListed, " landmarks"));
+    if (places_.size() >= kMaxListed)
+      fail(where, concat("expected at most ", kMaxListed, " landmarks"));
     if (name.empty()) name = std::to_string(places_.size() + 1);
     LandmarkPlace place;
     place.where = concat(path_, where);

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostLandmarks = 100, kLongestName = 64;
+constexpr std::size_t kMaxLandmarks = 100, kLongestName = 64;
 
 Json list_of(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
@@ -99,8 +99,8 @@ HttpAnswer pick(const PickSession& session, const Json& body) {
 
 std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json& body) {
   const Json list = body.value("landmarks", Json());
-  if (!list.is_array() || list.size() > kMostLandmarks) {
-    throw UsageError(concat("landmarks: expected a list of at most ", kMostLandmarks));
+  if (!list.is_array() || list.size() > kMaxLandmarks) {
+    throw UsageError(concat("landmarks: expected a list of at most ", kMaxLandmarks));
   }
   std::vector<PickedLandmark> landmarks;
   std::set<std::string> names;
@@ -157,8 +157,8 @@ HttpAnswer save(PickSession& session, const Json& body) {
 }  // namespace
 
 PickApi::PickApi(PickScans& scans, std::optional<std::filesystem::path> pages,
-                 std::size_t most_triangles)
-    : scans_(scans), page_(std::move(pages), "pick"), most_triangles_(most_triangles) {}
+                 std::size_t max_triangles)
+    : scans_(scans), page_(std::move(pages), "pick"), max_triangles_(max_triangles) {}
 
 HttpAnswer PickApi::answer(const HttpRequest& request) {
   return answer_or_refuse(request, [this](const HttpRequest& asked) {
@@ -178,7 +178,7 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
 }
 
 HttpAnswer PickApi::mesh(const PickableMesh& whole, ShownMesh& shown) const {
-  std::call_once(shown.once, [&] { shown.bytes = whole.preview(most_triangles_); });
+  std::call_once(shown.once, [&] { shown.bytes = whole.preview(max_triangles_); });
   return binary_answer(shown.bytes);
 }
 
@@ -220,8 +220,8 @@ HttpAnswer PickApi::job(const PickSession& session) const {
 
 void pick_landmarks(PickScans& scans, std::optional<std::filesystem::path> pages, int port,
                     const std::function<void(const std::string&)>& started) {
-  constexpr std::size_t kMostTriangles = 100'000;
-  PickApi api(scans, std::move(pages), kMostTriangles);
+  constexpr std::size_t kMaxTriangles = 100'000;
+  PickApi api(scans, std::move(pages), kMaxTriangles);
   LocalServer server([&](const HttpRequest& request) { return api.answer(request); }, port);
   started(server.address());
   server.run(interrupted);

@@ -21,8 +21,8 @@ class PickApi {
  public:
   /// \param scans           must outlive this object
   /// \param pages           folder of the built pages; nothing if there is none
-  /// \param most_triangles  maximum number of triangles of each mesh that the page shows
-  PickApi(PickScans& scans, std::optional<std::filesystem::path> pages, std::size_t most_triangles);
+  /// \param max_triangles  maximum number of triangles of each mesh that the page shows
+  PickApi(PickScans& scans, std::optional<std::filesystem::path> pages, std::size_t max_triangles);
 
   /// Turns errors in a request into answers {"error": sentence}; does not throw for them.
   HttpAnswer answer(const HttpRequest& request);
@@ -35,7 +35,7 @@ class PickApi {
 
   PickScans& scans_;
   PageFiles page_;
-  std::size_t most_triangles_;
+  std::size_t max_triangles_;
 };
 
 /// Serves the page for picking landmarks until a signal such as SIGINT arrives.

@@ -25,7 +25,7 @@ std::size_t PickScans::number() const {
 }
 
 bool PickScans::is_picked(std::size_t number) const {
-  return is_there(entries_[number].landmarks);
+  return path_exists(entries_[number].landmarks);
 }
 
 void PickScans::open(std::size_t number) {

@@ -72,7 +72,7 @@ PickSession::PickSession(PickInputs inputs)
   if (!inputs_.of_template.empty()) {
     file.of_template = read_landmarks(inputs_.of_template).of_template;
   }
-  if (is_there(inputs_.landmarks)) {
+  if (path_exists(inputs_.landmarks)) {
     const LandmarkFile own = read_landmarks(inputs_.landmarks);
     for (const auto& [name, place] : own.of_template) file.of_template[name] = place;
     file.of_scan = own.of_scan;
@@ -91,7 +91,7 @@ bool PickSession::loses_comments() const {
 }
 
 std::string PickSession::text_on_disk() const {
-  return is_there(inputs_.landmarks) ? read_file(inputs_.landmarks) : std::string();
+  return path_exists(inputs_.landmarks) ? read_file(inputs_.landmarks) : std::string();
 }
 
 std::optional<PickedPlace> PickSession::pick_on_template(const Eigen::Vector3d& origin,

@@ -101,9 +101,9 @@ std::optional<PickedPlace> PickableMesh::cast(const Eigen::Vector3d& origin,
 }
 
 std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
-                                                 const Eigen::Vector3d& facing, double least_cosine,
+                                                 const Eigen::Vector3d& facing, double min_cosine,
                                                  double reach) const {
-  const SurfaceHit hit = tree_.nearest_facing(point, facing, least_cosine, reach);
+  const SurfaceHit hit = tree_.nearest_facing(point, facing, min_cosine, reach);
   if (hit.triangle == kNoIndex) return std::nullopt;
   return place_of(skin_[hit.triangle], hit.shares);
 }
@@ -120,11 +120,11 @@ PickedPlace PickableMesh::at_point(const Eigen::Vector3d& point) const {
   return place;
 }
 
-std::string PickableMesh::preview(std::size_t most_triangles) const {
+std::string PickableMesh::preview(std::size_t max_triangles) const {
   std::vector<Triangle> all;
   all.reserve(quads_.size());
   for (const Quad& quad : quads_) all.push_back({quad[0], quad[1], quad[2]});
-  all = reduce_triangles(all, positions_, most_triangles);
+  all = reduce_triangles(all, positions_, max_triangles);
 
   std::vector<bool> is_skin(static_cast<std::size_t>(positions_.rows()));
   for (const Triangle& t : skin_) {

@@ -49,10 +49,10 @@ class PickableMesh {
   std::optional<Met> meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// The nearest skin point within `reach` whose surface faces `facing`: the cosine between normal
-  /// and `facing` is at least `least_cosine`.
+  /// and `facing` is at least `min_cosine`.
   /// \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                                     double least_cosine, double reach) const;
+                                     double min_cosine, double reach) const;
   PickedPlace at_vertex(std::uint32_t vertex) const;
   /// `point` itself, with the normal and vertex of the nearest skin point.
   PickedPlace at_point(const Eigen::Vector3d& point) const;
@@ -62,11 +62,11 @@ class PickableMesh {
   Eigen::Vector3d low() const { return box_.min(); }
   Eigen::Vector3d high() const { return box_.max(); }
 
-  /// The mesh reduced to about `most_triangles` triangles, with the normals of the full mesh, as a
+  /// The mesh reduced to about `max_triangles` triangles, with the normals of the full mesh, as a
   /// BinaryAnswer. Head: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
   /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
   /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other).
-  std::string preview(std::size_t most_triangles) const;
+  std::string preview(std::size_t max_triangles) const;
 
  private:
   PickedPlace place_of(const Triangle& corners, const std::array<double, 3>& shares) const;

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kFewest = 3;
+constexpr std::size_t kMin = 3;
 
 struct Pair {
   std::string name;
@@ -32,10 +32,10 @@ std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
 
 /// Whether the places determine a rotation: places on a line do not.
 bool spread_out(const Positions& places) {
-  constexpr double kLeast = 0.1;
+  constexpr double kMin = 0.1;
   const Positions centred = places.rowwise() - places.colwise().mean();
   const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues();
-  return values(1) > kLeast * values(0);
+  return values(1) > kMin * values(0);
 }
 
 /// Fits the pairs with `used`, except pair `without`.
@@ -45,7 +45,7 @@ std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (used[i] && i != without) rows.push_back(i);
   }
-  if (rows.size() < kFewest) return std::nullopt;
+  if (rows.size() < kMin) return std::nullopt;
   const auto count = static_cast<Index>(rows.size());
   Positions from(count, 3), to(count, 3);
   for (Index r = 0; r < count; ++r) {
@@ -71,7 +71,7 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
 /// none.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
   // Corresponding points of two faces differ by about 5 mm after a similarity fit.
-  constexpr double kLeastMm = 15, kTimes = 3;
+  constexpr double kMinMm = 15, kTimes = 3;
   std::vector<double> sorted;
   std::size_t farthest = residuals.size();
   for (std::size_t i = 0; i < residuals.size(); ++i) {
@@ -79,10 +79,10 @@ std::size_t farthest_outlier(const std::vector<double>& residuals, const std::ve
     sorted.push_back(residuals[i]);
     if (farthest == residuals.size() || residuals[i] > residuals[farthest]) farthest = i;
   }
-  constexpr std::size_t kFewestToJudge = 5;
-  if (sorted.size() < kFewestToJudge) return residuals.size();
+  constexpr std::size_t kMinToJudge = 5;
+  if (sorted.size() < kMinToJudge) return residuals.size();
   std::sort(sorted.begin(), sorted.end());
-  const double most = std::max(kLeastMm, kTimes * sorted[(sorted.size() - 1) / 2]);
+  const double most = std::max(kMinMm, kTimes * sorted[(sorted.size() - 1) / 2]);
   return residuals[farthest] > most ? farthest : residuals.size();
 }
 
@@ -123,7 +123,7 @@ std::map<std::string, PickedPlace> suggest_on_template(
     if (!other) continue;
     const PickedPlace here = mesh.at_vertex(*landmark.vertex);
     const Eigen::Vector3d facing = here.normal - 2 * plane.normal.dot(here.normal) * plane.normal;
-    const auto there = mesh.nearest(plane.image(here.point), facing, kLeastCosine, kReachMm);
+    const auto there = mesh.nearest(plane.image(here.point), facing, kMinCosine, kReachMm);
     if (there) places[*other] = mesh.at_vertex(there->vertex);
   }
   for (const PickedLandmark& landmark : landmarks) {
@@ -159,7 +159,7 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
                                const PickableMesh& of_template, const PickableMesh& of_scan,
                                const MirrorPlane& plane,
                                const std::map<std::string, std::uint32_t>& proposals) {
-  constexpr double kLeastFacing = 0.3, kReachMm = 25, kDepthMm = 5;
+  constexpr double kMinFacing = 0.3, kReachMm = 25, kDepthMm = 5;
   SuggestedPlaces suggested;
   suggested.of_template = suggest_on_template(landmarks, of_template, plane, proposals);
   suggested.pose = pose_of_picked(landmarks, of_template.positions());
@@ -177,7 +177,7 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
         carried(pose, place.point) + correction(pairs, *suggested.pose, place.point);
     const auto near = outermost(
         of_scan,
-        of_scan.nearest(point, pose.rotation * place.normal, kLeastFacing, kReachMm * pose.scale),
+        of_scan.nearest(point, pose.rotation * place.normal, kMinFacing, kReachMm * pose.scale),
         kDepthMm * pose.scale);
     if (near) suggested.of_scan[name] = *near;
   }

@@ -21,7 +21,7 @@ constexpr double kCutBelow = 0.22;
 /// Extreme points of the attachments on all heads. Some vertices of each attachment are scaled with
 /// the bounding boxes of the heads, from the head it was fitted to. Fast, and exact enough for
 /// framing.
-std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const FaceSet& faces) {
+std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const HeadSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
     const Positions& points = item.file.positions;
@@ -65,10 +65,11 @@ Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
 }
 
 /// Converts vertex colours for rendering; nothing if there are none or if textures cover them.
-std::optional<VertexColours> shown_colours(const ColourRows& colours, const TextureCoat* coat) {
-  constexpr float kMostByte = 255;
-  if (colours.rows() == 0 || coat != nullptr) return std::nullopt;
-  return VertexColours(colours.cast<float>() / kMostByte);
+std::optional<VertexColours> shown_colours(const ColourRows& colours,
+                                           const TextureSet* texture_set) {
+  constexpr float kMaxByte = 255;
+  if (colours.rows() == 0 || texture_set != nullptr) return std::nullopt;
+  return VertexColours(colours.cast<float>() / kMaxByte);
 }
 
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
@@ -96,29 +97,32 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
                 surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
       inputs_(inputs),
       textured_(sheet.texture != SheetTexture::kNo),
-      most_texels_(shown_texels(sheet)),
-      worn_surfaces_(most_texels_, textured_) {}
+      max_texels_(shown_texels(sheet)),
+      attachment_surfaces_(max_texels_, textured_) {}
 
 FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
-                                std::span<const Displacements> moves, const OwnCoat* own,
-                                const std::vector<WornAttachment>& worn,
+                                std::span<const Displacements> moves, const FaceTextureSet* own,
+                                const std::vector<PlacedAttachment>& placed,
                                 const ColourRows& colours) const {
-  std::optional<TextureCoat> of_target;
-  if (own == nullptr) of_target = coat_of(target);
-  const TextureCoat* painted = own != nullptr ? &own->coat() : of_target ? &*of_target : nullptr;
+  std::optional<TextureSet> of_target;
+  if (own == nullptr) of_target = texture_set_of(target);
+  const TextureSet* painted = own != nullptr ? &own->texture_set()
+                              : of_target    ? &*of_target
+                                             : nullptr;
   const std::optional<VertexColours> shown = shown_colours(colours, painted);
-  FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, worn),
+  FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, placed),
                         std::nullopt};
   if (gallery_ != nullptr) {
     pictures.preview =
-        gallery_->face_script(id, positions, moves, painted, shown ? &*shown : nullptr, worn);
+        gallery_->face_script(id, positions, moves, painted, shown ? &*shown : nullptr, placed);
   }
   return pictures;
 }
 
-std::optional<VertexColours> CrowdRenders::colours_of(Index head, const TextureCoat* coat) const {
+std::optional<VertexColours> CrowdRenders::colours_of(Index head,
+                                                      const TextureSet* texture_set) const {
   if (inputs_.colours.empty()) return std::nullopt;
-  return shown_colours(inputs_.colours[static_cast<std::size_t>(head)], coat);
+  return shown_colours(inputs_.colours[static_cast<std::size_t>(head)], texture_set);
 }
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,
@@ -126,38 +130,38 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
   return renderer_.render(positions, cameras_.front(), colours);
 }
 
-std::optional<OwnCoat> CrowdRenders::own_coat(Index target) const {
+std::optional<FaceTextureSet> CrowdRenders::face_texture_set(Index target) const {
   if (!textured_ || !(inputs_.textures.blend() || any_is_shown(inputs_.maps))) return std::nullopt;
-  return OwnCoat(inputs_.textures, inputs_.maps, target, most_texels_);
+  return FaceTextureSet(inputs_.textures, inputs_.maps, target, max_texels_);
 }
 
-std::optional<OwnCoat> CrowdRenders::own_coat(const FaceTextures& textures,
-                                              const Recipe& recipe) const {
-  std::optional<OwnCoat> coat = own_coat(recipe.target);
-  if (!coat) return coat;
+std::optional<FaceTextureSet> CrowdRenders::face_texture_set(const FaceTextures& textures,
+                                                             const Recipe& recipe) const {
+  std::optional<FaceTextureSet> texture_set = face_texture_set(recipe.target);
+  if (!texture_set) return texture_set;
   parallel_for_each(textures.picture_count(),
-                    [&](std::size_t p) { coat->add(p, textures.blend(recipe, p)); });
-  return coat;
+                    [&](std::size_t p) { texture_set->add(p, textures.blend(recipe, p)); });
+  return texture_set;
 }
 
-std::optional<TextureCoat> CrowdRenders::coat_of(Index head) const {
+std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
   if (!textured_) return std::nullopt;
-  std::optional<TextureCoat> coat = coat_of_head(inputs_.textures, head, most_texels_);
-  if (!coat && any_is_shown(inputs_.maps)) {
-    coat.emplace().of_face.assign(static_cast<std::size_t>(inputs_.faces.topology.face_count()),
-                                  TextureLayer::kNone);
+  std::optional<TextureSet> texture_set = texture_set_of_head(inputs_.textures, head, max_texels_);
+  if (!texture_set && any_is_shown(inputs_.maps)) {
+    texture_set.emplace().of_face.assign(
+        static_cast<std::size_t>(inputs_.faces.topology.face_count()), TextureLayer::kNone);
   }
-  if (coat) add_finish_of_head(inputs_.maps, head, most_texels_, *coat);
-  return coat;
+  if (texture_set) add_shading_maps_of_head(inputs_.maps, head, max_texels_, *texture_set);
+  return texture_set;
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,
-                                     const TextureCoat* coat,
-                                     const std::vector<WornAttachment>& worn) const {
+                                     const TextureSet* texture_set,
+                                     const std::vector<PlacedAttachment>& placed) const {
   std::vector<Rgb8Image> views;
-  const std::vector<WornMesh> meshes = worn_surfaces_.meshes(worn);
+  const std::vector<AttachmentMesh> meshes = attachment_surfaces_.meshes(placed);
   for (const Camera& camera : cameras_) {
-    views.push_back(renderer_.render(positions, camera, colours, coat, meshes));
+    views.push_back(renderer_.render(positions, camera, colours, texture_set, meshes));
   }
   const Rgb8Image image = side_by_side(views);
   return encode_png(image.width, image.height, 3, image.pixels);
@@ -165,16 +169,17 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
-  const std::optional<OwnCoat> own = own_coat(textures, recipe);
-  if (own) return render_png(positions, nullptr, &own->coat());
+  const std::optional<FaceTextureSet> own = face_texture_set(textures, recipe);
+  if (own) return render_png(positions, nullptr, &own->texture_set());
   const auto colours = shown_colours(textures.vertex_colours(recipe), nullptr);
   return colours ? render_png(positions, &*colours) : render_png(positions, recipe.target);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
-  const std::optional<TextureCoat> coat = coat_of(head);
-  const auto colours = colours_of(head, coat ? &*coat : nullptr);
-  return render_png(positions, colours ? &*colours : nullptr, coat ? &*coat : nullptr);
+  const std::optional<TextureSet> texture_set = texture_set_of(head);
+  const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
+  return render_png(positions, colours ? &*colours : nullptr,
+                    texture_set ? &*texture_set : nullptr);
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {

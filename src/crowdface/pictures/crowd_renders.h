@@ -13,8 +13,8 @@
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/pictures/attachment_surfaces.h"
 #include "crowdface/pictures/gallery.h"
-#include "crowdface/pictures/worn_surfaces.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 
@@ -29,7 +29,7 @@ struct PicturedCrowd {
   const CrowdDirectory& directory;
   const CrowdRenders& renders;
   const FaceShapes& shapes;
-  const std::vector<CastFace>& faces;
+  const std::vector<FacePlan>& faces;
   const Likeness& likeness;
 };
 
@@ -51,29 +51,30 @@ class CrowdRenders {
   /// Whether `draw` needs the shapes of a face.
   bool show_shapes() const { return gallery_ != nullptr; }
 
-  const WornSurfaces& worn_surfaces() const { return worn_surfaces_; }
+  const AttachmentSurfaces& attachment_surfaces() const { return attachment_surfaces_; }
 
   /// Renders a face and makes its gallery script.
   /// \param target     the head whose textures the face shows if `own` is null.
   /// \param positions  in single precision, as in mesh files.
   /// \param moves      displacements of each shape, for the gallery.
-  /// \param own        textures of the face itself, from own_coat, or null.
+  /// \param own        textures of the face itself, from face_texture_set, or null.
   /// \param worn       its attachments.
   /// \param colours    vertex colours, shown if there are no textures; may have no rows.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
-                    std::span<const Displacements> moves, const OwnCoat* own,
-                    const std::vector<WornAttachment>& worn = {},
+                    std::span<const Displacements> moves, const FaceTextureSet* own,
+                    const std::vector<PlacedAttachment>& placed = {},
                     const ColourRows& colours = {}) const;
 
   /// Textures of a head; nothing if it has none or if textures are not shown.
-  std::optional<TextureCoat> coat_of(Index head) const;
+  std::optional<TextureSet> texture_set_of(Index head) const;
   /// Vertex colours of a head; nothing if it has none or if textures cover them.
-  std::optional<VertexColours> colours_of(Index head, const TextureCoat* coat) const;
+  std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
   /// An empty set of textures for a face, to be filled; nothing if faces have no textures of their
   /// own or if textures are not shown.
-  std::optional<OwnCoat> own_coat(Index target) const;
+  std::optional<FaceTextureSet> face_texture_set(Index target) const;
   /// The same, filled with the textures of a face.
-  std::optional<OwnCoat> own_coat(const FaceTextures& textures, const Recipe& recipe) const;
+  std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
+                                                 const Recipe& recipe) const;
 
   /// Renders all views of a face side by side, as the bytes of a PNG file.
   std::string render_png(const Positions& positions, const FaceTextures& textures,
@@ -83,8 +84,8 @@ class CrowdRenders {
   /// \param colours  vertex colours, or null: those of the surfaces.
   /// \param coat     textures, or null.
   std::string render_png(const Positions& positions, const VertexColours* colours,
-                         const TextureCoat* coat = nullptr,
-                         const std::vector<WornAttachment>& worn = {}) const;
+                         const TextureSet* texture_set = nullptr,
+                         const std::vector<PlacedAttachment>& placed = {}) const;
   /// Renders only the first view.
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
@@ -93,8 +94,8 @@ class CrowdRenders {
   FaceRenderer renderer_;
   const Inputs& inputs_;
   bool textured_;
-  int most_texels_;
-  WornSurfaces worn_surfaces_;
+  int max_texels_;
+  AttachmentSurfaces attachment_surfaces_;
   const GalleryMeshes* gallery_ = nullptr;
 };
 

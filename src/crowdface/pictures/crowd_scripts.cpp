@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Largest number of faces in the plane view if the recipes are split into several scripts.
-constexpr std::size_t kMostOnPlane = 2000;
+constexpr std::size_t kMaxOnPlane = 2000;
 
 /// All data except the faces.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness) {
@@ -57,10 +57,10 @@ Json near_to_json(const std::vector<Neighbour>& near) {
   return others;
 }
 
-Json whole_crowd(Json json, const std::vector<CastFace>& crowd, const PlanNames& names,
+Json whole_crowd(Json json, const std::vector<FacePlan>& crowd, const PlanNames& names,
                  const Digest& settings, const Likeness& likeness) {
   json["faces"] = Json::array();
-  for (const CastFace& face : crowd) json["faces"].push_back(face_to_json(face, names, settings));
+  for (const FacePlan& face : crowd) json["faces"].push_back(face_to_json(face, names, settings));
   json["likeness"] = ranks(likeness, crowd.size());
   json["near"] = Json::array();
   for (const std::vector<Neighbour>& near : likeness.near) {
@@ -79,7 +79,7 @@ std::string list_of(std::size_t faces, const Of& of) {
 
 /// {"12":…} with of(face) for each face, keyed by index; faces whose value is null are left out.
 template <class Of>
-Json some_of_them(const std::vector<CastFace>& crowd, const Of& of) {
+Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
   Json json = Json::object();
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     Json value = of(crowd[i]);
@@ -89,7 +89,7 @@ Json some_of_them(const std::vector<CastFace>& crowd, const Of& of) {
 }
 
 /// The data for filtering, sorting and the grid, column by column.
-std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness) {
+std::string columns(const std::vector<FacePlan>& crowd, const Likeness& likeness) {
   std::string text;
   const auto add = [&](const char* name, const auto& of) {
     text += concat(text.empty() ? "{\"" : ",\n\"", name, "\":", list_of(crowd.size(), of));
@@ -105,9 +105,9 @@ std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness
     const auto& nearest = crowd[i].notes.nearest;
     return nearest ? concat(rounded(nearest->head_mm)) : std::string("null");
   });
-  const auto add_if_any = [&](const char* name, std::optional<std::string> CastFace::*kin) {
+  const auto add_if_any = [&](const char* name, std::optional<std::string> FacePlan::*kin) {
     if (std::ranges::none_of(crowd,
-                             [&](const CastFace& face) { return (face.*kin).has_value(); })) {
+                             [&](const FacePlan& face) { return (face.*kin).has_value(); })) {
       return;
     }
     add(name, [&](std::size_t i) {
@@ -115,18 +115,18 @@ std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness
       return own ? Json(*own).dump() : "null";
     });
   };
-  add_if_any("family", &CastFace::family);
-  add_if_any("group", &CastFace::group);
-  if (std::ranges::any_of(crowd, [](const CastFace& face) { return !face.attachments.empty(); })) {
+  add_if_any("family", &FacePlan::family);
+  add_if_any("group", &FacePlan::group);
+  if (std::ranges::any_of(crowd, [](const FacePlan& face) { return !face.attachments.empty(); })) {
     add("attachments", [&](std::size_t i) { return Json(crowd[i].attachments).dump(); });
   }
-  const Json parents = some_of_them(crowd, [](const CastFace& face) {
+  const Json parents = some_of_them(crowd, [](const FacePlan& face) {
     return face.parents.empty() ? Json()
                                 : Json{{"mother", face.parents[0]}, {"father", face.parents[1]}};
   });
   const Json by_hand = some_of_them(
-      crowd, [](const CastFace& face) { return face.index || face.family ? Json() : Json(true); });
-  const Json notes = some_of_them(crowd, [](const CastFace& face) {
+      crowd, [](const FacePlan& face) { return face.index || face.family ? Json() : Json(true); });
+  const Json notes = some_of_them(crowd, [](const FacePlan& face) {
     return face.notes.review ? Json(*face.notes.review) : Json();
   });
   return text + concat(",\n\"parents\":", parents.dump(), ",\n\"by_hand\":", by_hand.dump(),
@@ -134,7 +134,7 @@ std::string columns(const std::vector<CastFace>& crowd, const Likeness& likeness
 }
 
 /// The recipes and nearest faces of the faces [begin, end).
-std::string page_script(const std::vector<CastFace>& crowd, std::size_t begin, std::size_t end,
+std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, std::size_t end,
                         std::size_t page, const PlanNames& names, const Digest& settings,
                         const Likeness& likeness) {
   Json faces = Json::array(), near = Json::array();
@@ -146,10 +146,10 @@ std::string page_script(const std::vector<CastFace>& crowd, std::size_t begin, s
                 ");\n");
 }
 
-/// A regular sample of at most kMostOnPlane faces for the plane view.
-Json on_plane(const std::vector<CastFace>& crowd, const PlanNames& names, const Digest& settings) {
+/// A regular sample of at most kMaxOnPlane faces for the plane view.
+Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const Digest& settings) {
   Json json = Json::object();
-  const std::size_t step = (crowd.size() + kMostOnPlane - 1) / kMostOnPlane;
+  const std::size_t step = (crowd.size() + kMaxOnPlane - 1) / kMaxOnPlane;
   for (std::size_t i = 0; i < crowd.size(); i += step) {
     json[std::to_string(i)] = face_to_json(crowd[i], names, settings)["regions"];
   }
@@ -158,7 +158,7 @@ Json on_plane(const std::vector<CastFace>& crowd, const PlanNames& names, const 
 
 }  // namespace
 
-void CrowdPictures::write_scripts(const std::vector<CastFace>& crowd,
+void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
                                   const CrowdLikeness& likeness) const {
   const PlanNames names = config_.plan_names();
   Json head = head_of_script(config_, inputs_.shapes, likeness);
@@ -188,7 +188,7 @@ void CrowdPictures::write_scripts(const std::vector<CastFace>& crowd,
                      list_of(crowd.size(), [&](std::size_t i) { return rank[i]; }), '}');
   }
   for (const auto& path : list_files(directory_.gallery_pages(), has_ending(".js"))) {
-    if (!pages.contains(path)) remove_if_there(path);
+    if (!pages.contains(path)) remove_if_exists(path);
   }
   write_file(directory_.gallery() / "data/crowd.js", concat("crowdface.setCrowd(", script, ");\n"));
 }

@@ -133,13 +133,13 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
   }
 }
 
-void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd) {
+void check_compared_crowd(const Config& config, const std::vector<FacePlan>& crowd) {
   const auto& sheet = config.output.contact_sheet;
   if (!sheet || sheet->compare.with != With::kFile) return;
   const std::filesystem::path& folder = sheet->compare.file;
   if (!std::filesystem::is_directory(folder)) return;
   const CrowdDirectory others = crowd_at(folder);
-  for (const CastFace& face : crowd) format_of_face(others, face.id);
+  for (const FacePlan& face : crowd) format_of_face(others, face.id);
 }
 
 }  // namespace crowdface

@@ -47,6 +47,6 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
 
 /// Checks before any face is made that the crowd to compare with has a mesh for every face.
 /// \throws MissingInput if a mesh is missing.
-void check_compared_crowd(const Config& config, const std::vector<CastFace>& crowd);
+void check_compared_crowd(const Config& config, const std::vector<FacePlan>& crowd);
 
 }  // namespace crowdface

@@ -16,9 +16,9 @@
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/render/eyeballs.h"
-#include "crowdface/render/openness.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
+#include "crowdface/render/visibility.h"
 
 namespace crowdface {
 namespace {
@@ -26,14 +26,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
-constexpr std::size_t kMostTriangles = 24'000;
+constexpr std::size_t kMaxTriangles = 24'000;
 /// Limit for triangles behind closed lips: teeth and the lining of the mouth are finer than the
 /// face.
-constexpr std::size_t kMostHidden = 2'000;
+constexpr std::size_t kMaxHidden = 2'000;
 /// Side of a face's textures; half of that if there are more than two textures.
-constexpr int kMostTexels = 1024;
-constexpr double kLeastMoveMm = 0.02;  ///< shorter displacements of shapes are left out
-constexpr float kLeastLight = 0.004F;  ///< lower bound of `open_` if there are shapes
+constexpr int kMaxTexels = 1024;
+constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are left out
+constexpr float kMinLight = 0.004F;  ///< lower bound of `open_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
 /// Visible fraction of the sky at the vertices of `triangles`, a part of a split mesh.
@@ -46,7 +46,7 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
     for (const std::uint32_t corner : triangle) vertices.push_back(split.corners[corner].vertex);
   }
   vertices = renumber(vertices, topology.vertex_count);
-  const std::vector<float> open = vertex_openness(topology, kinds, mean, vertices);
+  const std::vector<float> open = vertex_visibility(topology, kinds, mean, vertices);
   std::vector<float> open_at(static_cast<std::size_t>(topology.vertex_count));
   for (std::size_t v = 0; v < vertices.size(); ++v) open_at[vertices[v]] = open[v];
   return open_at;
@@ -62,8 +62,8 @@ std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
   for (std::size_t f = 0; f < kinds.size(); ++f) {
     std::vector<std::uint32_t> pictures;
     if (textures.blend()) pictures.push_back(textures.blended.layout.of_face[f]);
-    for (const TextureCoat& coat : textures.coats) {
-      pictures.push_back(coat.of_face.empty() ? TextureCoat::kNone : coat.of_face[f]);
+    for (const TextureSet& texture_set : textures.texture_sets) {
+      pictures.push_back(texture_set.of_face.empty() ? TextureSet::kNone : texture_set.of_face[f]);
     }
     const auto number = static_cast<std::uint32_t>(known.size());
     looks.push_back(kinds[f] == SurfaceKind::kHidden
@@ -73,7 +73,7 @@ std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
   return looks;
 }
 
-std::vector<const Positions*> positions_of(const FaceSet& faces) {
+std::vector<const Positions*> positions_of(const HeadSet& faces) {
   std::vector<const Positions*> heads;
   for (const Head& head : faces.heads) heads.push_back(&head.positions);
   return heads;
@@ -142,7 +142,7 @@ std::array<std::uint8_t, 3> bytes_of(const Light& light) {
 
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     : config_(config), inputs_(inputs), around_(inputs.faces.topology), frame_(frame_of(inputs)) {
-  const FaceSet& faces = inputs.faces;
+  const HeadSet& faces = inputs.faces;
   const Surfaces surfaces = surfaces_of(config, inputs);
   const Positions mean = mean_head(faces);
   const std::vector<std::uint32_t> looks = looks_of(inputs.textures, surfaces.kinds);
@@ -150,7 +150,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   const Positions split_mean = split.of(mean);
   // Reduce to twice the limit, and find which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
-      reduce_triangles(split.triangles, split_mean, 2 * kMostTriangles);
+      reduce_triangles(split.triangles, split_mean, 2 * kMaxTriangles);
   const std::vector<float> open =
       openness_at(faces.topology, surfaces.kinds, mean, split, triangles);
   std::vector<bool> hidden;
@@ -160,7 +160,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
     }));
   }
   // Reduce to the limit; hidden triangles get a smaller one.
-  triangles = reduce_hidden(triangles, split_mean, hidden, kMostTriangles, kMostHidden);
+  triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
   for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
   colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(mesh_.vertices,
@@ -179,13 +179,13 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   add_shapes(surfaces, mean);
 }
 
-double GalleryMeshes::least_move() const {
-  return kLeastMoveMm / mm_per(config_.faces.units);
+double GalleryMeshes::min_move() const {
+  return kMinMoveMm / mm_per(config_.faces.units);
 }
 
 void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) {
   if (inputs_.shapes.shapes.empty()) return;
-  const double least = least_move();
+  const double least = min_move();
   for (const Shape& shape : inputs_.shapes.shapes) {
     // Keep the vertices of the reduced mesh that the shape moves visibly.
     ShownMoves& shown = shown_.emplace_back();
@@ -208,9 +208,10 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shapes.begin());
   Positions acting = mean;
   shapes[widest_].moves.add_to(acting);
-  open_in_widest_ = vertex_openness(inputs_.faces.topology, surfaces.kinds, acting, mesh_.vertices);
+  open_in_widest_ =
+      vertex_visibility(inputs_.faces.topology, surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
-  for (float& open : open_) open = std::max(open, kLeastLight);
+  for (float& open : open_) open = std::max(open, kMinLight);
 }
 
 std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried) const {
@@ -223,33 +224,34 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
   return bytes;
 }
 
-std::string GalleryMeshes::skin(const TextureCoat& coat) const {
-  std::vector<std::uint32_t> worn;  // indices of textures, without duplicates
+std::string GalleryMeshes::skin(const TextureSet& texture_set) const {
+  std::vector<std::uint32_t> placed;  // indices of textures, without duplicates
   Json pictures = Json::array(), of_look = Json::array();
   for (const std::uint32_t first : mesh_.looks) {
     const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * first]];
-    const std::uint32_t texture = coat.of_face.empty() ? TextureCoat::kNone : coat.of_face[face];
-    if (texture == TextureCoat::kNone) {
+    const std::uint32_t texture =
+        texture_set.of_face.empty() ? TextureSet::kNone : texture_set.of_face[face];
+    if (texture == TextureSet::kNone) {
       of_look.push_back(nullptr);
       continue;
     }
-    const auto at = std::ranges::find(worn, texture);
-    of_look.push_back(at - worn.begin());
-    if (at == worn.end()) worn.push_back(texture);
+    const auto at = std::ranges::find(placed, texture);
+    of_look.push_back(at - placed.begin());
+    if (at == placed.end()) placed.push_back(texture);
   }
-  const int most_px = worn.size() > 2 ? kMostTexels / 2 : kMostTexels;
-  for (const std::uint32_t texture : worn) {
-    pictures.push_back(colour_picture(*coat.textures[texture], most_px));
+  const int max_px = placed.size() > 2 ? kMaxTexels / 2 : kMaxTexels;
+  for (const std::uint32_t texture : placed) {
+    pictures.push_back(colour_picture(*texture_set.textures[texture], max_px));
   }
   return Json{{"pictures", std::move(pictures)}, {"of_look", std::move(of_look)}}.dump();
 }
 
-std::string GalleryMeshes::roughness(const TextureCoat& coat) const {
+std::string GalleryMeshes::roughness(const TextureSet& texture_set) const {
   std::string bytes;
-  if (coat.roughness.of_face.empty()) return bytes;
+  if (texture_set.roughness.of_face.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // the page's value for skin without a roughness map
   for (const TexturePlace& place : places_) {
-    const float rough = roughness_at(coat, place).value_or(kSkin);
+    const float rough = roughness_at(texture_set, place).value_or(kSkin);
     bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
   }
   return bytes;
@@ -300,28 +302,28 @@ std::string GalleryMeshes::shared_script() const {
 
 std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
                                        std::span<const Displacements> moves,
-                                       const TextureCoat* coat, const VertexColours* colours,
-                                       const std::vector<WornAttachment>& worn) const {
+                                       const TextureSet* texture_set, const VertexColours* colours,
+                                       const std::vector<PlacedAttachment>& placed) const {
   std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
-  if (coat != nullptr && !places_.empty()) {
+  if (texture_set != nullptr && !places_.empty()) {
     lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
-      return leaning_normal(*coat, inputs_.faces, places_[v], positions, normal);
+      return leaning_normal(*texture_set, inputs_.faces, places_[v], positions, normal);
     };
   }
   std::string bytes =
       pack_face(inputs_.faces.topology, mesh_.vertices, around_, frame_, positions, lean);
-  if (coat != nullptr) bytes += roughness(*coat);
+  if (texture_set != nullptr) bytes += roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
   if (!shown_.empty()) parts.push_back(concat("\"moves\":\"", base64(packed_shapes(moves)), '"'));
-  if (!worn.empty()) {
+  if (!placed.empty()) {
     std::vector<std::string> packed;
-    for (const WornAttachment& one : worn) {
+    for (const PlacedAttachment& one : placed) {
       packed.push_back(
-          concat(Json(one.item->name).dump(), ':', attachments_.packed(one, frame_, least_move())));
+          concat(Json(one.item->name).dump(), ':', attachments_.packed(one, frame_, min_move())));
     }
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
-  if (coat != nullptr) parts.push_back(concat("\"skin\":", skin(*coat)));
+  if (texture_set != nullptr) parts.push_back(concat("\"skin\":", skin(*texture_set)));
   if (colours != nullptr) {
     parts.push_back(
         concat("\"colours\":\"", base64(shades((*colours)(mesh_.vertices, kAllColumns))), '"'));
@@ -330,7 +332,7 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
 }
 
 std::string GalleryMeshes::attachment_script(const std::string& name,
-                                             const WornSurfaces& surfaces) const {
+                                             const AttachmentSurfaces& surfaces) const {
   const Attachment& item = inputs_.attachments.at(name);
   return concat("crowdface.setAttachment(", Json(name).dump(), ',',
                 attachments_.look(item, surfaces.at(item)), ");\n");

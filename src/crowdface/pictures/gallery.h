@@ -8,9 +8,9 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/pictures/attachment_surfaces.h"
 #include "crowdface/pictures/shown_attachments.h"
 #include "crowdface/pictures/vertex_finish.h"
-#include "crowdface/pictures/worn_surfaces.h"
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/preview/preview_mesh.h"
 #include "crowdface/render/texture.h"
@@ -35,20 +35,20 @@ class GalleryMeshes {
   /// \param colours  vertex colours of the face, or null.
   /// \param worn     its attachments.
   std::string face_script(const std::string& name, const Positions& positions,
-                          std::span<const Displacements> moves, const TextureCoat* coat,
+                          std::span<const Displacements> moves, const TextureSet* texture_set,
                           const VertexColours* colours,
-                          const std::vector<WornAttachment>& worn = {}) const;
+                          const std::vector<PlacedAttachment>& placed = {}) const;
   /// The file data/attachments/NAME.js.
-  std::string attachment_script(const std::string& name, const WornSurfaces& surfaces) const;
+  std::string attachment_script(const std::string& name, const AttachmentSurfaces& surfaces) const;
 
  private:
   /// Three bytes (sRGB) per vertex, darkened where little of the sky is visible.
   std::string shades(const VertexColours& colours) const;
   /// The textures of a coat, and which texture each look of the reduced mesh shows, as JSON.
-  std::string skin(const TextureCoat& coat) const;
+  std::string skin(const TextureSet& texture_set) const;
   /// One byte per vertex; empty if the coat has no roughness maps.
-  std::string roughness(const TextureCoat& coat) const;
-  double least_move() const;
+  std::string roughness(const TextureSet& texture_set) const;
+  double min_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
   std::string packed_shapes(std::span<const Displacements> carried) const;
 
@@ -59,7 +59,7 @@ class GalleryMeshes {
   PackingFrame frame_;
   ShownAttachments attachments_;
   VertexColours colours_;    ///< of the surfaces without textures, per vertex of the reduced mesh
-  std::vector<float> open_;  ///< vertex_openness of these vertices on the mean head
+  std::vector<float> open_;  ///< vertex_visibility of these vertices on the mean head
   /// #V of the reduced mesh; empty if there are no textures.
   std::vector<TexturePlace> places_;
   Eigen::Vector3d low_, high_;  ///< bounding box of all heads

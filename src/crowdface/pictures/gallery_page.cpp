@@ -19,7 +19,7 @@ std::optional<fs::path> gallery_page_folder() {
   }
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  require_look("/proc/self/exe", error);
+  require_stat("/proc/self/exe", error);
   if (error) return std::nullopt;
   return program.parent_path().parent_path() / "share/crowdface/gallery";
 }
@@ -28,7 +28,7 @@ std::optional<fs::path> find_gallery_page() {
   auto folder = gallery_page_folder();
   if (!folder) return std::nullopt;
   for (const std::string_view file : kGalleryPageFiles) {
-    if (!is_there(*folder / file)) return std::nullopt;
+    if (!path_exists(*folder / file)) return std::nullopt;
   }
   return folder;
 }

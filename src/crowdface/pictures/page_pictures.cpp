@@ -13,12 +13,11 @@
 namespace crowdface {
 namespace {
 
-Texture small_texture(const Texture& texture, int most_px) {
-  return shrunk_texture(texture.width, texture.height, most_px,
-                        [&](int y, std::span<Light> texels) {
-                          const auto first = texture.texels.begin() + y * texture.width;
-                          std::copy_n(first, texture.width, texels.begin());
-                        });
+Texture small_texture(const Texture& texture, int max_px) {
+  return shrunk_texture(texture.width, texture.height, max_px, [&](int y, std::span<Light> texels) {
+    const auto first = texture.texels.begin() + y * texture.width;
+    std::copy_n(first, texture.width, texels.begin());
+  });
 }
 
 /// Converts light in [0, 1] to an sRGB byte with a table, because a texture has a million texels.
@@ -43,9 +42,9 @@ std::string address_of(std::string_view type, std::string_view bytes) {
 
 }  // namespace
 
-std::string colour_picture(const Texture& texture, int most_px) {
-  const bool fits = std::max(texture.width, texture.height) <= most_px;
-  const Texture small = fits ? Texture() : small_texture(texture, most_px);
+std::string colour_picture(const Texture& texture, int max_px) {
+  const bool fits = std::max(texture.width, texture.height) <= max_px;
+  const Texture small = fits ? Texture() : small_texture(texture, max_px);
   const Texture& shown = fits ? texture : small;
   std::vector<std::uint8_t> pixels(3 * shown.texels.size());
   std::uint8_t* at = pixels.data();
@@ -55,8 +54,8 @@ std::string colour_picture(const Texture& texture, int most_px) {
   return address_of("jpeg", encode_jpeg(shown.width, shown.height, pixels));
 }
 
-std::string opacity_picture(const Texture& texture, int most_px) {
-  const Texture small = small_texture(texture, most_px);
+std::string opacity_picture(const Texture& texture, int max_px) {
+  const Texture small = small_texture(texture, max_px);
   std::vector<std::uint8_t> pixels;
   for (const Light& there : small.texels) {
     pixels.push_back(

@@ -8,11 +8,11 @@
 namespace crowdface {
 
 /// Pictures encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
-/// load textures from files. Larger pictures are reduced to `most_px` texels a side.
+/// load textures from files. Larger pictures are reduced to `max_px` texels a side.
 
 /// The texture as JPEG in sRGB.
-std::string colour_picture(const Texture& texture, int most_px);
+std::string colour_picture(const Texture& texture, int max_px);
 /// The first channel as a PNG with one channel.
-std::string opacity_picture(const Texture& texture, int most_px);
+std::string opacity_picture(const Texture& texture, int max_px);
 
 }  // namespace crowdface

@@ -32,7 +32,7 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
 /// Removes scripts whose name is not in `names`, such as those of faces no longer in the crowd.
 void remove_others(const fs::path& folder, const std::set<std::string>& names) {
   for (const fs::path& path : list_files(folder, has_ending(".js"))) {
-    if (!names.contains(path.stem().string())) remove_if_there(path);
+    if (!names.contains(path.stem().string())) remove_if_exists(path);
   }
 }
 
@@ -73,35 +73,35 @@ void CrowdPictures::write_founder(const std::string& family, const Positions& po
   write_file(path, renders_.render_png(positions, textures_, recipe));
 }
 
-void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
+void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
                                   const CrowdLikeness& likeness) const {
   make_directories(directory_.gallery_head("").parent_path());
-  std::set<std::string> ids, worn;
-  for (const CastFace& face : crowd) {
+  std::set<std::string> ids, placed;
+  for (const FacePlan& face : crowd) {
     ids.insert(face.id);
-    worn.insert(face.attachments.begin(), face.attachments.end());
+    placed.insert(face.attachments.begin(), face.attachments.end());
   }
   for (const fs::path& folder : with_numbered_folders(directory_.gallery_faces())) {
     remove_others(folder, ids);
   }
   const fs::path attachments = directory_.gallery_attachment("").parent_path();
-  remove_others(attachments, worn);
-  if (!worn.empty()) make_directories(attachments);
-  const std::vector<std::string> items(worn.begin(), worn.end());
+  remove_others(attachments, placed);
+  if (!placed.empty()) make_directories(attachments);
+  const std::vector<std::string> items(placed.begin(), placed.end());
   parallel_for_each(items.size(), [&](std::size_t i) {
     write_file(directory_.gallery_attachment(items[i]),
-               gallery_->attachment_script(items[i], renders_.worn_surfaces()));
+               gallery_->attachment_script(items[i], renders_.attachment_surfaces()));
   });
   parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
     const auto& [name, positions] = inputs_.faces.heads[h];
     const auto head = static_cast<Index>(h);
-    const std::optional<TextureCoat> coat = renders_.coat_of(head);
-    const TextureCoat* const worn_coat = coat ? &*coat : nullptr;
-    const auto colours = renders_.colours_of(head, worn_coat);
+    const std::optional<TextureSet> texture_set = renders_.texture_set_of(head);
+    const TextureSet* const attachment_textures = texture_set ? &*texture_set : nullptr;
+    const auto colours = renders_.colours_of(head, attachment_textures);
     // The prefix avoids a clash with a face of the same name.
     write_file(directory_.gallery_head(name),
                gallery_->face_script(concat("head ", name), positions, shapes_.of_head(head),
-                                     worn_coat, colours ? &*colours : nullptr));
+                                     attachment_textures, colours ? &*colours : nullptr));
   });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);
@@ -110,10 +110,10 @@ void CrowdPictures::write_gallery(const std::vector<CastFace>& crowd,
   }
 }
 
-WrittenSheets CrowdPictures::finish(const std::vector<CastFace>& crowd,
+WrittenSheets CrowdPictures::finish(const std::vector<FacePlan>& crowd,
                                     const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
-  for (const CastFace& face : crowd) ids.push_back(face.id);
+  for (const FacePlan& face : crowd) ids.push_back(face.id);
   const PlanNames names = config_.plan_names();
   write_file(directory_.likeness(), likeness_text(likeness, names, ids));
   if (page_) {

@@ -34,16 +34,16 @@ class CrowdPictures {
                      const Recipe& recipe) const;
 
   /// Writes the contact sheets and the gallery from the renders in the folder.
-  WrittenSheets finish(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
+  WrittenSheets finish(const std::vector<FacePlan>& crowd, const CrowdLikeness& likeness) const;
 
  private:
   /// Writes the gallery except the scripts of faces: the page, the recipes, the heads.
-  void write_gallery(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
+  void write_gallery(const std::vector<FacePlan>& crowd, const CrowdLikeness& likeness) const;
   /// Writes the gallery's scripts with the recipes of the crowd. A crowd without numbered
   /// subfolders gets one script, data/crowd.js. With subfolders, data/crowd.js has only the columns
   /// for filtering and sorting; the recipes are in data/pages, one script per subfolder, which the
   /// page loads on demand.
-  void write_scripts(const std::vector<CastFace>& crowd, const CrowdLikeness& likeness) const;
+  void write_scripts(const std::vector<FacePlan>& crowd, const CrowdLikeness& likeness) const;
 
   const Config& config_;
   const Inputs& inputs_;

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 /// Largest number of columns on a page, including the neutral face.
-constexpr std::size_t kMostColumns = 16;
+constexpr std::size_t kMaxColumns = 16;
 
 /// A column of a page: a shape, or a shape together with its companion (see companions_of).
 struct Column {
@@ -61,7 +61,7 @@ void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
   std::vector<Displacements> of_template;
   for (const Shape& shape : set.shapes) of_template.push_back(shape.moves);
   const std::vector<Column> columns = columns_of(set, crowd.shapes);
-  const std::size_t count = (set.shapes.size() + kMostColumns - 2) / (kMostColumns - 1);
+  const std::size_t count = (set.shapes.size() + kMaxColumns - 2) / (kMaxColumns - 1);
   const std::size_t per_page = (set.shapes.size() + count - 1) / count;
   Progress progress("sheets of shapes", count);
   for (std::size_t page = 0; page < count; ++page) {
@@ -73,7 +73,7 @@ void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
             of_template, cells);
     for (std::size_t f = 0; f < faces; ++f) {
       throw_if_interrupted();
-      const CastFace& shown_face = crowd.faces[f];
+      const FacePlan& shown_face = crowd.faces[f];
       const Positions face = read_face(crowd.directory, shown_face.id, crowd.config.output.meshes,
                                        crowd.inputs.faces.topology.vertex_count);
       add_row(crowd.renders, shown, shown_face.id, face,

@@ -28,7 +28,7 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
 
 /// The regions inherited from `parent`: "brow", or "brow/skin" if the parents share the region's
 /// bands.
-std::vector<std::string> given_by(std::string_view parent, const CastFace& face,
+std::vector<std::string> given_by(std::string_view parent, const FacePlan& face,
                                   const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});
   require(face.inherits.size() == names.regions.size() * bands, "a child of ", face.inherits.size(),
@@ -49,13 +49,13 @@ std::vector<std::string> given_by(std::string_view parent, const CastFace& face,
 
 }  // namespace
 
-std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
+std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<FacePlan>& crowd,
                                      const Likeness& likeness) {
   if (order == SheetOrder::kLikeness) return likeness.order;
   std::vector<std::size_t> faces(crowd.size());
   std::iota(faces.begin(), faces.end(), std::size_t{0});
   if (order == SheetOrder::kPlan) return faces;
-  const auto kin = order == SheetOrder::kFamily ? &CastFace::family : &CastFace::group;
+  const auto kin = order == SheetOrder::kFamily ? &FacePlan::family : &FacePlan::group;
   std::stable_sort(faces.begin(), faces.end(), [&](std::size_t a, std::size_t b) {
     const auto& left = crowd[a].*kin;
     const auto& right = crowd[b].*kin;
@@ -64,11 +64,11 @@ std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFac
   return faces;
 }
 
-std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
+std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<FacePlan>& crowd,
                         std::size_t face, const Likeness& likeness,
                         const std::vector<std::string>& heads,
                         const std::vector<std::vector<std::string>>& tags) {
-  const CastFace& labelled = crowd[face];
+  const FacePlan& labelled = crowd[face];
   const auto line = [&](SheetLabel label) -> std::string {
     switch (label) {
       case SheetLabel::kId:
@@ -100,7 +100,7 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
   return join(lines, "\n");
 }
 
-std::string inheritance_label(const CastFace& face, const PlanNames& names) {
+std::string inheritance_label(const FacePlan& face, const PlanNames& names) {
   std::string label = face.id;
   if (face.mother_share > 0) {
     label += concat("\nform ", std::lround(100 * face.mother_share), " % mother");

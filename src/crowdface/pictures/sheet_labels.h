@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/likeness.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/config/config.h"
@@ -12,13 +12,13 @@
 namespace crowdface {
 
 /// The order of the faces on a sheet, as indices into `crowd`.
-std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<CastFace>& crowd,
+std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<FacePlan>& crowd,
                                      const Likeness& likeness);
 
 /// The text under a face, one line per label.
 /// \param heads  names of the heads.
 /// \param tags   tags of each head.
-std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<CastFace>& crowd,
+std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector<FacePlan>& crowd,
                         std::size_t face, const Likeness& likeness,
                         const std::vector<std::string>& heads,
                         const std::vector<std::vector<std::string>>& tags);
@@ -26,6 +26,6 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
 /// The text under a child on its family's sheet: id, percentage of the form that comes from the
 /// mother, and the regions from each parent. Regions with bands from both parents are listed by
 /// band.
-std::string inheritance_label(const CastFace& face, const PlanNames& names);
+std::string inheritance_label(const FacePlan& face, const PlanNames& names);
 
 }  // namespace crowdface

@@ -17,7 +17,7 @@ namespace {
 
 // Largest size of a page in the index, in pixels
 constexpr int kIndexWidth = 480, kIndexHeight = 960;
-constexpr std::size_t kPagesAVolume = 64;
+constexpr std::size_t kPagesPerVolume = 64;
 
 std::string to_png(const Rgb8Image& image) {
   return encode_png(image.width, image.height, 3, image.pixels);
@@ -37,7 +37,7 @@ std::string to_exr(const Rgb8Image& image) {
 SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
-  pngs_.reserve(kPagesAVolume);  // background tasks point to elements, which must not move
+  pngs_.reserve(kPagesPerVolume);  // background tasks point to elements, which must not move
 }
 
 std::filesystem::path SheetWriter::add_file(const std::string& name) {
@@ -65,7 +65,7 @@ void SheetWriter::wait() {
 }
 
 void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8Image page) {
-  if (index_.size() == kPagesAVolume) finish_volume(false);
+  if (index_.size() == kPagesPerVolume) finish_volume(false);
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
   index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
                     concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
@@ -75,7 +75,7 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8I
 void SheetWriter::write_index(const std::string& number) {
   const auto columns = static_cast<int>(
       std::clamp(std::ceil(std::sqrt(static_cast<double>(index_.size()))), 1.0, 8.0));
-  const std::size_t before = volumes_ * kPagesAVolume;
+  const std::size_t before = volumes_ * kPagesPerVolume;
   const std::string note = number.empty()
                                ? concat(index_.size(), " sheets")
                                : concat("sheets ", before + 1, " to ", before + index_.size());

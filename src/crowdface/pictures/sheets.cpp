@@ -20,7 +20,7 @@
 namespace crowdface {
 namespace {
 
-constexpr int kMostRows = 64;  // heads or family members on one page
+constexpr int kMaxRows = 64;  // heads or family members on one page
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
@@ -112,9 +112,9 @@ class CrowdSheets {
     const std::size_t per_page =
         static_cast<std::size_t>(sheet_.columns) *
         static_cast<std::size_t>(std::min(
-            kMostRows,
-            most_rows(sheet_.plain_cell_size(),
-                      {.columns = sheet_.columns, .title = title, .legend = {}, .note = note})));
+            kMaxRows,
+            max_rows(sheet_.plain_cell_size(),
+                     {.columns = sheet_.columns, .title = title, .legend = {}, .note = note})));
     const std::size_t pages = (count + per_page - 1) / per_page;
     for (std::size_t page = 0; page < pages; ++page) {
       throw_if_interrupted();
@@ -159,7 +159,7 @@ class CrowdSheets {
       const std::array<std::string, 2> roles = {"mother", "father"};
       for (std::size_t p = 0; p < 2; ++p) {
         cells.push_back(relative(parents[p], roles[p]));
-        const CastFace* parent = face_called(parents[p]);
+        const FacePlan* parent = face_called(parents[p]);
         for (std::size_t g = 0; parent != nullptr && g < parent->parents.size(); ++g) {
           grandparents.push_back(
               relative(parent->parents[g], concat("the ", roles[p], "'s ", roles[g])));
@@ -199,9 +199,9 @@ class CrowdSheets {
   }
 
   /// The face with this id, or null if the crowd has none or if the name is that of a head.
-  const CastFace* face_called(const std::string& name) const {
+  const FacePlan* face_called(const std::string& name) const {
     if (contains(crowd_.config.faces.names, name)) return nullptr;
-    const auto found = std::ranges::find(crowd_.faces, name, &CastFace::id);
+    const auto found = std::ranges::find(crowd_.faces, name, &FacePlan::id);
     return found == crowd_.faces.end() ? nullptr : &*found;
   }
 
@@ -213,7 +213,7 @@ class CrowdSheets {
 
   /// Inheritance of a child; for other members the nearest face.
   std::string label_of_member(std::size_t member) const {
-    const CastFace& face = crowd_.faces[member];
+    const FacePlan& face = crowd_.faces[member];
     if (face.parents.empty()) {
       return sheet_label({SheetLabel::kId, SheetLabel::kNearest}, crowd_.faces, member,
                          crowd_.likeness, crowd_.config.faces.names, crowd_.config.faces.tags);
@@ -253,7 +253,7 @@ WrittenSheets write_sheets(const PicturedCrowd& crowd) {
   make_directories(crowd.directory.sheets());
   WrittenSheets sheets = CrowdSheets(crowd).write();
   for (const std::filesystem::path& old : crowd_sheets(crowd.directory)) {
-    if (!contains(sheets.files, old)) remove_if_there(old);
+    if (!contains(sheets.files, old)) remove_if_exists(old);
   }
   return sheets;
 }

@@ -16,8 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// For all materials together; a vertex takes 8 bytes of text per face.
-constexpr std::size_t kMostWornTriangles = 24'000;
-constexpr int kMostWornTexels = 512;
+constexpr std::size_t kMaxAttachmentTriangles = 24'000;
+constexpr int kMaxAttachmentTexels = 512;
 
 /// The numbers of the vertices that move by at least `least`, 4 bytes each, followed by their
 /// displacements.
@@ -37,7 +37,7 @@ std::string packed_moves(std::span<const std::uint32_t> shown, const Displacemen
   return little_endian(vertices) + moves;
 }
 
-Json part_to_json(const PreviewMesh& mesh, const WornMaterial& material) {
+Json part_to_json(const PreviewMesh& mesh, const AttachmentMaterial& material) {
   Json json;
   json["vertices"] = mesh.vertices.size();
   json["triangles"] = base64(little_endian(mesh.triangles));
@@ -46,8 +46,8 @@ Json part_to_json(const PreviewMesh& mesh, const WornMaterial& material) {
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
   json["share"] = material.share;
   if (mesh.uvs.empty()) return json;
-  if (material.texture) json["picture"] = colour_picture(*material.texture, kMostWornTexels);
-  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity, kMostWornTexels);
+  if (material.texture) json["picture"] = colour_picture(*material.texture, kMaxAttachmentTexels);
+  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity, kMaxAttachmentTexels);
   return json;
 }
 
@@ -63,7 +63,8 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
       std::vector<bool> drawn;
       for (const std::uint32_t of_face : named.of_face) drawn.push_back(of_face == m);
       const auto faces = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true));
-      const std::size_t most = kMostWornTriangles * faces / std::max<std::size_t>(1, drawn.size());
+      const std::size_t most =
+          kMaxAttachmentTriangles * faces / std::max<std::size_t>(1, drawn.size());
       parts->push_back(preview_mesh(file.topology, file.uvs, file.positions, drawn,
                                     std::max<std::size_t>(1, most / 2)));
     }
@@ -71,7 +72,7 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
   });
 }
 
-std::string ShownAttachments::look(const Attachment& item, const WornSurface& surface) const {
+std::string ShownAttachments::look(const Attachment& item, const AttachmentSurface& surface) const {
   const Parts& meshes = parts(item);
   Json json = Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -80,26 +81,26 @@ std::string ShownAttachments::look(const Attachment& item, const WornSurface& su
   return json.dump();
 }
 
-std::string ShownAttachments::packed(const WornAttachment& worn, const PackingFrame& frame,
+std::string ShownAttachments::packed(const PlacedAttachment& placed, const PackingFrame& frame,
                                      double least) const {
   std::vector<std::uint32_t> shown;
-  for (const PreviewMesh& part : parts(*worn.item)) {
+  for (const PreviewMesh& part : parts(*placed.item)) {
     shown.insert(shown.end(), part.vertices.begin(), part.vertices.end());
   }
-  const std::string points = base64(pack_points(shown, frame, worn.positions));
+  const std::string points = base64(pack_points(shown, frame, placed.positions));
   Json moves = Json::object();
-  for (std::size_t s = 0; s < worn.moves.size(); ++s) {
-    const std::string of_shape = packed_moves(shown, worn.moves[s], frame, least);
+  for (std::size_t s = 0; s < placed.moves.size(); ++s) {
+    const std::string of_shape = packed_moves(shown, placed.moves[s], frame, least);
     if (!of_shape.empty()) moves[std::to_string(s)] = base64(of_shape);
   }
   return (moves.empty() ? Json(points) : Json{{"points", points}, {"moves", moves}}).dump();
 }
 
-std::vector<float> ShownAttachments::points(const WornAttachment& worn) const {
+std::vector<float> ShownAttachments::points(const PlacedAttachment& placed) const {
   std::vector<float> points;
-  for (const PreviewMesh& part : parts(*worn.item)) {
+  for (const PreviewMesh& part : parts(*placed.item)) {
     for (const std::uint32_t v : part.vertices) {
-      for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(worn.positions(v, c)));
+      for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(placed.positions(v, c)));
     }
   }
   return points;

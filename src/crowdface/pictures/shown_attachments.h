@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/core/made_once.h"
+#include "crowdface/core/lazy_map.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/preview/preview_mesh.h"
-#include "crowdface/render/worn_mesh.h"
+#include "crowdface/render/attachment_mesh.h"
 
 namespace crowdface {
 
@@ -18,20 +18,20 @@ class ShownAttachments {
  public:
   /// The part that does not depend on the face, as JSON: triangles and appearance for each
   /// material.
-  std::string look(const Attachment& item, const WornSurface& surface) const;
+  std::string look(const Attachment& item, const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
   /// of the face the vertices that move and their displacements.
   /// \param least  shortest displacement to store, in the unit of the positions
-  std::string packed(const WornAttachment& worn, const PackingFrame& frame, double least) const;
+  std::string packed(const PlacedAttachment& placed, const PackingFrame& frame, double least) const;
   /// The same positions as numbers, three per vertex.
-  std::vector<float> points(const WornAttachment& worn) const;
+  std::vector<float> points(const PlacedAttachment& placed) const;
 
  private:
   /// One mesh per material; without triangles if no face has the material.
   using Parts = std::vector<PreviewMesh>;
   const Parts& parts(const Attachment& item) const;
 
-  mutable MadeOnce<const Attachment*, Parts> parts_;
+  mutable LazyMap<const Attachment*, Parts> parts_;
 };
 
 }  // namespace crowdface

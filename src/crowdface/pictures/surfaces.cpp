@@ -18,8 +18,8 @@ namespace {
 template <class Value>
 double covered(const Image& image, const Topology& topology, const TextureCoordinates& uvs,
                const std::vector<Index>& faces, const Value& value) {
-  constexpr std::size_t kSamples = 4096, kFewest = 4;
-  const std::size_t each = std::max(kFewest, kSamples / std::max<std::size_t>(1, faces.size()));
+  constexpr std::size_t kSamples = 4096, kMin = 4;
+  const std::size_t each = std::max(kMin, kSamples / std::max<std::size_t>(1, faces.size()));
   double sum = 0;
   std::size_t count = 0;
   const auto part = [](double number) { return number - std::floor(number); };
@@ -44,7 +44,7 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
 }
 
 /// Whether a material is transparent on these faces, like shells over the eyes and lash cards.
-bool is_see_through(const SurfaceMaterial& material, const FaceSet& faces,
+bool is_see_through(const SurfaceMaterial& material, const HeadSet& faces,
                     const std::vector<Index>& of_material) {
   constexpr double kSolid = 0.9;
   if (material.opacity < kSolid) return true;

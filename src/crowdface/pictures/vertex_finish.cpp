@@ -32,9 +32,10 @@ Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
 
 }  // namespace
 
-Vector3d leaning_normal(const TextureCoat& coat, const FaceSet& faces, const TexturePlace& place,
-                        const Positions& positions, const Vector3d& normal) {
-  const Texture* slopes = picture_at(coat.slopes, place);
+Vector3d leaning_normal(const TextureSet& texture_set, const HeadSet& faces,
+                        const TexturePlace& place, const Positions& positions,
+                        const Vector3d& normal) {
+  const Texture* slopes = picture_at(texture_set.slopes, place);
   if (slopes == nullptr) return normal;
   // Derive the texture axes from the triangle at the face's first corner.
   const auto vertices = faces.topology.face(place.face);
@@ -60,8 +61,8 @@ Vector3d leaning_normal(const TextureCoat& coat, const FaceSet& faces, const Tex
       .normalized();
 }
 
-std::optional<float> roughness_at(const TextureCoat& coat, const TexturePlace& place) {
-  const Texture* roughness = picture_at(coat.roughness, place);
+std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place) {
+  const Texture* roughness = picture_at(texture_set.roughness, place);
   if (roughness == nullptr) return std::nullopt;
   return std::clamp(mean_around(*roughness, place.uv)[0], 0.0F, 1.0F);
 }

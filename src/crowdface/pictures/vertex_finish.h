@@ -19,11 +19,11 @@ struct TexturePlace {
 /// The vertex normal, tilted by the coat's normal map. The map is averaged around the vertex,
 /// because detail finer than the reduced mesh would appear as noise.
 /// \param positions  #V by 3 of the face
-Eigen::Vector3d leaning_normal(const TextureCoat& coat, const FaceSet& faces,
+Eigen::Vector3d leaning_normal(const TextureSet& texture_set, const HeadSet& faces,
                                const TexturePlace& place, const Positions& positions,
                                const Eigen::Vector3d& normal);
 
 /// The coat's roughness at a vertex, 0 … 1; nothing if there is no roughness map.
-std::optional<float> roughness_at(const TextureCoat& coat, const TexturePlace& place);
+std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place);
 
 }  // namespace crowdface

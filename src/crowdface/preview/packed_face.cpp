@@ -79,10 +79,10 @@ std::string pack_face(
 }
 
 std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame) {
-  constexpr double kMost = 32767;
+  constexpr double kMax = 32767;
   std::string bytes;
   for (int axis = 0; axis < 3; ++axis) {
-    const double steps = std::clamp(move[axis] / frame.step, -kMost, kMost);
+    const double steps = std::clamp(move[axis] / frame.step, -kMax, kMax);
     const auto value = static_cast<std::uint16_t>(std::lround(steps));
     bytes += static_cast<char>(value & 0xFFU);
     bytes += static_cast<char>(value >> 8U);

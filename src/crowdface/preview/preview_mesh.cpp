@@ -12,20 +12,20 @@ namespace crowdface {
 
 PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
                          const Positions& typical, const std::vector<bool>& drawn,
-                         std::size_t most_vertices) {
+                         std::size_t max_vertices) {
   const auto faces = static_cast<std::size_t>(topology.face_count());
   require(drawn.empty() || drawn.size() == faces, "preview: ", drawn.size(), " marks, ", faces,
           " faces");
   std::vector<std::uint32_t> looks(faces, 0);
   for (std::size_t f = 0; f < drawn.size(); ++f) looks[f] = drawn[f] ? 0 : kNoIndex;
   const SplitMesh split = split_mesh(topology, uvs, looks);
-  return preview_of(split, reduce_triangles(split.triangles, split.of(typical), 2 * most_vertices),
+  return preview_of(split, reduce_triangles(split.triangles, split.of(typical), 2 * max_vertices),
                     uvs);
 }
 
 PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
                        const TextureCoordinates& uvs) {
-  triangles = in_order_of_looks(std::move(triangles), split);
+  triangles = grouped_by_material(std::move(triangles), split);
   const auto look_of = [&](const Triangle& t) { return split.corners[t[0]].look; };
   PreviewMesh mesh;
   std::vector<std::uint32_t> number(split.corners.size(), kNoIndex);

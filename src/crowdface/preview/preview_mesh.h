@@ -27,10 +27,10 @@ struct PreviewMesh {
 ///                       texture coordinates.
 /// \param typical        #V by 3: positions for measuring the error of edge collapses.
 /// \param drawn          #F: the faces to keep; empty: all.
-/// \param most_vertices  approximate largest number of vertices before splitting.
+/// \param max_vertices  approximate largest number of vertices before splitting.
 PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
                          const Positions& typical, const std::vector<bool>& drawn,
-                         std::size_t most_vertices);
+                         std::size_t max_vertices);
 
 /// Builds the preview mesh from triangles that are already reduced.
 /// \param triangles  indices of corners of `split`.

@@ -69,7 +69,7 @@ ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions&
 
 std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
                                     const Positions& positions, const std::vector<bool>& hidden,
-                                    std::size_t most, std::size_t most_hidden) {
+                                    std::size_t most, std::size_t max_hidden) {
   require(hidden.size() == triangles.size(), "reduce: ", hidden.size(), " marks, ",
           triangles.size(), " triangles");
   std::vector<Triangle> of_seen, of_unseen;
@@ -77,7 +77,7 @@ std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
     (hidden[t] ? of_unseen : of_seen).push_back(triangles[t]);
   }
   std::vector<unsigned int> seen = corners_of(of_seen), unseen = corners_of(of_unseen);
-  reduce(unseen, positions, most_hidden, meshopt_SimplifyLockBorder);
+  reduce(unseen, positions, max_hidden, meshopt_SimplifyLockBorder);
   reduce(seen, positions, most - std::min(most, unseen.size() / 3), meshopt_SimplifyLockBorder);
   seen.insert(seen.end(), unseen.begin(), unseen.end());
   return for_drawing(std::move(seen), positions.rows());

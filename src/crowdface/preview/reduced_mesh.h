@@ -31,9 +31,9 @@ ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions&
 /// border between visible and hidden triangles, so that no gap opens there.
 /// \param hidden       #triangles: whether each triangle is hidden.
 /// \param most         largest number of all triangles.
-/// \param most_hidden  largest number of hidden triangles.
+/// \param max_hidden  largest number of hidden triangles.
 std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
                                     const Positions& positions, const std::vector<bool>& hidden,
-                                    std::size_t most, std::size_t most_hidden);
+                                    std::size_t most, std::size_t max_hidden);
 
 }  // namespace crowdface

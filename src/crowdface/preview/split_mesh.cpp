@@ -70,7 +70,7 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
     const auto [look, is_new] =
         known_looks.emplace(std::pair(looks[static_cast<std::size_t>(f)], tile_of(rows, uvs)),
                             static_cast<std::uint32_t>(known_looks.size()));
-    if (is_new) split.face_of_look.push_back(static_cast<std::uint32_t>(f));
+    if (is_new) split.face_of_material.push_back(static_cast<std::uint32_t>(f));
     const auto vertices = topology.face(f);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const bool has_uv = !rows.empty() && rows[k] != kNoIndex;
@@ -98,7 +98,7 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
   return split;
 }
 
-std::vector<Triangle> in_order_of_looks(std::vector<Triangle> triangles, const SplitMesh& split) {
+std::vector<Triangle> grouped_by_material(std::vector<Triangle> triangles, const SplitMesh& split) {
   std::erase_if(triangles, [&](const Triangle& t) {
     const auto vertex = [&](std::size_t k) { return split.corners[t[k]].vertex; };
     return vertex(0) == vertex(1) || vertex(1) == vertex(2) || vertex(2) == vertex(0);

@@ -20,10 +20,10 @@ struct SplitMesh {
     std::uint32_t vertex, uv, look;
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
-  std::vector<Corner> corners;                ///< distinct corners, ascending
-  std::vector<std::uint32_t> face_of_corner;  ///< #corners: the first face with this corner
-  std::vector<Triangle> triangles;            ///< indices into `corners`
-  std::vector<std::uint32_t> face_of_look;    ///< #looks: the first face of each look
+  std::vector<Corner> corners;                  ///< distinct corners, ascending
+  std::vector<std::uint32_t> face_of_corner;    ///< #corners: the first face with this corner
+  std::vector<Triangle> triangles;              ///< indices into `corners`
+  std::vector<std::uint32_t> face_of_material;  ///< #looks: the first face of each look
 
   /// The positions of the corners.
   /// \param whole  #V by 3.
@@ -39,6 +39,6 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
 
 /// Groups triangles of the split mesh by look. Drops triangles that use one vertex twice, which
 /// occur where a seam collapsed.
-std::vector<Triangle> in_order_of_looks(std::vector<Triangle> triangles, const SplitMesh& split);
+std::vector<Triangle> grouped_by_material(std::vector<Triangle> triangles, const SplitMesh& split);
 
 }  // namespace crowdface

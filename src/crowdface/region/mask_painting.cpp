@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kBleed = 6;        // texels painted beyond a chart's border
-constexpr int kMostRounds = 60;  // largest number of correction rounds
+constexpr int kBleed = 6;       // texels painted beyond a chart's border
+constexpr int kMaxRounds = 60;  // largest number of correction rounds
 /// Largest error of a sampled weight at which corrections stop: a fifth of an 8-bit step.
 constexpr double kGoodEnough = 0.2 / 255;
 
@@ -96,7 +96,7 @@ class Canvas {
     for (const Texels& place : places) {
       for (std::size_t c = 0; c < 4; ++c) share[place.at[c]] += static_cast<float>(place.share[c]);
     }
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       throw_if_interrupted();
       std::ranges::fill(sum, 0.0F);
       double worst = 0;

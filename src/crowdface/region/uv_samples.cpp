@@ -44,7 +44,8 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
       }
     }
   };
-  return grouped<UvSample>(static_cast<std::size_t>(topology.vertex_count), for_each_sample);
+  return compressed_rows<UvSample>(static_cast<std::size_t>(topology.vertex_count),
+                                   for_each_sample);
 }
 
 void check_every_used_vertex(const Topology& topology, const UvSamples& samples,

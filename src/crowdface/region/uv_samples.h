@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -20,7 +20,7 @@ struct UvSample {
 
 /// The distinct texture coordinates of each vertex, collected from its corners. A value on the
 /// border of two tiles occurs once for each tile that the vertex's polygons lie in.
-using UvSamples = Grouped<UvSample>;
+using UvSamples = CompressedRows<UvSample>;
 
 /// The column (for u) or row (for v) of the tile that contains a corner's coordinate: its integer
 /// part. An integer coordinate lies on a tile border; then the mean coordinate of the corner's

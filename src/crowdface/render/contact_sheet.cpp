@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> kBackground = {34, 35, 37};
 constexpr int kLargestSide = 65500;
-constexpr std::int64_t kMostPixels = 500'000'000;
+constexpr std::int64_t kMaxPixels = 500'000'000;
 
 int lines_of(const std::string& label) {
   return 1 + static_cast<int>(std::count(label.begin(), label.end(), '\n'));
@@ -96,7 +96,7 @@ bool is_small_enough(const SheetLayout& layout) {
     return false;  // check before the sizes below could overflow
   }
   const std::int64_t width = layout.width(), height = layout.height();
-  return width <= kLargestSide && height <= kLargestSide && width * height <= kMostPixels;
+  return width <= kLargestSide && height <= kLargestSide && width * height <= kMaxPixels;
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOpt
   if (rows > kLargestSide || !is_small_enough(layout)) {
     throw InvalidInput(concat("a contact sheet of ", columns, " x ", rows, " cells of ", cell.width,
                               " x ", cell.height, " pixels is too large; at most ", kLargestSide,
-                              " pixels a side and ", kMostPixels, " in all"));
+                              " pixels a side and ", kMaxPixels, " in all"));
   }
   return layout;
 }
@@ -124,7 +124,7 @@ SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& o
   return layout_sheet(size_of(cells), cells.size(), options);
 }
 
-int most_rows(const CellSize& cell, const SheetOptions& options) {
+int max_rows(const CellSize& cell, const SheetOptions& options) {
   SheetOptions trial = options;
   int fits = 0, too_many = kLargestSide;
   while (too_many - fits > 1) {
@@ -141,7 +141,7 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
   if (options.legend) {
     const int width = std::min(layout.width() - 2 * layout.margin, 900);
     const int margin = layout.legend_height / 6;
-    sheet.paste(heat_scale(options.legend->most_mm, options.legend->title, width,
+    sheet.paste(heat_scale(options.legend->max_mm, options.legend->title, width,
                            layout.legend_height - margin, kBackground),
                 layout.margin, layout.height() - layout.margin - layout.legend_height + margin);
   }

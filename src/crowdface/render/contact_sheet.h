@@ -17,9 +17,9 @@ struct SheetCell {
   std::string label;
 };
 
-/// Legend of a heat map, drawn below all cells: a scale from 0 to `most_mm`.
+/// Legend of a heat map, drawn below all cells: a scale from 0 to `max_mm`.
 struct HeatLegend {
-  double most_mm = 0;
+  double max_mm = 0;
   std::string title;
 };
 
@@ -64,7 +64,7 @@ SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOpt
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Largest number of rows that a sheet of such cells can have; 0 if not even one row fits.
-int most_rows(const CellSize& cell, const SheetOptions& options);
+int max_rows(const CellSize& cell, const SheetOptions& options);
 
 /// Draws pictures in a grid, row by row, with a label under each and a header above the grid.
 /// \throws InvalidInput like layout_sheet; MissingInput if the font is not installed.

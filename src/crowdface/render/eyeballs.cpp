@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "crowdface/mesh/grouping.h"
+#include "crowdface/mesh/disjoint_sets.h"
 #include "crowdface/render/perpendicular.h"
 
 namespace crowdface {
@@ -23,7 +23,7 @@ Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>&
   Eyeballs eyeballs;
   if (std::find(kinds.begin(), kinds.end(), SurfaceKind::kEye) == kinds.end()) return eyeballs;
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  Grouping groups(vertices);
+  DisjointSets groups(vertices);
   std::vector<bool> in_eye(vertices, false);
   for (Index f = 0; f < topology.face_count(); ++f) {
     if (kinds[static_cast<std::size_t>(f)] != SurfaceKind::kEye) continue;

@@ -19,11 +19,11 @@
 #include "crowdface/preview/reduced_mesh.h"
 #include "crowdface/render/camera_space.h"
 #include "crowdface/render/eyeballs.h"
-#include "crowdface/render/gleam.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/sampling_pattern.h"
 #include "crowdface/render/screen_quads.h"
 #include "crowdface/render/shading.h"
+#include "crowdface/render/skin_specular.h"
 #include "crowdface/render/tile_renderer.h"
 
 namespace crowdface {
@@ -73,14 +73,14 @@ struct Occluders {
 
 /// Largest number of occluding triangles. Reducing a larger mesh removes only detail far smaller
 /// than a pixel.
-constexpr std::size_t kMostOccluders = 100'000;
+constexpr std::size_t kMaxOccluders = 100'000;
 
 Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical) {
   Occluders occluders;
   const auto points = [](const Positions& positions) {
     return std::vector<float>(positions.data(), positions.data() + positions.size());
   };
-  if (quads.size() <= kMostOccluders) {
+  if (quads.size() <= kMaxOccluders) {
     occluders.typical = points(typical);
     return occluders;
   }
@@ -89,7 +89,7 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical)
     triangles.push_back({quad[0], quad[1], quad[2]});
     if (quad[2] != quad[3]) triangles.push_back({quad[0], quad[2], quad[3]});
   }
-  ReducedMesh reduced = reduce_mesh(triangles, typical, kMostOccluders);
+  ReducedMesh reduced = reduce_mesh(triangles, typical, kMaxOccluders);
   occluders.vertices = std::move(reduced.vertices);
   for (const Triangle& t : reduced.triangles) occluders.quads.push_back({t[0], t[1], t[2], t[2]});
   occluders.typical = points(typical(occluders.vertices, kAllColumns));
@@ -163,7 +163,7 @@ void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, In
     TexturedQuad textured{static_cast<std::uint32_t>(face), {}};
     for (std::size_t c = 0; c < 4; ++c) {
       // A face with a corner without coordinates gets no texture.
-      if (quad[c] == kNoIndex) textured.face = TextureCoat::kNone;
+      if (quad[c] == kNoIndex) textured.face = TextureSet::kNone;
       if (quad[c] != kNoIndex) textured.uvs[c] = uvs.row(quad[c]).transpose().cast<float>();
     }
     quads.push_back(textured);
@@ -216,13 +216,14 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
 FaceRenderer::~FaceRenderer() = default;
 
 Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
-                               const VertexColours* colours, const TextureCoat* coat,
-                               std::span<const WornMesh> worn) const {
+                               const VertexColours* colours, const TextureSet* texture_set,
+                               std::span<const AttachmentMesh> attachments) const {
   const Topology& topology = prepared_->topology;
   check_size(topology, positions);
   require(colours == nullptr || colours->rows() == topology.vertex_count,
           "render: colours of another number than vertices");
-  require(coat == nullptr || static_cast<Index>(coat->of_face.size()) == topology.face_count(),
+  require(texture_set == nullptr ||
+              static_cast<Index>(texture_set->of_face.size()) == topology.face_count(),
           "render: textures of another number than faces");
   std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
   to_camera(positions, camera, workspace->points);
@@ -234,11 +235,12 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   const auto distance = static_cast<float>(1 / camera.half_tangent);
   workspace->screen.put(workspace->points, prepared_->quads, distance, prepared_->options.size_px);
   prepared_->put_into_scene(*workspace);
-  std::optional<WornStage> worn_stage;
-  if (!worn.empty()) worn_stage.emplace(prepared_->device, worn, camera);
+  std::optional<AttachmentStage> attachment_stage;
+  if (!attachments.empty()) attachment_stage.emplace(prepared_->device, attachments, camera);
   std::vector<float> skin_lightnesses;
-  if (coat != nullptr) {
-    for (const auto& texture : coat->textures) skin_lightnesses.push_back(skin_lightness(*texture));
+  if (texture_set != nullptr) {
+    for (const auto& texture : texture_set->textures)
+      skin_lightnesses.push_back(skin_lightness(*texture));
   }
   const Stage stage{workspace->points,
                     workspace->screen,
@@ -251,12 +253,12 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->quad_kinds,
                     prepared_->quad_paints,
                     prepared_->quad_uvs,
-                    coat,
+                    texture_set,
                     std::move(skin_lightnesses),
                     prepared_->eyeballs,
                     std::move(eyes),
                     gaze,
-                    worn_stage ? &*worn_stage : nullptr,
+                    attachment_stage ? &*attachment_stage : nullptr,
                     prepared_->options.occlusion,
                     Eigen::Vector3f(0, 0, distance)};
   const int size = prepared_->options.size_px;

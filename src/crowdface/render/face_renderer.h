@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/render/attachment_mesh.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
-#include "crowdface/render/worn_mesh.h"
 
 namespace crowdface {
 
@@ -50,8 +50,8 @@ class FaceRenderer {
   /// \param worn       attachments drawn with the face.
   /// \throws BrokenPrecondition if a size does not match; InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
-                   const VertexColours* colours = nullptr, const TextureCoat* coat = nullptr,
-                   std::span<const WornMesh> worn = {}) const;
+                   const VertexColours* colours = nullptr, const TextureSet* texture_set = nullptr,
+                   std::span<const AttachmentMesh> attachments = {}) const;
 
  private:
   struct Prepared;

@@ -229,12 +229,12 @@ PixelPlaces::PixelPlaces(std::vector<Eigen::Vector2f> list) : list_(std::move(li
     x_.push_back(place.x());
     y_.push_back(place.y());
   }
-  x_.resize(list_.size() + kMostLanes, std::numeric_limits<float>::quiet_NaN());
-  y_.resize(list_.size() + kMostLanes, std::numeric_limits<float>::quiet_NaN());
+  x_.resize(list_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
+  y_.resize(list_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
 }
 
 FrontQuads::FrontQuads(std::size_t places)
-    : nearness(places + kMostLanes, 0.0F), front(places + kMostLanes, kNothing) {}
+    : nearness(places + kMaxLanes, 0.0F), front(places + kMaxLanes, kNothing) {}
 
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
                     std::span<const PlacedVertex> placed, int a_row, SquareLists& squares) {

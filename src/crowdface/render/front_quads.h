@@ -21,7 +21,7 @@ inline constexpr int kRim = 2;
 inline constexpr int kRimmed = kSquare + 2 * kRim;
 
 /// Padding at the end of lists: the largest number of floats that a SIMD vector holds.
-inline constexpr std::size_t kMostLanes = 16;
+inline constexpr std::size_t kMaxLanes = 16;
 
 /// A vertex projected to the image.
 struct alignas(16) PlacedVertex {
@@ -55,7 +55,7 @@ class PixelPlaces {
 
   const std::vector<Eigen::Vector2f>& list() const { return list_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(list_.size()); }
-  /// All x, followed by kMostLanes NaNs as padding. `y` likewise.
+  /// All x, followed by kMaxLanes NaNs as padding. `y` likewise.
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
 
@@ -70,7 +70,7 @@ struct LookedPixel {
   std::uint32_t first = 0;
 };
 
-/// A depth buffer: the nearest quad at each sample. The lists are padded by kMostLanes.
+/// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.
 struct FrontQuads {
   static constexpr std::uint32_t kNothing = 0xffffffffU;
   std::vector<float> nearness;       ///< 0: no quad

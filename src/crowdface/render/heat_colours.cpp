@@ -38,10 +38,10 @@ Eigen::Vector3f heat_colour(double share) {
   return colour;
 }
 
-VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& mm, double most_mm) {
+VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& mm, double max_mm) {
   VertexColours colours(mm.size(), 3);
   for (Eigen::Index i = 0; i < mm.size(); ++i) {
-    colours.row(i) = heat_colour(mm[i] / most_mm).transpose();
+    colours.row(i) = heat_colour(mm[i] / max_mm).transpose();
   }
   return colours;
 }
@@ -61,7 +61,7 @@ std::vector<double> scale_ticks(double most) {
   return ticks;
 }
 
-Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int height_px,
+Rgb8Image heat_scale(double max_mm, const std::string& title, int width_px, int height_px,
                      std::array<std::uint8_t, 3> background) {
   Rgb8Image image(width_px, height_px, background);
   const int left = width_px / 3;
@@ -77,13 +77,13 @@ Rgb8Image heat_scale(double most_mm, const std::string& title, int width_px, int
   LabelStyle style;
   style.background = background;
   style.text_px = std::max(10, height_px * 3 / 10);
-  const std::vector<double> ticks = scale_ticks(most_mm);
+  const std::vector<double> ticks = scale_ticks(max_mm);
   const int tick_width = bar_width / std::max(1, static_cast<int>(ticks.size()));
   const int tick_top = bar_top + bar_height;
   for (const double tick : ticks) {
     const bool last = tick == ticks.back();
     const std::string text = concat(format_number(tick), last ? " mm" : "");
-    const int middle = left + static_cast<int>(tick / most_mm * bar_width);
+    const int middle = left + static_cast<int>(tick / max_mm * bar_width);
     const int from = std::clamp(middle - tick_width / 2, 0, width_px - tick_width);
     image.paste(label_strip(text, tick_width, height_px - tick_top, style), from, tick_top);
   }

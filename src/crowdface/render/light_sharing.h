@@ -51,11 +51,11 @@ class PixelLights {
 /// Estimates the visible fraction of the key light and of the sky at points, by a bilateral filter:
 /// rays of the 3 by 3 pixels around the point, weighted by how well the pixel's normal and position
 /// match the point's surface. Gives the same bits with every instruction set.
-/// \param points     lists padded by kMostLanes entries of any value
+/// \param points     lists padded by kMaxLanes entries of any value
 /// \param pixel      index of the pixel of all points, or with `in_a_row` of the first point
 /// \param in_a_row   whether the points lie in consecutive pixels of a row
 /// \param pixel_side in the unit of the positions
-/// \param key, sky   results; room for `count` + kMostLanes
+/// \param key, sky   results; room for `count` + kMaxLanes
 void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
                   std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky);
 

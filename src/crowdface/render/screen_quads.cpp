@@ -12,8 +12,8 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kVerticesATask = 8192;
-constexpr std::size_t kQuadsABlock = 16384;
+constexpr std::size_t kVerticesPerTask = 8192;
+constexpr std::size_t kQuadsPerBlock = 16384;
 
 float cross(const Eigen::Array2f& a, const Eigen::Array2f& b) {
   return a[0] * b[1] - a[1] * b[0];
@@ -27,22 +27,22 @@ void ScreenQuads::put(const std::vector<float>& points, const std::vector<Quad>&
   quads_ = quads;
   const float half_side = 0.5F * static_cast<float>(size);
   placed_.resize(points.size() / 3);
-  parallel_for_each(placed_.size(), kVerticesATask, [&](std::size_t v) {
+  parallel_for_each(placed_.size(), kVerticesPerTask, [&](std::size_t v) {
     const float* p = points_ + 3 * v;
     const float nearness = distance / (distance - p[2]);
     placed_[v] = {half_side * (1 + p[0] * nearness), half_side * (1 - p[1] * nearness), nearness};
     if (p[2] >= distance) placed_[v].x = std::numeric_limits<float>::infinity();
   });
   a_row_ = (size + kSquare - 1) / kSquare;
-  blocks_.resize((quads.size() + kQuadsABlock - 1) / kQuadsABlock);
+  blocks_.resize((quads.size() + kQuadsPerBlock - 1) / kQuadsPerBlock);
   parallel_for_each(blocks_.size(), [&](std::size_t b) {
     SquareLists& squares = blocks_[b];
     squares.resize(static_cast<std::size_t>(a_row_ * a_row_));
     for (auto& lists : squares) {
       for (auto& list : lists) list.clear();
     }
-    const std::size_t end = std::min(quads.size(), (b + 1) * kQuadsABlock);
-    add_to_squares(quads, b * kQuadsABlock, end, placed_, a_row_, squares);
+    const std::size_t end = std::min(quads.size(), (b + 1) * kQuadsPerBlock);
+    add_to_squares(quads, b * kQuadsPerBlock, end, placed_, a_row_, squares);
   });
 }
 

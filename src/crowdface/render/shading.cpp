@@ -107,9 +107,9 @@ HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* ligh
   const Numbers left = hn::Mul(hn::Max(dot(normal, to_left), number(0)), sky);
   const Numbers up = hn::Add(number(0.5F), hn::Mul(number(0.5F), normal.y));
   const Gloss gloss(normal, to_eye, field(ShadeBatch::kRoughness), field(ShadeBatch::kReflectance));
-  const Numbers gleam = field(ShadeBatch::kGleam), shown = field(ShadeBatch::kShown);
-  const Numbers soft = hn::Mul(gleam, square(sky));
-  const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(gleam, key));
+  const Numbers specular = field(ShadeBatch::kSpecularTable), shown = field(ShadeBatch::kShown);
+  const Numbers soft = hn::Mul(specular, square(sky));
+  const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(specular, key));
   const Numbers fill_gloss = hn::Mul(gloss.of(to_fill), soft);
   const Numbers right_gloss = hn::Mul(gloss.of(to_right), soft);
   const Numbers left_gloss = hn::Mul(gloss.of(to_left), soft);
@@ -153,7 +153,7 @@ namespace crowdface {
 namespace {
 
 /// Lower bound of roughness: lamps are points, and a smoother surface would show them as dots.
-constexpr float kLeastRoughness = 0.14F;
+constexpr float kMinRoughness = 0.14F;
 
 /// Specular factor for albedos darker than any skin: painted hair has weaker highlights.
 float dark_gleam(const Light& albedo) {
@@ -165,7 +165,7 @@ float dark_gleam(const Light& albedo) {
 
 HWY_EXPORT(shade_blocks);
 
-void ShadeBatch::add(const ShadePoint& point, float gleam) {
+void ShadeBatch::add(const ShadePoint& point, float specular) {
   const std::size_t block = count_ / kBlock * kFields * kBlock;
   if (points_.size() < block + kFields * kBlock) points_.resize(block + kFields * kBlock, 0.5F);
   float* const at = points_.data() + block + count_++ % kBlock;
@@ -179,14 +179,14 @@ void ShadeBatch::add(const ShadePoint& point, float gleam) {
     put(kAlbedo + c, point.albedo[c]);
     put(kWrap + c, material.wrap[c]);
   }
-  put(kRoughness, point.roughness >= 0 ? std::clamp(point.roughness, kLeastRoughness, 1.0F)
-                                       : material.roughness);
-  const bool darkens = point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kWorn;
+  put(kRoughness,
+      point.roughness >= 0 ? std::clamp(point.roughness, kMinRoughness, 1.0F) : material.roughness);
+  const bool darkens = point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kAttachment;
   put(kReflectance, material.reflectance * (darkens ? dark_gleam(point.albedo) : 1));
   put(kKey, point.key);
   put(kSky, point.sky);
   // Attachments are mostly hair, whose strands point in all directions and weaken highlights.
-  put(kGleam, point.kind == SurfaceKind::kWorn ? 0.45F * gleam : gleam);
+  put(kSpecularTable, point.kind == SurfaceKind::kAttachment ? 0.45F * specular : specular);
   put(kShown, point.inside ? 0.3F : 1.0F);
 }
 
@@ -196,9 +196,9 @@ void ShadeBatch::shade() {
   HWY_DYNAMIC_DISPATCH(shade_blocks)(points_.data(), blocks, studio(), lights_.data());
 }
 
-Light shade(const ShadePoint& point, float gleam) {
+Light shade(const ShadePoint& point, float specular) {
   ShadeBatch alone;
-  alone.add(point, gleam);
+  alone.add(point, specular);
   alone.shade();
   return alone.light(0);
 }

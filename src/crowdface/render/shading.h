@@ -25,14 +25,14 @@ struct ShadePoint {
 /// Radiance from a point in the studio. Diffuse light is wrapped: skin scatters light past the edge
 /// of shadows, red furthest. Highlights use a microfacet model (Walter et al. 2007).
 /// \param gleam  factor of the specular reflection.
-Light shade(const ShadePoint& point, float gleam = 1);
+Light shade(const ShadePoint& point, float specular = 1);
 
 /// Shades many points with SIMD, like `shade`. The result of a point is the same with every
 /// instruction set and does not depend on the other points.
 class ShadeBatch {
  public:
   void clear() { count_ = 0; }
-  void add(const ShadePoint& point, float gleam);
+  void add(const ShadePoint& point, float specular);
   void shade();
 
   /// Radiance of point `i`, in order of `add`. Call `shade` first.
@@ -51,7 +51,7 @@ class ShadeBatch {
     kReflectance,
     kKey,
     kSky,
-    kGleam,
+    kSpecularTable,
     kShown,  ///< factor of the total radiance
     kFields
   };

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "crowdface/render/attachment_stage.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/screen_quads.h"
@@ -15,13 +16,12 @@
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
-#include "crowdface/render/worn_stage.h"
 
 namespace crowdface {
 
 /// Texture coordinates of a quad.
 struct TexturedQuad {
-  std::uint32_t face;  ///< face of the topology, or TextureCoat::kNone
+  std::uint32_t face;  ///< face of the topology, or TextureSet::kNone
   std::array<Eigen::Vector2f, 4> uvs;
 };
 
@@ -38,13 +38,13 @@ struct Stage {
   const std::vector<SurfaceKind>& kinds;            ///< #quads
   const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
-  const TextureCoat* coat;                          ///< textures, or nullptr
+  const TextureSet* texture_set;                    ///< textures, or nullptr
   std::vector<float> skin_lightness;                ///< for each texture of `coat`
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;
-  const WornStage* worn;  ///< attachments, or nullptr
-  bool occlusion;         ///< whether the sky's light is occluded
+  const AttachmentStage* attachments;  ///< attachments, or nullptr
+  bool occlusion;                      ///< whether the sky's light is occluded
   Eigen::Vector3f viewer;
 
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {

@@ -7,7 +7,7 @@ namespace crowdface {
 
 const Material& material_of(SurfaceKind kind) {
   struct Materials {
-    Material skin, eye, iris, teeth, gums, worn;
+    Material skin, eye, iris, teeth, gums, attachments;
   };
   static const Materials materials = {
       .skin = {{0.47F, 0.385F, 0.335F}, {0.30F, 0.19F, 0.14F}, 0.48F, 0.03F},
@@ -15,7 +15,7 @@ const Material& material_of(SurfaceKind kind) {
       .iris = {{0.075F, 0.052F, 0.040F}, {0.05F, 0.05F, 0.05F}, 0.14F, 0.04F},
       .teeth = {{0.68F, 0.62F, 0.52F}, {0.15F, 0.12F, 0.10F}, 0.25F, 0.04F},
       .gums = {{0.42F, 0.20F, 0.18F}, {0.20F, 0.10F, 0.08F}, 0.30F, 0.04F},
-      .worn = {{0.5F, 0.5F, 0.5F}, {0.30F, 0.28F, 0.26F}, 0.45F, 0.03F}};
+      .attachments = {{0.5F, 0.5F, 0.5F}, {0.30F, 0.28F, 0.26F}, 0.45F, 0.03F}};
   switch (kind) {
     case SurfaceKind::kEye:
       return materials.eye;
@@ -25,8 +25,8 @@ const Material& material_of(SurfaceKind kind) {
       return materials.teeth;
     case SurfaceKind::kGums:
       return materials.gums;
-    case SurfaceKind::kWorn:
-      return materials.worn;
+    case SurfaceKind::kAttachment:
+      return materials.attachments;
     case SurfaceKind::kSkin:
     case SurfaceKind::kHidden:
       break;

@@ -18,8 +18,8 @@ enum class SurfaceKind : std::uint8_t {
   kEye,  ///< the white of the eye
   kIris,
   kTeeth,
-  kGums,  ///< and tongue
-  kWorn,  ///< attachment with colours of its own: hair, glasses
+  kGums,        ///< and tongue
+  kAttachment,  ///< attachment with colours of its own: hair, glasses
   /// Not drawn: lashes, tear fluid and shells that would need textures to be transparent.
   kHidden,
 };

@@ -6,9 +6,9 @@
 
 namespace crowdface {
 
-Texture shrunk_texture(int width, int height, int most_px,
+Texture shrunk_texture(int width, int height, int max_px,
                        const std::function<void(int y, std::span<Light> texels)>& row) {
-  const int block = (std::max(width, height) + most_px - 1) / most_px;
+  const int block = (std::max(width, height) + max_px - 1) / max_px;
   Texture small{std::max(1, width / block), std::max(1, height / block), {}};
   small.texels.assign(
       static_cast<std::size_t>(small.width) * static_cast<std::size_t>(small.height),

@@ -21,9 +21,9 @@ struct Texture {
 };
 
 /// Reads a texture row by row and reduces it by averaging whole blocks of texels, until no side is
-/// longer than `most_px`.
+/// longer than `max_px`.
 /// \param row  writes the `width` texels of row y; called once for each row, from the top down.
-Texture shrunk_texture(int width, int height, int most_px,
+Texture shrunk_texture(int width, int height, int max_px,
                        const std::function<void(int y, std::span<Light> texels)>& row);
 
 /// Extends colours into unpainted texels, so that interpolation near the border does not mix in
@@ -47,7 +47,7 @@ struct TextureLayer {
 
 /// Colour textures, normal maps and roughness maps of one head. Faces with kNone keep their own
 /// colour.
-struct TextureCoat : TextureLayer {
+struct TextureSet : TextureLayer {
   /// Slopes from tangent-space normal maps: to the right and upwards.
   TextureLayer slopes = {};
   TextureLayer roughness = {};  ///< in the first channel

@@ -9,10 +9,10 @@
 
 #include <Eigen/Geometry>
 
-#include "crowdface/render/gleam.h"
+#include "crowdface/render/camera_hit.h"
 #include "crowdface/render/light_sharing.h"
-#include "crowdface/render/meeting.h"
 #include "crowdface/render/perpendicular.h"
+#include "crowdface/render/skin_specular.h"
 
 namespace crowdface {
 namespace {
@@ -45,7 +45,7 @@ enum class Change : std::uint8_t { kNone, kRelief, kEdge };
 class PointLists {
  public:
   void resize(std::size_t count) {
-    room_ = std::max(room_, count + kMostLanes);
+    room_ = std::max(room_, count + kMaxLanes);
     numbers_.resize(PointLights::kFields * room_);
   }
   float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * room_; }
@@ -63,7 +63,7 @@ class PointLists {
 
 /// \param lists  PointLists or PixelLights
 template <class Lists>
-void put(const Meeting& meeting, std::size_t at, Lists& lists) {
+void put(const CameraHit& meeting, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
     lists.list(PointLights::kPoint + c)[at] = meeting.point[c];
     lists.list(PointLights::kNormal + c)[at] = meeting.surface.normal[c];
@@ -75,9 +75,9 @@ void put(const Meeting& meeting, std::size_t at, Lists& lists) {
 }
 
 /// Mean of positions, normals (shorter than 1 where they differ) and albedos; sums of rays.
-Meeting mean_of(std::span<const Meeting> meetings) {
-  Meeting mean = meetings.front();
-  for (const Meeting& other : meetings.subspan(1)) {
+CameraHit mean_of(std::span<const CameraHit> meetings) {
+  CameraHit mean = meetings.front();
+  for (const CameraHit& other : meetings.subspan(1)) {
     mean.point += other.point;
     mean.surface.normal += other.surface.normal;
     mean.surface.albedo += other.surface.albedo;
@@ -100,11 +100,11 @@ struct Shares {
 struct TileMemory {
   std::vector<Ray> rays;
   std::vector<std::optional<RayHit>> hits;
-  std::vector<Meeting> meetings;
-  std::vector<Meeting*> asking;
+  std::vector<CameraHit> meetings;
+  std::vector<CameraHit*> asking;
   PixelLights pixels;
   PointLists points;
-  std::vector<Meeting> middles;  ///< for a row of pixels
+  std::vector<CameraHit> middles;  ///< for a row of pixels
   Shares row_shares, shares;
   ShadeBatch batch;
 };
@@ -139,7 +139,7 @@ class Tile {
 
   void render(Rgb8Image& image) {
     // Few samples in every pixel.
-    const PixelPlaces& first = stage_.worn != nullptr ? sampling_.coarse : sampling_.middle;
+    const PixelPlaces& first = stage_.attachments != nullptr ? sampling_.coarse : sampling_.middle;
     look([&](const Pixel&) { return &first; });
     // More samples where neighbouring pixels differ.
     if (sampling_.fine.count() > 1) {
@@ -202,12 +202,12 @@ class Tile {
     std::vector<std::optional<RayHit>>& hits = memory_.hits;
     stage_.screen.nearest_hits({left_ / kSquare, top_ / kSquare}, outer_, places, hits);
     // Attachments in front of the face.
-    std::vector<std::optional<RayHit>> worn;
-    if (stage_.worn != nullptr) {
+    std::vector<std::optional<RayHit>> attachments;
+    if (stage_.attachments != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
         if (hits[r]) rays[r].furthest = hits[r]->distance;
       }
-      worn = stage_.worn->scene().nearest_hits(rays);
+      attachments = stage_.attachments->scene().nearest_hits(rays);
     }
     std::size_t ray = 0;
     auto at = places.begin();
@@ -218,11 +218,11 @@ class Tile {
       pixel.missed = 0;
       pixel.backdrop = Light::Zero();
       for (const Eigen::Vector2f& place : looked->list()) {
-        fetch_ahead(stage_, hits, ray);
-        if (!worn.empty() && worn[ray]) {
-          meetings_.push_back(meet_worn(stage_, *worn[ray], rays[ray].direction));
+        prefetch_hits(stage_, hits, ray);
+        if (!attachments.empty() && attachments[ray]) {
+          meetings_.push_back(attachment_hit(stage_, *attachments[ray], rays[ray].direction));
         } else if (hits[ray]) {
-          meetings_.push_back(meet(stage_, *hits[ray], rays[ray].direction));
+          meetings_.push_back(camera_hit(stage_, *hits[ray], rays[ray].direction));
         } else {
           pixel.backdrop += background(on_image(x, y, place).y());
           ++pixel.missed;
@@ -233,28 +233,28 @@ class Tile {
     });
   }
 
-  std::span<Meeting> meetings_of(const Pixel& pixel) {
+  std::span<CameraHit> meetings_of(const Pixel& pixel) {
     return std::span(meetings_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
   /// Whether a pixel and its four neighbours differ in surface or colour.
   Change change_at(int x, int y) {
     const Pixel& at = pixel(x, y);
-    const std::span<const Meeting> meetings = meetings_of(at);
+    const std::span<const CameraHit> meetings = meetings_of(at);
     if (!meetings.empty() && at.missed > 0) return Change::kEdge;
     Change most = Change::kNone;
-    for (const Meeting& other : meetings) most = std::max(most, change(meetings.front(), other));
-    if (stage_.worn != nullptr) return most;  // the pixel's own samples suffice
+    for (const CameraHit& other : meetings) most = std::max(most, change(meetings.front(), other));
+    if (stage_.attachments != nullptr) return most;  // the pixel's own samples suffice
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
       if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
-      const std::span<const Meeting> beside = meetings_of(pixel(i, j));
+      const std::span<const CameraHit> beside = meetings_of(pixel(i, j));
       if (beside.empty() != meetings.empty()) return Change::kEdge;
       if (!beside.empty()) most = std::max(most, change(meetings.front(), beside.front()));
     }
     return most;
   }
 
-  Change change(const Meeting& one, const Meeting& other) const {
+  Change change(const CameraHit& one, const CameraHit& other) const {
     const ShadePoint &here = one.surface, &there = other.surface;
     const float height = (other.point - one.point).dot(here.normal);
     const float cosine = there.normal.dot(here.normal);
@@ -285,7 +285,7 @@ class Tile {
           for (int y = rim_top_ + shift_y; y < rim_bottom_; y += kInterleave) {
             for (int x = rim_left_ + shift_x; x < rim_right_; x += kInterleave) {
               const Pixel& at = pixel(x, y);
-              const std::span<Meeting> meetings = meetings_of(at);
+              const std::span<CameraHit> meetings = meetings_of(at);
               if (meetings.empty()) continue;
               const std::size_t first = k % meetings.size();
               const std::size_t end = at.change != Change::kNone ? meetings.size() : first + 1;
@@ -301,19 +301,20 @@ class Tile {
   /// \param ray_of  ray of a meeting in a direction; nothing if the light cannot reach it
   /// \return whether each of `memory_.rays` is blocked
   template <class RayOf>
-  std::vector<bool> ask(const InterleavedDisc& directions, Openness Meeting::*light,
+  std::vector<bool> ask(const InterleavedDisc& directions, Visibility CameraHit::*light,
                         const RayOf& ray_of) {
     std::vector<Ray>& rays = memory_.rays;
-    std::vector<Meeting*>& asking = memory_.asking;
+    std::vector<CameraHit*>& asking = memory_.asking;
     rays.clear();
     asking.clear();
-    for_each_ask(directions, [&](Meeting& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
-      const std::optional<Ray> ray = ray_of(meeting, disc);
-      if (!ray) return;
-      rays.push_back(*ray);
-      rays.back().lot = lot;
-      asking.push_back(&meeting);
-    });
+    for_each_ask(directions,
+                 [&](CameraHit& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
+                   const std::optional<Ray> ray = ray_of(meeting, disc);
+                   if (!ray) return;
+                   rays.push_back(*ray);
+                   rays.back().lot = lot;
+                   asking.push_back(&meeting);
+                 });
     std::vector<bool> blocked = are_blocked(rays);
     for (std::size_t r = 0; r < rays.size(); ++r) {
       (asking[r]->*light).add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
@@ -323,8 +324,8 @@ class Tile {
 
   void ask_key() {
     const Vector key = key_direction();
-    ask(sampling_.key, &Meeting::key,
-        [&](const Meeting& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
+    ask(sampling_.key, &CameraHit::key,
+        [&](const CameraHit& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
           if (!meeting.asks_key) return std::nullopt;
           const Vector start = meeting.start + kThickness * meeting.surface.normal;
           return Ray{start, key + kKeyRadius * around(key, disc)};
@@ -334,8 +335,8 @@ class Tile {
   /// Rays are cosine-weighted.
   void ask_sky() {
     const std::vector<bool> blocked =
-        ask(sampling_.sky, &Meeting::sky,
-            [](const Meeting& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
+        ask(sampling_.sky, &CameraHit::sky,
+            [](const CameraHit& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
               const Vector& normal = meeting.surface.normal;
               const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
               return Ray{meeting.start, around(normal, disc) + height * normal, 0, kSkyReach};
@@ -346,13 +347,13 @@ class Tile {
   /// Transmission through attachments, such as a thin lock of hair seen from its dark side: if a
   /// sky ray is blocked on the visible side, the mirrored ray on the other side adds part of its
   /// light.
-  void add_light_through(const std::vector<Ray>& rays, const std::vector<Meeting*>& asking,
+  void add_light_through(const std::vector<Ray>& rays, const std::vector<CameraHit*>& asking,
                          const std::vector<bool>& blocked) {
     std::vector<Ray> behind;
-    std::vector<Meeting*> thin;
+    std::vector<CameraHit*> thin;
     for (std::size_t r = 0; r < rays.size(); ++r) {
-      const Meeting& meeting = *asking[r];
-      if (!blocked[r] || meeting.surface.kind != SurfaceKind::kWorn) continue;
+      const CameraHit& meeting = *asking[r];
+      if (!blocked[r] || meeting.surface.kind != SurfaceKind::kAttachment) continue;
       const Vector across = (meeting.start - meeting.point).normalized();
       behind.push_back(rays[r]);
       behind.back().origin = 2 * meeting.point - meeting.start;
@@ -367,13 +368,13 @@ class Tile {
 
   std::vector<bool> are_blocked(const std::vector<Ray>& rays) const {
     std::vector<bool> blocked = stage_.occluders.occluded(rays);
-    if (stage_.worn == nullptr) return blocked;
+    if (stage_.attachments == nullptr) return blocked;
     std::vector<Ray> free;
     for (std::size_t r = 0; r < rays.size(); ++r) {
       if (!blocked[r]) free.push_back(rays[r]);
     }
-    const std::vector<bool> by_worn = stage_.worn->scene().occluded(free);
-    auto next = by_worn.begin();
+    const std::vector<bool> by_attachments = stage_.attachments->scene().occluded(free);
+    auto next = by_attachments.begin();
     for (std::size_t r = 0; r < rays.size(); ++r) {
       if (!blocked[r]) blocked[r] = *next++;
     }
@@ -390,7 +391,7 @@ class Tile {
     memory_.pixels.clear();
     for (int y = rim_top_; y < rim_bottom_; ++y) {
       for (int x = rim_left_; x < rim_right_; ++x) {
-        const std::span<const Meeting> meetings = meetings_of(pixel(x, y));
+        const std::span<const CameraHit> meetings = meetings_of(pixel(x, y));
         if (!meetings.empty()) put(mean_of(meetings), light_index(x, y), memory_.pixels);
       }
     }
@@ -399,22 +400,22 @@ class Tile {
   /// Computes the visible fractions of the lights at points, see share_lights.
   void share(const PointLists& points, std::size_t count, int x, int y, bool in_a_row,
              Shares& shares) {
-    shares.key.resize(count + kMostLanes);
-    shares.sky.resize(count + kMostLanes);
+    shares.key.resize(count + kMaxLanes);
+    shares.sky.resize(count + kMaxLanes);
     share_lights(points.lights(), count, memory_.pixels, light_index(x, y), in_a_row, pixel_side(),
                  shares.key.data(), shares.sky.data());
   }
 
-  void add_to_batch(const Meeting& meeting, const Shares& shares, std::size_t i) {
+  void add_to_batch(const CameraHit& meeting, const Shares& shares, std::size_t i) {
     ShadePoint surface = meeting.surface;
     surface.key = shares.key[i];
     surface.sky = shares.sky[i];
-    if (surface.kind == SurfaceKind::kWorn) surface.sky = std::max(surface.sky, kScattered);
-    memory_.batch.add(surface, skin_gleam(surface.albedo, meeting.skin_lightness));
+    if (surface.kind == SurfaceKind::kAttachment) surface.sky = std::max(surface.sky, kScattered);
+    memory_.batch.add(surface, skin_specular(surface.albedo, meeting.skin_lightness));
   }
 
   /// Adds each sample of a pixel with changes.
-  void add_each(std::span<const Meeting> meetings, int x, int y) {
+  void add_each(std::span<const CameraHit> meetings, int x, int y) {
     memory_.points.resize(meetings.size());
     for (std::size_t m = 0; m < meetings.size(); ++m) put(meetings[m], m, memory_.points);
     share(memory_.points, meetings.size(), x, y, false, memory_.shares);
@@ -423,7 +424,7 @@ class Tile {
 
   void shade_row(int y, Rgb8Image& image) {
     const auto width = static_cast<std::size_t>(right_ - left_);
-    std::vector<Meeting>& middles = memory_.middles;
+    std::vector<CameraHit>& middles = memory_.middles;
     middles.resize(width);
     memory_.points.resize(width);
     for (std::size_t i = 0; i < width; ++i) {
@@ -468,7 +469,7 @@ class Tile {
   PixelRectangle outer_;
   std::vector<Pixel> pixels_;
   TileMemory& memory_;
-  std::vector<Meeting>& meetings_ = memory_.meetings;
+  std::vector<CameraHit>& meetings_ = memory_.meetings;
 };
 
 }  // namespace

@@ -33,9 +33,9 @@ class AttachmentForms {
   /// The attachments of a face with their forms; refers to both. \tparam Placed  a form, positions
   /// and moves
   template <class Placed>
-  std::vector<Placed> placed(std::span<const WornAttachment> worn) const {
+  std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;
-    for (const WornAttachment& one : worn) {
+    for (const PlacedAttachment& one : attachments) {
       placed.push_back({&forms_.at(one.item), &one.positions, one.moves});
     }
     return placed;
@@ -70,7 +70,7 @@ class AttachmentForms {
 
 /// The form of the faces' mesh, and the forms of the attachments in the same file.
 template <class Mesh, class Part>
-struct DressedForm {
+struct MeshWithAttachments {
   Mesh mesh;
   AttachmentForms<Part> parts;
 

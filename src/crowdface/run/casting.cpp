@@ -10,7 +10,7 @@
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
-#include "crowdface/heads/kept_face_space.h"
+#include "crowdface/heads/cached_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/run/shortfall.h"
 
@@ -49,19 +49,19 @@ std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
 }
 
 CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_distances,
-                       const CrowdCast& cast) {
+                       const CastingResult& crowd_plan) {
   CrowdDistances distances;
   distances.heads = quartiles(below_diagonal(head_distances));
-  distances.crowd = quartiles(pair_distances(cast.points));
+  distances.crowd = quartiles(pair_distances(crowd_plan.points));
   if (distances.heads.median > 0) {
     distances.ratio = distances.crowd.median / distances.heads.median;
   }
   const Index regions = space.sampled().alpha.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
-    distances.regions.push_back(quartiles(pair_distances(space, k, cast.points)));
+    distances.regions.push_back(quartiles(pair_distances(space, k, crowd_plan.points)));
   }
   std::vector<double> to_head, to_face;
-  for (const CastFace& face : cast.crowd) {
+  for (const FacePlan& face : crowd_plan.crowd) {
     to_head.push_back(face.notes.nearest->head_mm);
     if (face.notes.nearest->crowd) to_face.push_back(face.notes.nearest->crowd_mm);
   }
@@ -70,17 +70,17 @@ CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_dista
   return distances;
 }
 
-std::vector<FamilyReport> report_families(const Config& config, const CrowdCast& cast) {
+std::vector<FamilyReport> report_families(const Config& config, const CastingResult& crowd_plan) {
   std::vector<FamilyReport> reports;
-  FacePointIndex index(cast.points.empty() ? 1 : cast.points[0].as_built.size());
-  for (const FaceSpace::Point& point : cast.points) index.add(point);
-  for (std::size_t f = 0; f < cast.families.size(); ++f) {
-    const FamilyCast& family = cast.families[f];
+  FacePointIndex index(crowd_plan.points.empty() ? 1 : crowd_plan.points[0].as_built.size());
+  for (const FaceSpace::Point& point : crowd_plan.points) index.add(point);
+  for (std::size_t f = 0; f < crowd_plan.families.size(); ++f) {
+    const FamilyPlan& family = crowd_plan.families[f];
     FamilyReport report;
     report.name = family.name;
     report.members = static_cast<std::uint64_t>(family.end - family.begin);
-    const std::vector<FaceSpace::Point> members(cast.points.begin() + family.begin,
-                                                cast.points.begin() + family.end);
+    const std::vector<FaceSpace::Point> members(crowd_plan.points.begin() + family.begin,
+                                                crowd_plan.points.begin() + family.end);
     report.within = quartiles(pair_distances(members));
     std::vector<double> to_founder;
     double nearest = HUGE_VAL;
@@ -92,7 +92,7 @@ std::vector<FamilyReport> report_families(const Config& config, const CrowdCast&
     report.to_founder = quartiles(std::move(to_founder));
     report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
     if (!config.families[f].parents.empty()) report.strangers_nearer = family.strangers_nearer;
-    report.silhouette = silhouette(cast.families, f, cast.points);
+    report.silhouette = silhouette(crowd_plan.families, f, crowd_plan.points);
     reports.push_back(std::move(report));
   }
   return reports;
@@ -100,8 +100,8 @@ std::vector<FamilyReport> report_families(const Config& config, const CrowdCast&
 
 /// Rounds values to the four decimals that plans store, so that runs that read the plan report the
 /// same values.
-void round_as_planned(std::vector<CastFace>& crowd) {
-  for (CastFace& face : crowd) {
+void round_as_planned(std::vector<FacePlan>& crowd) {
+  for (FacePlan& face : crowd) {
     face.mother_share = rounded(face.mother_share);
     Nearest& nearest = *face.notes.nearest;
     nearest.head_mm = rounded(nearest.head_mm);
@@ -125,15 +125,15 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
                                 prepared.traced, heads);
   }
   FaceSpace space =
-      kept_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
-                      band_count(config.sampling));
+      cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
+                        band_count(config.sampling));
   ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
                  space.sampled().heads);
   return {std::move(space), std::move(skin)};
 }
 
-Casting casting_of(const Config& config, const Inputs& inputs,
-                   const Eigen::MatrixXd& head_distances) {
+CastingOptions casting_options(const Config& config, const Inputs& inputs,
+                               const Eigen::MatrixXd& head_distances) {
   return {config.crowd.name,
           config.crowd.count,
           config.crowd.seed,
@@ -151,21 +151,21 @@ Casting casting_of(const Config& config, const Inputs& inputs,
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
-  const Config::Attachments& worn = config.attachments;
-  return {config.crowd.seed, {worn.items.begin(), worn.items.end()},
-          worn.none,         config.faces.tags,
-          worn.quotas,       config.faces.names};
+  const Config::Attachments& placed = config.attachments;
+  return {config.crowd.seed, {placed.items.begin(), placed.items.end()},
+          placed.none,       config.faces.tags,
+          placed.quotas,     config.faces.names};
 }
 
-Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
-          const MeshDefects& defects, const std::filesystem::path& cache) {
+CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                     const MeshDefects& defects, const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
-  const Casting casting = casting_of(config, inputs, head_distances);
+  const CastingOptions casting = casting_options(config, inputs, head_distances);
   const BelievabilityOptions& believability = config.believability;
   const FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
-  CrowdCast crowd;
+  CastingResult crowd;
   crowd.shortfall = hopeless_spread(casting, judge);
   if (!crowd.shortfall) {
     Progress progress("casting", casting.count);
@@ -176,13 +176,13 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
     });
   }
   if (crowd.shortfall) {
-    constexpr std::size_t kMostTrials = 20;
-    Progress progress("looking for what would help", kMostTrials);
+    constexpr std::size_t kMaxTrials = 20;
+    Progress progress("looking for what would help", kMaxTrials);
     const Remedy remedy = find_remedy(casting, space, believability, &judged_in.skin,
                                       *crowd.shortfall, [&] { progress.step(); });
     tell_shortfall(config, remedy, *crowd.shortfall);
   }
-  Cast result;
+  CrowdPlan result;
   result.distances = measure(space, head_distances, crowd);
   result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
@@ -195,8 +195,8 @@ Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
   if (!config.attachments.items.empty()) {
     draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected);
   }
-  for (FamilyCast& family : crowd.families) {
-    const auto member = std::ranges::find(result.crowd, family.name, &CastFace::family);
+  for (FamilyPlan& family : crowd.families) {
+    const auto member = std::ranges::find(result.crowd, family.name, &FacePlan::family);
     if (member != result.crowd.end()) {
       family.founder.recipe.colours = member->recipe.colours;
     }

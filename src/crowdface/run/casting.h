@@ -22,8 +22,8 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
                            const std::filesystem::path& cache);
 
 /// The options of casting, from the config.
-Casting casting_of(const Config& config, const Inputs& inputs,
-                   const Eigen::MatrixXd& head_distances);
+CastingOptions casting_options(const Config& config, const Inputs& inputs,
+                               const Eigen::MatrixXd& head_distances);
 
 /// Distances within a crowd, compared with those between its heads.
 struct CrowdDistances {
@@ -49,15 +49,15 @@ struct FamilyReport {
 };
 
 /// A cast crowd: its faces, and the heads' positions on the plane.
-struct Cast {
+struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads
-  std::vector<CastFace> crowd;      ///< with their nearest neighbours
+  std::vector<FacePlan> crowd;      ///< with their nearest neighbours
   std::vector<int> kinds;           ///< group of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
-  std::vector<CastFace> founders;  ///< hidden heads of families, which are not part of the crowd
-  std::vector<CastFace> rejected;  ///< faces that reviews rejected
+  std::vector<FacePlan> founders;  ///< hidden heads of families, which are not part of the crowd
+  std::vector<FacePlan> rejected;  ///< faces that reviews rejected
   std::vector<FaceSpace::Point>
       points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
 };
@@ -70,7 +70,7 @@ AttachmentDraw attachment_draw(const Config& config);
 /// \param cache    see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message tells the binding
 ///         constraint, how many faces were cast, and which change would help.
-Cast cast(const Config& config, const Inputs& inputs, const Prepared& prepared,
-          const MeshDefects& defects, const std::filesystem::path& cache);
+CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
+                     const MeshDefects& defects, const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -56,12 +56,12 @@ Json asked_to_json(const DiversityOptions& diversity) {
 }
 
 /// The number of faces in each group, and the distances between them.
-Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
+Json groups_to_json(const std::vector<Group>& groups, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
   for (const Group& group : groups) {
     std::vector<FaceSpace::Point> points;
-    for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
-      if (cast.crowd[i].group == group.name) points.push_back(cast.points[i]);
+    for (std::size_t i = 0; i < crowd_plan.crowd.size(); ++i) {
+      if (crowd_plan.crowd[i].group == group.name) points.push_back(crowd_plan.points[i]);
     }
     json[group.name] = {{"faces", points.size()},
                         {"within_mm", to_json(quartiles(pair_distances(points)))}};
@@ -70,9 +70,9 @@ Json groups_to_json(const std::vector<Group>& groups, const Cast& cast) {
 }
 
 /// The number of faces per tag. A face has the tags of its most typical head.
-Json tags_to_json(const Config& config, const Cast& cast) {
+Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
-  for (const CastFace& face : cast.crowd) {
+  for (const FacePlan& face : crowd_plan.crowd) {
     const Index head = typical_head(face.recipe, config.faces.tags);
     for (const std::string& tag : config.faces.tags[static_cast<std::size_t>(head)]) {
       json[tag] = json.value(tag, 0U) + 1U;
@@ -83,15 +83,15 @@ Json tags_to_json(const Config& config, const Cast& cast) {
 
 /// The number of faces with each attachment, by kind, name and colour, and the quotas for sampled
 /// faces.
-Json attachments_to_json(const Config::Attachments& attachments, const Cast& cast) {
-  const auto wears = [&](const CastFace& face, const std::string& word) {
+Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan& crowd_plan) {
+  const auto wears = [&](const FacePlan& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {
       return is_called(item, word) && contains(face.attachments, item.name);
     });
   };
   const auto count = [&](const std::string& word) {
-    return std::count_if(cast.crowd.begin(), cast.crowd.end(),
-                         [&](const CastFace& face) { return wears(face, word); });
+    return std::count_if(crowd_plan.crowd.begin(), crowd_plan.crowd.end(),
+                         [&](const FacePlan& face) { return wears(face, word); });
   };
   Json json = {{"kinds", Json::object()}, {"colours", Json::object()}, {"quotas", Json::object()}};
   for (const Config::Attachment& item : attachments.items) {
@@ -102,8 +102,8 @@ Json attachments_to_json(const Config::Attachments& attachments, const Cast& cas
   }
   for (const auto& [word, share] : attachments.quotas) {
     const auto faces = std::count_if(
-        cast.crowd.begin(), cast.crowd.end(),
-        [&, &asked = word](const CastFace& face) { return face.index && wears(face, asked); });
+        crowd_plan.crowd.begin(), crowd_plan.crowd.end(),
+        [&, &asked = word](const FacePlan& face) { return face.index && wears(face, asked); });
     json["quotas"][word] = {{"share", share}, {"faces", faces}};
   }
   return json;
@@ -118,9 +118,9 @@ Json rejections_to_json(const Rejections& rejections) {
   return json;
 }
 
-Json families_to_json(const Cast& cast) {
+Json families_to_json(const CrowdPlan& crowd_plan) {
   Json json = Json::array();
-  for (const FamilyReport& family : cast.families) {
+  for (const FamilyReport& family : crowd_plan.families) {
     json.push_back({{"name", family.name},
                     {"members", family.members},
                     {"within_mm", to_json(family.within)},
@@ -136,11 +136,12 @@ Json families_to_json(const Cast& cast) {
 
 }  // namespace
 
-std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads) {
+std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
+                                    const std::vector<std::string>& heads) {
   constexpr double kSamePersonMm = 0.5;  // see docs/casting.md
-  constexpr std::size_t kMostNamed = 8;
+  constexpr std::size_t kMaxNamed = 8;
   std::vector<std::string> near;
-  for (const CastFace& face : cast.crowd) {
+  for (const FacePlan& face : crowd_plan.crowd) {
     if (!face.index || !face.notes.nearest || face.notes.nearest->head_mm >= kSamePersonMm)
       continue;
     near.push_back(concat(face.id, " (", heads[static_cast<std::size_t>(face.notes.nearest->head)],
@@ -148,14 +149,14 @@ std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::str
   }
   if (near.empty()) return {};
   const std::size_t count = near.size();
-  near.resize(std::min(count, kMostNamed));
+  near.resize(std::min(count, kMaxNamed));
   return {concat(count, count == 1 ? " face passes" : " faces pass",
-                 " for one of the heads: ", join(near), count > kMostNamed ? ", …" : "",
+                 " for one of the heads: ", join(near), count > kMaxNamed ? ", …" : "",
                  "; diversity.min_distance_to_faces keeps faces away from them")};
 }
 
-void log_casting(const Cast& cast) {
-  const CrowdDistances& distances = cast.distances;
+void log_casting(const CrowdPlan& crowd_plan) {
+  const CrowdDistances& distances = crowd_plan.distances;
   const auto mm = [](double value) { return format_fixed(value, 2); };
   if (distances.crowd.count > 0) {
     log_info(concat("distances between faces: closest ", mm(distances.crowd.min), " mm, median ",
@@ -165,24 +166,24 @@ void log_casting(const Cast& cast) {
   }
   std::vector<std::string> thrown;
   for (std::size_t r = 0; r < kReasonCount; ++r) {
-    const std::uint64_t count = cast.rejections.count[r];
+    const std::uint64_t count = crowd_plan.rejections.count[r];
     if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
   }
   if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
 }
 
-Json casting_to_json(const Config& config, const Cast& cast) {
+Json casting_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   Json json;
   json["asked"] = asked_to_json(config.diversity);
-  json["faces"] = cast.crowd.size();
-  json["distances"] = distances_to_json(config.region_names(), cast.distances);
-  if (!config.groups.empty()) json["groups"] = groups_to_json(config.groups, cast);
-  if (Json tags = tags_to_json(config, cast); !tags.empty()) json["tags"] = std::move(tags);
+  json["faces"] = crowd_plan.crowd.size();
+  json["distances"] = distances_to_json(config.region_names(), crowd_plan.distances);
+  if (!config.groups.empty()) json["groups"] = groups_to_json(config.groups, crowd_plan);
+  if (Json tags = tags_to_json(config, crowd_plan); !tags.empty()) json["tags"] = std::move(tags);
   if (!config.attachments.items.empty()) {
-    json["attachments"] = attachments_to_json(config.attachments, cast);
+    json["attachments"] = attachments_to_json(config.attachments, crowd_plan);
   }
-  json["families"] = families_to_json(cast);
-  json["thrown_away"] = rejections_to_json(cast.rejections);
+  json["families"] = families_to_json(crowd_plan);
+  json["thrown_away"] = rejections_to_json(crowd_plan.rejections);
   return json;
 }
 

@@ -13,12 +13,13 @@
 namespace crowdface {
 
 /// Warns about drawn faces that look too much like one of the heads.
-std::vector<std::string> near_heads(const Cast& cast, const std::vector<std::string>& heads);
+std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
+                                    const std::vector<std::string>& heads);
 
 /// Logs statistics of the crowd: distances and rejected candidates.
-void log_casting(const Cast& cast);
+void log_casting(const CrowdPlan& crowd_plan);
 
 /// The constraints, the values reached, and the rejected candidates.
-nlohmann::ordered_json casting_to_json(const Config& config, const Cast& cast);
+nlohmann::ordered_json casting_to_json(const Config& config, const CrowdPlan& crowd_plan);
 
 }  // namespace crowdface

@@ -90,12 +90,12 @@ class MaterialCopies {
 
 std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
                                         const CrowdDirectory& directory,
-                                        const std::vector<CastFace>& crowd, Ledger& ledger) {
+                                        const std::vector<FacePlan>& crowd, Ledger& ledger) {
   std::set<Index> targets;
   const std::vector<MeshFormat>& formats = config.output.meshes;
   const bool named =
       any_format(formats, [](const auto& format) { return format.has_material_file; });
-  for (const CastFace& face : crowd) {
+  for (const FacePlan& face : crowd) {
     if (named) targets.insert(face.recipe.target);
   }
   std::set<TextureKind> own;
@@ -105,12 +105,12 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
-  std::set<std::string> worn;
-  const bool worn_named = any_format(formats, names_attachment_textures);
-  for (const CastFace& face : crowd) {
-    if (worn_named) worn.insert(face.attachments.begin(), face.attachments.end());
+  std::set<std::string> placed;
+  const bool attachment_named = any_format(formats, names_attachment_textures);
+  for (const FacePlan& face : crowd) {
+    if (attachment_named) placed.insert(face.attachments.begin(), face.attachments.end());
   }
-  for (const std::string& name : worn) copies.add(inputs.attachments.at(name));
+  for (const std::string& name : placed) copies.add(inputs.attachments.at(name));
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);
   return warnings;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/heads/inputs.h"
@@ -17,6 +17,6 @@ namespace crowdface {
 ///         also logged.
 std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
                                         const CrowdDirectory& directory,
-                                        const std::vector<CastFace>& crowd, Ledger& ledger);
+                                        const std::vector<FacePlan>& crowd, Ledger& ledger);
 
 }  // namespace crowdface

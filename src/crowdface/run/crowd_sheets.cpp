@@ -39,9 +39,9 @@ std::vector<std::string> sheet_files(const CrowdDirectory& directory, const Writ
   return names;
 }
 
-void write_founders(const std::vector<CastFace>& founders, const FaceBuilder& builder,
+void write_founders(const std::vector<FacePlan>& founders, const FaceBuilder& builder,
                     const CrowdPictures& pictures) {
-  for (const CastFace& founder : founders) {
+  for (const FacePlan& founder : founders) {
     throw_if_interrupted();
     pictures.write_founder(*founder.family, builder.build(founder.recipe), founder.recipe);
   }
@@ -54,7 +54,7 @@ void add_text(const TextPieces& text, Hasher& hasher) {
 }
 
 /// Hash of everything that sheets and gallery show.
-Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings);
@@ -69,10 +69,10 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
   } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
     throw IoError(error.what());
   }
-  hasher.add(joined(plan_text(cast.founders, job.names, job.settings)));
+  hasher.add(joined(plan_text(crowd_plan.founders, job.names, job.settings)));
   std::vector<std::string> ids;
-  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
-    ids.push_back(cast.crowd[i].id);
+  for (std::size_t i = 0; i < crowd_plan.crowd.size(); ++i) {
+    ids.push_back(crowd_plan.crowd[i].id);
     for (const FileDigest& file : faces[i].files) hasher.add(file.digest);
   }
   add_text(likeness_text(likeness, job.names, ids), hasher);
@@ -80,23 +80,23 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Cast
 }
 
 /// Faces whose images are missing or out of date.
-std::vector<CastFace> faces_to_draw(const FaceLedger& ledger, const std::vector<CastFace>& crowd) {
-  std::vector<CastFace> faces;
+std::vector<FacePlan> faces_to_draw(const FaceLedger& ledger, const std::vector<FacePlan>& crowd) {
+  std::vector<FacePlan> faces;
   for (const std::size_t f : find_done_faces(ledger, crowd, Shard()).todo)
     faces.push_back(crowd[f]);
   return faces;
 }
 
 /// Renders faces, and makes their gallery meshes, from the mesh files.
-void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<CastFace>& faces,
+void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<FacePlan>& faces,
                 const FaceTextures& textures, const FaceShapes& shapes,
                 const CrowdRenders& renders) {
   const FaceAttachments attachments(job.config, job.inputs, faces);
   const FaceFinisher finisher{textures, attachments, shapes, nullptr, &renders};
-  std::vector<const CastFace*> all;
-  for (const CastFace& face : faces) all.push_back(&face);
+  std::vector<const FacePlan*> all;
+  for (const FacePlan& face : faces) all.push_back(&face);
   lists.make_folders(all);
-  StageBusy busy;
+  StageTimes busy;
   Progress progress("pictures", faces.size());
   parallel_for_each(faces.size(), [&](std::size_t i) {
     throw_if_interrupted();
@@ -111,19 +111,19 @@ void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<Ca
 
 }  // namespace
 
-std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                        const std::vector<FaceResult>& faces, Lazy<FaceBuilder>& builder,
-                        Lazy<CrowdPictures>& pictures, Ledger& ledger) {
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
+                        const CrowdPlan& crowd_plan, const std::vector<FaceResult>& faces,
+                        Lazy<FaceBuilder>& builder, Lazy<CrowdPictures>& pictures, Ledger& ledger) {
   const Config::ContactSheet& sheet = *job.config.output.contact_sheet;
-  const std::vector<CastFace>& crowd = cast.crowd;
-  const CrowdLikeness likeness = crowd_likeness(cast.anchors, cast.points);
-  const Digest key = key_of_sheets(job, directory, cast, likeness, faces);
+  const std::vector<FacePlan>& crowd = crowd_plan.crowd;
+  const CrowdLikeness likeness = crowd_likeness(crowd_plan.anchors, crowd_plan.points);
+  const Digest key = key_of_sheets(job, directory, crowd_plan, likeness, faces);
   // With a comparison image from a file, always make the sheets: the file may have changed.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
-  if (!cast.founders.empty()) {
-    write_founders(cast.founders, builder.get(), pictures.get());
+  if (!crowd_plan.founders.empty()) {
+    write_founders(crowd_plan.founders, builder.get(), pictures.get());
   }
   builder.release();  // frees memory for the sheets
   const WrittenSheets sheets = pictures.get().finish(crowd, likeness);
@@ -149,7 +149,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   refuse_other_heads(job.settings, directory, Replace::kRefuse);
   refuse_other_inputs(job.inputs, directory);
-  std::vector<CastFace> crowd;
+  std::vector<FacePlan> crowd;
   std::vector<std::string> ids;
   for (PlanLine& line : read_plan(directory.plan(), job.names)) {
     ids.push_back(line.face.id);
@@ -165,7 +165,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   const FaceFileLists lists(job.config, job.inputs, directory);
   draw_faces(job, lists, faces_to_draw(FaceLedger(ledger, job, lists, {}), crowd), textures, shapes,
              pictures.renders());
-  const std::vector<CastFace> founders = read_founders(job, directory);
+  const std::vector<FacePlan> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);

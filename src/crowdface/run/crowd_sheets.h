@@ -21,9 +21,9 @@ namespace crowdface {
 /// \param faces    results, one per face of the crowd
 /// \param builder  builds the founders of families, which have no mesh files
 /// \return the number of pages that the faces fill.
-std::size_t make_sheets(const Job& job, const CrowdDirectory& directory, const Cast& cast,
-                        const std::vector<FaceResult>& faces, Lazy<FaceBuilder>& builder,
-                        Lazy<CrowdPictures>& pictures, Ledger& ledger);
+std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
+                        const CrowdPlan& crowd_plan, const std::vector<FaceResult>& faces,
+                        Lazy<FaceBuilder>& builder, Lazy<CrowdPictures>& pictures, Ledger& ledger);
 
 /// Makes the contact sheets of a finished crowd again, from its mesh files; blends only the
 /// founders of families, which have no mesh files.

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 
@@ -13,6 +13,6 @@ namespace crowdface {
 /// A USD layer in the crowd's folder that references the layers of its faces and arranges them in
 /// rows. With levels of detail, each face has a variant set `LOD`.
 std::string format_stage(const Config& config, const Inputs& inputs,
-                         std::span<const CastFace> crowd);
+                         std::span<const FacePlan> crowd);
 
 }  // namespace crowdface

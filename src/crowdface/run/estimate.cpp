@@ -143,7 +143,8 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
   const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared, cache);
-  const Casting casting = casting_of(job.config, job.inputs, judged_in.space.head_distances());
+  const CastingOptions casting =
+      casting_options(job.config, job.inputs, judged_in.space.head_distances());
   const FaceJudge judge(judged_in.space, casting.diversity, job.config.believability,
                         &judged_in.skin);
   const std::uint64_t asked = job.config.crowd.count;

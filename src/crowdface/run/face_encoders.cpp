@@ -25,9 +25,9 @@ std::string in_shape(const std::string& what, const Inputs& inputs, ShapeNumber 
   return shape ? concat(what, ", ", inputs.shapes.shapes[*shape].name) : what;
 }
 
-std::vector<Index> targets_of(std::span<const CastFace> crowd) {
+std::vector<Index> targets_of(std::span<const FacePlan> crowd) {
   std::set<Index> targets;
-  for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+  for (const FacePlan& face : crowd) targets.insert(face.recipe.target);
   return {targets.begin(), targets.end()};
 }
 
@@ -43,7 +43,7 @@ std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const M
 }
 
 FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
-                           std::vector<MeshFormat> formats, std::span<const CastFace> crowd,
+                           std::vector<MeshFormat> formats, std::span<const FacePlan> crowd,
                            const std::string& shared)
     : config_(config),
       inputs_(inputs),
@@ -118,7 +118,7 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
                 .positions = &face.positions,
                 .normals = &face.normals,
                 .moves = face.moves,
-                .worn = face.worn,
+                .placed_attachments = face.placed_attachments,
                 .colours = &face.colours,
                 .joints = &face.joints,
                 .images = face.images,
@@ -133,12 +133,12 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
   reduced.positions = detail.of(face.positions);
   if (face.normals.rows() > 0) reduced.normals = detail.of(face.normals);
   for (const Displacements& shape : face.moves) reduced.moves.push_back(detail.of(shape));
-  reduced.worn = levels_[level].of(face.worn);
+  reduced.placed_attachments = levels_[level].of(face.placed_attachments);
   if (face.colours.rows() > 0) reduced.colours = face.colours(detail.vertices, kAllColumns);
   mesh.positions = &reduced.positions;
   mesh.normals = &reduced.normals;
   mesh.moves = reduced.moves;
-  mesh.worn = reduced.worn;
+  mesh.placed_attachments = reduced.placed_attachments;
   mesh.colours = &reduced.colours;
   return mesh;
 }
@@ -163,8 +163,9 @@ EncodedFile FaceEncoders::mesh(const FinishedFace& face, MeshFormat format, std:
 
 EncodedFile FaceEncoders::attachment(const FinishedFace& face, const std::string& name,
                                      std::size_t level, ShapeNumber shape) const {
-  const std::span<const WornAttachment> worn = face.meshes[level].worn;
-  const auto one = std::ranges::find(worn, name, [](const auto& item) { return item.item->name; });
+  const std::span<const PlacedAttachment> placed = face.meshes[level].placed_attachments;
+  const auto one =
+      std::ranges::find(placed, name, [](const auto& item) { return item.item->name; });
   FaceMesh mesh{.id = concat(face.face.id, '_', name, suffix_of(level, "_")),
                 .what = {},
                 .positions = &one->positions};

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/io/encoded_file.h"
@@ -31,14 +31,14 @@ class FaceEncoders;
 
 /// A blended face and everything that its files contain.
 struct FinishedFace {
-  FinishedFace(const CastFace& planned, const Positions& blended)
+  FinishedFace(const FacePlan& planned, const Positions& blended)
       : face(planned), positions(blended) {}
 
-  const CastFace& face;
+  const FacePlan& face;
   const Positions& positions;
   std::vector<Displacements> moves;  ///< one per shape; empty if no output shows shapes
   std::vector<Index> crossing;       ///< see FaceShapes::of_face
-  std::vector<WornAttachment> worn;
+  std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
@@ -53,7 +53,7 @@ struct FinishedFace {
     Positions positions, normals;
     ColourRows colours;
     std::vector<Displacements> moves;
-    std::vector<WornAttachment> worn;
+    std::vector<PlacedAttachment> placed_attachments;
   };
   std::deque<Reduced> reduced;  ///< one per level of detail
   /// the whole mesh, then the levels of detail; refer to the members above
@@ -72,7 +72,7 @@ class FaceEncoders {
   /// \param shared   see MeshSource
   /// \throws InvalidInput if a format cannot hold such a mesh.
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
-               std::span<const CastFace> crowd, const std::string& shared = {});
+               std::span<const FacePlan> crowd, const std::string& shared = {});
 
   /// `holds_shapes`: whether files have shapes. `holds_textures`: whether faces' own textures are
   /// written, in mesh files or next to them.

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// Builds the list of one face's mesh files.
 class MeshFileList {
  public:
-  MeshFileList(const Config& config, const Inputs& inputs, const CastFace& face,
+  MeshFileList(const Config& config, const Inputs& inputs, const FacePlan& face,
                const MeshFileOptions& options)
       : config_(config), inputs_(inputs), face_(face), options_(options) {}
 
@@ -121,14 +121,14 @@ class MeshFileList {
 
   const Config& config_;
   const Inputs& inputs_;
-  const CastFace& face_;
+  const FacePlan& face_;
   const MeshFileOptions& options_;
   std::vector<FaceFile> files_;
 };
 
 }  // namespace
 
-std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const CastFace& face,
+std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
                                  const MeshFileOptions& options) {
   return MeshFileList(config, inputs, face, options).files();
 }
@@ -147,7 +147,7 @@ FaceFileLists::FaceFileLists(const Config& config, const Inputs& inputs,
                              const CrowdDirectory& directory)
     : config_(config), inputs_(inputs), directory_(directory), has_gallery_(has_gallery(config)) {}
 
-std::vector<FaceFile> FaceFileLists::shown(const CastFace& face) const {
+std::vector<FaceFile> FaceFileLists::shown(const FacePlan& face) const {
   std::vector<FaceFile> files;
   if (!config_.output.contact_sheet) return files;
   files.push_back({directory_.render(face.id), {}, {}, [](const FinishedFace& shown) {
@@ -161,7 +161,7 @@ std::vector<FaceFile> FaceFileLists::shown(const CastFace& face) const {
   return files;
 }
 
-std::vector<FaceFile> FaceFileLists::of(const CastFace& face) const {
+std::vector<FaceFile> FaceFileLists::of(const FacePlan& face) const {
   std::vector<FaceFile> files = mesh_files(
       config_, inputs_, face,
       {.formats = config_.output.meshes, .folder = directory_.meshes_of(face.id), .stem = face.id});
@@ -169,9 +169,9 @@ std::vector<FaceFile> FaceFileLists::of(const CastFace& face) const {
   return files;
 }
 
-void FaceFileLists::make_folders(std::span<const CastFace* const> faces) const {
+void FaceFileLists::make_folders(std::span<const FacePlan* const> faces) const {
   std::set<fs::path> made;
-  for (const CastFace* face : faces) {
+  for (const FacePlan* face : faces) {
     if (!made.insert(directory_.folder_of(face->id)).second) continue;
     for (const FaceFile& file : of(*face)) make_directories(file.path.parent_path());
   }

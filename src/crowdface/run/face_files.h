@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/config/config.h"
 #include "crowdface/core/file.h"
 #include "crowdface/crowd/crowd_directory.h"
@@ -39,7 +39,7 @@ struct MeshFileOptions {
   bool all = true;  ///< false: only the whole mesh at rest; no levels of detail, shapes or points
 };
 /// All mesh files of a face, including its attachments, textures and material file.
-std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const CastFace& face,
+std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
                                  const MeshFileOptions& options);
 
 /// Encodes all these files and writes them together.
@@ -52,12 +52,12 @@ class FaceFileLists {
   FaceFileLists(const Config& config, const Inputs& inputs, const CrowdDirectory& directory);
 
   /// All files of a face.
-  std::vector<FaceFile> of(const CastFace& face) const;
+  std::vector<FaceFile> of(const FacePlan& face) const;
   /// Only the files that show the face, which `sheet` can make again: its image and its mesh in the
   /// gallery.
-  std::vector<FaceFile> shown(const CastFace& face) const;
+  std::vector<FaceFile> shown(const FacePlan& face) const;
   /// Creates the folders for the files of these faces.
-  void make_folders(std::span<const CastFace* const> faces) const;
+  void make_folders(std::span<const FacePlan* const> faces) const;
   const CrowdDirectory& directory() const { return directory_; }
 
  private:

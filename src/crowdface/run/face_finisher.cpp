@@ -9,33 +9,33 @@ namespace crowdface {
 /// Blends the textures in parallel; each is encoded and discarded before its thread blends the
 /// next.
 /// \return the textures for renders.
-std::optional<OwnCoat> FaceFinisher::paint(const Recipe& recipe, OwnTextures::Encoded& files,
-                                           StageBusy& busy) const {
-  std::optional<OwnCoat> coat;
-  if (renders != nullptr) coat = renders->own_coat(recipe.target);
+std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe, OwnTextures::Encoded& files,
+                                                  StageTimes& busy) const {
+  std::optional<FaceTextureSet> texture_set;
+  if (renders != nullptr) texture_set = renders->face_texture_set(recipe.target);
   const bool written = encoders != nullptr && encoders->holds_textures();
-  if (!written && !coat) return coat;
+  if (!written && !texture_set) return texture_set;
   files.resize(textures.picture_count());
   parallel_for_each(textures.picture_count(), [&](std::size_t p) {
     const BlendedPicture picture = [&] {
-      const Busy timer(busy.blend);
+      const StageTimer timer(busy.blend);
       return textures.blend(recipe, p);
     }();
     if (written) {
-      const Busy timer(busy.encode);
+      const StageTimer timer(busy.encode);
       files[p] = encoders->textures().encode(p, picture);
     }
-    if (coat) {
-      const Busy timer(busy.render);
-      coat->add(p, picture);
+    if (texture_set) {
+      const StageTimer timer(busy.render);
+      texture_set->add(p, picture);
     }
   });
-  return coat;
+  return texture_set;
 }
 
-void FaceFinisher::finish(FinishedFace& face, StageBusy& busy) const {
+void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   const Recipe& recipe = face.face.recipe;
-  const std::optional<OwnCoat> coat = paint(recipe, *face.textures, busy);
+  const std::optional<FaceTextureSet> texture_set = paint(recipe, *face.textures, busy);
   face.colours = textures.vertex_colours(recipe);
   const bool with_shapes = (encoders != nullptr && encoders->holds_shapes()) ||
                            (renders != nullptr && renders->show_shapes());
@@ -46,20 +46,21 @@ void FaceFinisher::finish(FinishedFace& face, StageBusy& busy) const {
     single = as_written(face.positions);
   }
   if (with_shapes) {
-    const Busy timer(busy.encode);
+    const StageTimer timer(busy.encode);
     face.moves = shapes.of_face(recipe, single, &face.crossing);
   }
   {
-    const Busy timer(busy.blend);
-    face.worn = attachments.worn_by(face.face, single, face.moves);
+    const StageTimer timer(busy.blend);
+    face.placed_attachments = attachments.attachments_of(face.face, single, face.moves);
   }
   if (renders != nullptr) {
-    const Busy timer(busy.render);
-    face.pictures = renders->draw(face.face.id, recipe.target, single, face.moves,
-                                  coat ? &*coat : nullptr, face.worn, face.colours);
+    const StageTimer timer(busy.render);
+    face.pictures =
+        renders->draw(face.face.id, recipe.target, single, face.moves,
+                      texture_set ? &*texture_set : nullptr, face.placed_attachments, face.colours);
   }
   if (encoders != nullptr) {
-    const Busy timer(busy.encode);
+    const StageTimer timer(busy.encode);
     encoders->prepare(face);
   }
 }

@@ -23,11 +23,11 @@ struct FaceFinisher {
   /// Completes a blended face: shapes, attachments, textures and renders. The renders are the same
   /// whether the positions come from blending or from the face's mesh file. Thread-safe.
   /// \param face  must not move in memory afterwards
-  void finish(FinishedFace& face, StageBusy& busy) const;
+  void finish(FinishedFace& face, StageTimes& busy) const;
 
  private:
-  std::optional<OwnCoat> paint(const Recipe& recipe, OwnTextures::Encoded& files,
-                               StageBusy& busy) const;
+  std::optional<FaceTextureSet> paint(const Recipe& recipe, OwnTextures::Encoded& files,
+                                      StageTimes& busy) const;
 };
 
 }  // namespace crowdface

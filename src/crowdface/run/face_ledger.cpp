@@ -42,7 +42,7 @@ Digest digest_of_common(const Job& job) {
   return hasher.digest();
 }
 
-std::string item_of(const CastFace& face) {
+std::string item_of(const FacePlan& face) {
   return concat("faces/", face.id);
 }
 
@@ -87,8 +87,8 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& list
       common_(digest_of_common(job)) {}
 
 /// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
-LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceResult& result) const {
-  CastFace recipe = face;
+LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result) const {
+  FacePlan recipe = face;
   recipe.notes = {};  // no file depends on the notes of casting
   Hasher key;
   key.add(common_).add(judges_skin_).add(shapes_ > 0);
@@ -108,7 +108,7 @@ LedgerEntry FaceLedger::entry_of(const CastFace& face, const FaceResult& result)
   return entry;
 }
 
-std::optional<FaceResult> FaceLedger::done(const CastFace& face) const {
+std::optional<FaceResult> FaceLedger::done(const FacePlan& face) const {
   const LedgerEntry wanted = entry_of(face, {});
   const auto entry = ledger_.proven(wanted.item, wanted.key);
   if (!entry || entry->files.size() != wanted.files.size()) return std::nullopt;

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// A face and the results for its files.
 struct MadeFace {
-  const CastFace* face = nullptr;
+  const FacePlan* face = nullptr;
   FaceResult result;
 };
 
@@ -28,12 +28,12 @@ class FaceLedger {
              std::function<void()> recorded);
 
   /// The results for a face; nothing unless all of its files exist as an earlier run wrote them.
-  std::optional<FaceResult> done(const CastFace& face) const;
+  std::optional<FaceResult> done(const FacePlan& face) const;
   /// Records faces whose files have all been written.
   void record(std::span<const MadeFace> faces) const;
 
  private:
-  LedgerEntry entry_of(const CastFace& face, const FaceResult& result) const;
+  LedgerEntry entry_of(const FacePlan& face, const FaceResult& result) const;
 
   Ledger& ledger_;
   const Job& job_;

@@ -27,14 +27,14 @@ namespace {
 /// Maximum number of faces blended together. A group reads the fields once, but for larger groups,
 /// allocating new memory takes longer than that saves. A multiple of the number of faces that one
 /// matrix product handles.
-constexpr std::size_t kMostAtOnce = 24;
+constexpr std::size_t kMaxAtOnce = 24;
 /// Memory for rendering, per vertex of a face: normals, quads on the image, and the gallery's
 /// smaller mesh. The value is an upper bound, with a margin, of a measurement at 1.2 million
 /// vertices.
-constexpr std::uint64_t kRenderBytesAVertex = 300;
+constexpr std::uint64_t kRenderBytesPerVertex = 300;
 /// Memory of the heads' mesh per vertex, whatever the number of heads: polygons, texture
 /// coordinates, adjacency, binding of parts. Measured: 262 at 1.2 million vertices.
-constexpr std::uint64_t kMeshBytesAVertex = 300;
+constexpr std::uint64_t kMeshBytesPerVertex = 300;
 
 std::uint64_t vertex_count(const Inputs& inputs) {
   return static_cast<std::uint64_t>(inputs.faces.topology.vertex_count);
@@ -43,7 +43,7 @@ std::uint64_t vertex_count(const Inputs& inputs) {
 std::uint64_t input_bytes(const Inputs& inputs) {
   return inputs.faces.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
          static_cast<std::uint64_t>(inputs.regions.alpha.size()) * sizeof(double) +
-         kMeshBytesAVertex * vertex_count(inputs) + texture_bytes(inputs) +
+         kMeshBytesPerVertex * vertex_count(inputs) + texture_bytes(inputs) +
          displacement_bytes(inputs.shapes) + own_shape_bytes(inputs.shapes);
 }
 
@@ -51,7 +51,7 @@ std::uint64_t input_bytes(const Inputs& inputs) {
 std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
   if (!config.output.contact_sheet) return 0;
   return static_cast<std::uint64_t>(thread_count()) *
-         (kRenderBytesAVertex * vertex_count(inputs) + displacement_bytes(inputs.shapes));
+         (kRenderBytesPerVertex * vertex_count(inputs) + displacement_bytes(inputs.shapes));
 }
 
 /// Memory of fitted levels that are not memory-mapped.
@@ -68,19 +68,20 @@ std::uint64_t level_bytes(const Prepared& prepared) {
 }
 
 /// Memory of the attachments in use: their meshes, and their data for renders.
-std::uint64_t worn_bytes(const Config& config, const Inputs& inputs,
-                         const std::vector<CastFace>& crowd) {
-  std::set<std::string> worn;
-  for (const CastFace& face : crowd) worn.insert(face.attachments.begin(), face.attachments.end());
+std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
+                           const std::vector<FacePlan>& crowd) {
+  std::set<std::string> placed;
+  for (const FacePlan& face : crowd)
+    placed.insert(face.attachments.begin(), face.attachments.end());
   std::uint64_t bytes = 0;
   std::vector<const Attachment*> items;
-  for (const std::string& name : worn) {
+  for (const std::string& name : placed) {
     items.push_back(&inputs.attachments.at(name));
     bytes +=
-        static_cast<std::uint64_t>(items.back()->file.topology.vertex_count) * kMeshBytesAVertex;
+        static_cast<std::uint64_t>(items.back()->file.topology.vertex_count) * kMeshBytesPerVertex;
   }
   if (!config.output.contact_sheet) return bytes;
-  return bytes + worn_picture_bytes(items, shown_texels(*config.output.contact_sheet));
+  return bytes + attachment_texture_bytes(items, shown_texels(*config.output.contact_sheet));
 }
 
 [[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory) {
@@ -99,7 +100,7 @@ std::uint64_t faces_held(std::uint64_t at_once) {
 std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::uint64_t memory) {
   const std::uint64_t least = standing + faces_held(1) * one_face;
   if (least > memory) refuse_memory(format_bytes(least), memory);
-  std::size_t at_once = kMostAtOnce;
+  std::size_t at_once = kMaxAtOnce;
   while (standing + faces_held(at_once) * one_face > memory) --at_once;
   return at_once;
 }
@@ -174,7 +175,7 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::u
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const FaceTextures& textures,
                        const FaceAttachments& attachments, const FaceShapes& shapes,
-                       const std::vector<CastFace>& crowd, std::uint64_t memory)
+                       const std::vector<FacePlan>& crowd, std::uint64_t memory)
     : encoders_(config, inputs, config.output.meshes, crowd,
                 directory_of(config).shared_from_mesh()),
       builder_(builder),
@@ -184,27 +185,27 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
                            level_bytes(prepared) + encoders_.memory_bytes() +
                            shapes.memory_bytes() + attachments.memory_bytes() +
-                           worn_bytes(config, inputs, crowd);
-  std::uint64_t of_thread = encoders_.encode_bytes() + attachments.worn_bytes();
+                           placed_bytes(config, inputs, crowd);
+  std::uint64_t of_thread = encoders_.encode_bytes() + attachments.placed_bytes();
   // Vertex colours: the face's own, and those for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.any()) {
     standing += textures_.memory_bytes();
     of_thread += textures_.blend_bytes();
     if (config.output.contact_sheet) {
-      of_thread +=
-          OwnCoat::bytes(inputs.textures, inputs.maps, shown_texels(*config.output.contact_sheet));
+      of_thread += FaceTextureSet::bytes(inputs.textures, inputs.maps,
+                                         shown_texels(*config.output.contact_sheet));
     }
   }
   if (skin_is_judged(config, inputs)) {
     std::set<Index> targets;
-    for (const CastFace& face : crowd) targets.insert(face.recipe.target);
+    for (const FacePlan& face : crowd) targets.insert(face.recipe.target);
     check_.emplace(skin_check(config, inputs, targets));
     standing += check_->memory_bytes();
     of_thread += check_->compare_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
-  waiting_bytes_ = std::min(of_threads, FaceWriter::kLeastWaitingBytes);
+  waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
   // Besides the files in the threads, files wait in the queue, and as many are being written.
   standing += of_threads + 2 * waiting_bytes_;
   const std::uint64_t one_face = builder.bytes(1);
@@ -212,14 +213,14 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   // If memory is left, enlarge the queue: it keeps the disk busy while faces are blended.
   const std::uint64_t room = memory - standing - faces_held(at_once_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
-                              std::max(waiting_bytes_, FaceWriter::kMostWaitingBytes));
+                              std::max(waiting_bytes_, FaceWriter::kMaxWaitingBytes));
 }
 
 /// Encodes, renders and judges faces, and passes their files to the writer. Thread-safe.
 class FaceStages::Output {
  public:
   Output(const FaceStages& stages, const FaceFileLists& lists, const CrowdRenders* renders,
-         FaceWriter& writer, StageBusy& busy)
+         FaceWriter& writer, StageTimes& busy)
       : stages_(stages),
         lists_(lists),
         finisher_{stages.textures_, stages.attachments_, stages.shapes_, &stages.encoders_,
@@ -227,14 +228,14 @@ class FaceStages::Output {
         writer_(writer),
         busy_(busy) {}
 
-  FaceResult make(const CastFace& face, const Positions& positions) {
+  FaceResult make(const FacePlan& face, const Positions& positions) {
     throw_if_interrupted();
     FinishedFace finished(face, positions);
     finisher_.finish(finished, busy_);
     FaceResult result;
     std::vector<ReadyFile> ready;
     {
-      const Busy timer(busy_.encode);
+      const StageTimer timer(busy_.encode);
       for (FaceFile& file : lists_.of(face)) {
         EncodedFile bytes = file.make(finished);
         bytes.keep(finished.textures);
@@ -244,7 +245,7 @@ class FaceStages::Output {
     }
     result.crossing = std::move(finished.crossing);
     if (stages_.check_) {
-      const Busy timer(busy_.check);
+      const StageTimer timer(busy_.check);
       result.skin = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
     }
     writer_.add({&face, result}, std::move(ready));
@@ -256,12 +257,12 @@ class FaceStages::Output {
   const FaceFileLists& lists_;
   FaceFinisher finisher_;
   FaceWriter& writer_;
-  StageBusy& busy_;
+  StageTimes& busy_;
 };
 
 void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
-                       const FaceLedger& ledger, std::span<const CastFace* const> faces,
-                       std::span<FaceResult* const> results, StageBusy& busy) const {
+                       const FaceLedger& ledger, std::span<const FacePlan* const> faces,
+                       std::span<FaceResult* const> results, StageTimes& busy) const {
   lists.make_folders(faces);
   Progress progress("faces", faces.size());
   FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
@@ -281,7 +282,7 @@ void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
       positions.push_back(memory.take());
     }
     {
-      const Busy timer(busy.blend);
+      const StageTimer timer(busy.blend);
       builder_.build(recipes, positions);
     }
     group.begin(

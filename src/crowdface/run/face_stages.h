@@ -37,7 +37,7 @@ class FaceStages {
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
              const FaceBuilder& builder, const FaceTextures& textures,
              const FaceAttachments& attachments, const FaceShapes& shapes,
-             const std::vector<CastFace>& crowd, std::uint64_t memory);
+             const std::vector<FacePlan>& crowd, std::uint64_t memory);
 
   /// Makes faces. All threads blend a group of faces together; then each thread finishes and
   /// encodes one face after the other. The next group starts when every face has been claimed by a
@@ -46,8 +46,8 @@ class FaceStages {
   /// \param results  one per face, output
   /// \param busy     accumulates the threads' time per stage
   void build(const FaceFileLists& lists, const CrowdRenders* renders, const FaceLedger& ledger,
-             std::span<const CastFace* const> faces, std::span<FaceResult* const> results,
-             StageBusy& busy) const;
+             std::span<const FacePlan* const> faces, std::span<FaceResult* const> results,
+             StageTimes& busy) const;
 
  private:
   class Output;

@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 /// Maximum number of files written together: the number of open file descriptors is limited.
-constexpr std::size_t kMostFiles = 200;
+constexpr std::size_t kMaxFiles = 200;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void FaceWriter::add(MadeFace face, std::vector<ReadyFile> files) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] {
     return error_ != nullptr || waiting_.faces.empty() ||
-           (waiting_.bytes + bytes <= waiting_bytes_ && waiting_.files.size() < kMostFiles);
+           (waiting_.bytes + bytes <= waiting_bytes_ && waiting_.files.size() < kMaxFiles);
   });
   if (error_) std::rethrow_exception(error_);
   waiting_.faces.push_back(std::move(face));
@@ -85,7 +85,7 @@ void FaceWriter::write(const Waiting& some) {
   std::vector<FileToWrite> files;
   for (const ReadyFile& file : some.files) {
     files.push_back({file.path, file.bytes.pieces()});
-    if (files.size() < kMostFiles) continue;
+    if (files.size() < kMaxFiles) continue;
     write_files(files);
     files.clear();
   }

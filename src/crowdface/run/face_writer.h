@@ -43,10 +43,10 @@ class FaceWriter {
   /// Time that the thread spent writing.
   double busy_seconds() const { return busy_seconds_; }
   /// Lower bound for a useful queue: with less, threads wait for the disk.
-  static constexpr std::uint64_t kLeastWaitingBytes = std::uint64_t{64} << 20U;
+  static constexpr std::uint64_t kMinWaitingBytes = std::uint64_t{64} << 20U;
   /// Upper bound for a useful queue: enough to keep the disk busy while a group of faces is
   /// blended.
-  static constexpr std::uint64_t kMostWaitingBytes = std::uint64_t{256} << 20U;
+  static constexpr std::uint64_t kMaxWaitingBytes = std::uint64_t{256} << 20U;
 
  private:
   struct Waiting {

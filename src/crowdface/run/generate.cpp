@@ -65,15 +65,15 @@ class CrowdLog {
 };
 
 /// A cast crowd, and the objects that build its faces.
-struct CastJob {
-  CastJob(const Job& job, Prepared heads)
+struct PlannedJob {
+  PlannedJob(const Job& job, Prepared heads)
       : prepared(std::move(heads)),
         builder([&job, this] {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
         }),
         textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }),
         attachments([&job, this] {
-          return std::make_unique<FaceAttachments>(job.config, job.inputs, cast.crowd);
+          return std::make_unique<FaceAttachments>(job.config, job.inputs, crowd_plan.crowd);
         }),
         shapes([&job] { return std::make_unique<FaceShapes>(job.config, job.inputs); }) {}
 
@@ -82,10 +82,10 @@ struct CastJob {
   Lazy<FaceTextures> textures;
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
-  Cast cast;
+  CrowdPlan crowd_plan;
   std::vector<std::string> warnings;  ///< see near_heads; empty for a shard's faces
   nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
-  /// If not empty, `cast` comes from the folder's plan; for a shard, it then has only the shard's
+  /// If not empty, `crowd_plan` comes from the folder's plan; for a shard, it then has only the shard's
   /// faces.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
@@ -99,8 +99,8 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
 /// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if the folder has no
 /// plan of this job and the crowd may be cast instead.
 /// \throws MissingInput if the folder has no plan of this job and must have one.
-std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& options,
-                                     StageSeconds& stages) {
+std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
+                                        StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
   auto planned = planned_faces(job, directory, options.shard);
   if (!planned) {
@@ -109,20 +109,20 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
                               ": says nothing of a plan of this config that is whole; run "
                               "crowdface plan first"));
   }
-  auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
+  auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->plan_files = std::move(planned->files);
   if (options.shard.whole()) {
-    crowd->cast = timed(stages, "cast", [&] {
+    crowd->crowd_plan = timed(stages, "cast", [&] {
       return cast_as_planned(job, directory, crowd->prepared, std::move(planned->faces),
                              options.cache);
     });
     crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
-    crowd->warnings = near_heads(crowd->cast, job.names.heads);
-    check_compared_crowd(job.config, crowd->cast.crowd);
+    crowd->warnings = near_heads(crowd->crowd_plan, job.names.heads);
+    check_compared_crowd(job.config, crowd->crowd_plan.crowd);
     log_info("the folder's plan is taken");
   } else {
-    crowd->cast.crowd = std::move(planned->faces);
-    log_info(concat("the folder's plan is taken; ", crowd->cast.crowd.size(),
+    crowd->crowd_plan.crowd = std::move(planned->faces);
+    log_info(concat("the folder's plan is taken; ", crowd->crowd_plan.crowd.size(),
                     " faces of it are of shard ", options.shard.name()));
   }
   return crowd;
@@ -130,20 +130,20 @@ std::unique_ptr<CastJob> planned_job(const Job& job, const GenerateOptions& opti
 
 /// Prepares heads and casts the crowd. Runs before any file is written, so that a crowd that cannot
 /// be cast neither leaves files nor destroys another crowd in the folder.
-std::unique_ptr<CastJob> cast_job(const Job& job, const GenerateOptions& options,
-                                  StageSeconds& stages) {
-  auto crowd = std::make_unique<CastJob>(job, prepare_for(job, options, stages));
-  crowd->cast = timed(stages, "cast", [&] {
+std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& options,
+                                     StageSeconds& stages) {
+  auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
+  crowd->crowd_plan = timed(stages, "cast", [&] {
     MeshDefects defects;
     if (candidates_are_built(job.config))
       defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
-    return cast(job.config, job.inputs, crowd->prepared, defects, options.cache);
+    return plan_crowd(job.config, job.inputs, crowd->prepared, defects, options.cache);
   });
-  log_casting(crowd->cast);
-  crowd->warnings = near_heads(crowd->cast, job.names.heads);
+  log_casting(crowd->crowd_plan);
+  crowd->warnings = near_heads(crowd->crowd_plan, job.names.heads);
   for (const std::string& text : crowd->warnings) log_warning(text);
-  check_compared_crowd(job.config, crowd->cast.crowd);
-  crowd->casting = casting_to_json(job.config, crowd->cast);
+  check_compared_crowd(job.config, crowd->crowd_plan.crowd);
+  crowd->casting = casting_to_json(job.config, crowd->crowd_plan);
   return crowd;
 }
 
@@ -174,25 +174,25 @@ std::uint64_t memory_for(const GenerateOptions& options) {
 }
 
 /// All stages after casting; the folder must be ready. \return a summary for the user.
-std::string fill_directory(const Job& job, const CrowdDirectory& directory, CastJob& cast_job,
+std::string fill_directory(const Job& job, const CrowdDirectory& directory, PlannedJob& planned,
                            const GenerateOptions& options, Purpose purpose,
                            Lazy<FaceStages>& face_stages, StageSeconds& stages,
                            std::optional<ShardProgress>& progress) {
-  const Cast& cast = cast_job.cast;
-  const std::vector<CastFace>& crowd = cast.crowd;
+  const CrowdPlan& crowd_plan = planned.crowd_plan;
+  const std::vector<FacePlan>& crowd = crowd_plan.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard),
                 ledgers_that_matter(directory, options.shard));
   ledger.write(directory.relative(directory.config()), config_in_folder(job.config, directory));
   const auto write = [&](const fs::path& path, const TextPieces& text) {
     return ledger.write(directory.relative(path), text);
   };
-  if (cast_job.planned()) {
-    for (const LedgerEntry::File& file : cast_job.plan_files) ledger.keep(file);
+  if (planned.planned()) {
+    for (const LedgerEntry::File& file : planned.plan_files) ledger.keep(file);
     if (options.shard.whole()) write(directory.table(), table_text(crowd, job.names));
   } else {
-    write_plan(job, directory, cast, cast_job.casting, write);
+    write_plan(job, directory, crowd_plan, planned.casting, write);
   }
-  const bool has_whole_crowd = options.shard.whole() || !cast_job.planned();
+  const bool has_whole_crowd = options.shard.whole() || !planned.planned();
 
   const auto& sheet = job.config.output.contact_sheet;
   const FaceFileLists lists(job.config, job.inputs, directory);
@@ -200,7 +200,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
     if (progress) progress->step();
   });
   const Shard asked_for = has_whole_crowd ? options.shard : Shard();
-  FacesSoFar so_far = timed(stages, "check", [&] {
+  FaceProgress so_far = timed(stages, "check", [&] {
     if (purpose == Purpose::kGenerate) return find_done_faces(face_ledger, crowd, asked_for);
     Progress checking("checking faces", crowd.size());
     return find_done_faces(face_ledger, crowd, asked_for, [&] { checking.step(); });
@@ -215,7 +215,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   const auto warn = [&](const std::vector<std::string>& more) {
     warnings.insert(warnings.end(), more.begin(), more.end());
   };
-  warn(cast_job.warnings);
+  warn(planned.warnings);
   if (has_whole_crowd) warn(copy_materials(job.config, job.inputs, directory, crowd, ledger));
   if (has_whole_crowd && contains(job.config.output.meshes, MeshFormat::kUsd)) {
     ledger.write(directory.relative(directory.stage()),
@@ -224,9 +224,9 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {
     return std::make_unique<CrowdPictures>(job.config, job.inputs, job.settings, directory,
-                                           cast_job.textures.get(), cast_job.shapes.get());
+                                           planned.textures.get(), planned.shapes.get());
   });
-  StageBusy busy;
+  StageTimes busy;
   timed(stages, "build", [&] {
     if (built == 0) return built;
     const CrowdRenders* renders = sheet ? &pictures.get().renders() : nullptr;
@@ -234,7 +234,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
     if (renders != nullptr && options.shard.whole()) {
       beside.run([&] { pictures.get().write_heads(); });
     }
-    std::vector<const CastFace*> faces;
+    std::vector<const FacePlan*> faces;
     std::vector<FaceResult*> results;
     for (const std::size_t i : so_far.todo) {
       faces.push_back(&crowd[i]);
@@ -255,16 +255,16 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {
-      return make_sheets(job, directory, cast, so_far.faces, cast_job.builder, pictures, ledger);
+      return make_sheets(job, directory, crowd_plan, so_far.faces, planned.builder, pictures,
+                         ledger);
     });
   }
-  write(directory.report(), report_text(job, cast_job.prepared, cast, cast_job.casting, lists,
+  write(directory.report(), report_text(job, planned.prepared, crowd_plan, planned.casting, lists,
                                         so_far.faces, pages, warnings));
   ledger.settle();
   gather_logs(directory);
   remove_notes_of_shards(directory);
-  write_file(directory.timings(),
-             format_timings(stages, busy, built, cast_job.prepared.from_cache));
+  write_file(directory.timings(), format_timings(stages, busy, built, planned.prepared.from_cache));
   ledger.require_files();
   return concat(
       crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ", directory.root.string(),
@@ -274,8 +274,8 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Cast
 
 /// Whether an earlier run may have made all faces of this shard.
 bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
-  return is_there(directory.ledger()) ||
-         (shard.whole() ? !directory.shard_ledgers().empty() : is_there(directory.ledger(shard)));
+  return path_exists(directory.ledger()) || (shard.whole() ? !directory.shard_ledgers().empty()
+                                                           : path_exists(directory.ledger(shard)));
 }
 
 /// Whether this run is certain to make faces. A resumed crowd may have none to make; a new crowd
@@ -293,15 +293,16 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   check_output(job, options.replace);
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
   if (is_new) refuse_too_little_memory(job.config, job.inputs, memory_for(options));
-  std::unique_ptr<CastJob> crowd;
+  std::unique_ptr<PlannedJob> crowd;
   if (options.replace == Replace::kRefuse) crowd = planned_job(job, options, stages);
   if (!crowd) crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
-    return std::make_unique<FaceStages>(
-        job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
-        crowd->attachments.get(), crowd->shapes.get(), crowd->cast.crowd, memory_for(options));
+    return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
+                                        crowd->builder.get(), crowd->textures.get(),
+                                        crowd->attachments.get(), crowd->shapes.get(),
+                                        crowd->crowd_plan.crowd, memory_for(options));
   });
-  if (is_new && !crowd->cast.crowd.empty())
+  if (is_new && !crowd->crowd_plan.crowd.empty())
     timed(stages, "setup", [&] { return &face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
   open_output(job, options.replace);
@@ -340,22 +341,22 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
     }
     return tell_dry_run(job.config, &job.inputs);
   }
-  going_on_if_cut([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
+  retry_if_truncated([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
 }
 
 void plan_job(const Job& job, const GenerateOptions& options) {
   check_output(job, options.replace);
   if (options.dry_run) return tell_dry_run(job.config, nullptr);
-  going_on_if_cut([&] {
+  retry_if_truncated([&] {
     const CrowdDirectory directory = directory_of(job.config);
     StageSeconds stages;
     const auto crowd = cast_job(job, options, stages);
     const CrowdLock lock(directory, {});
     open_output(job, options.replace);
-    write_plan(job, directory, crowd->cast, crowd->casting,
+    write_plan(job, directory, crowd->crowd_plan, crowd->casting,
                [](const fs::path& path, const TextPieces& text) { return write_file(path, text); });
     lock.require_still_there();
-    log_info(concat(crowd->cast.crowd.size(), " recipes in ", directory.plan().string()));
+    log_info(concat(crowd->crowd_plan.crowd.size(), " recipes in ", directory.plan().string()));
   });
 }
 
@@ -377,7 +378,7 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
   const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}, cache); });
   GenerateOptions options;
   options.cache = cache;
-  going_on_if_cut([&] { run_job(job, options, Purpose::kGather, memory, stages); });
+  retry_if_truncated([&] { run_job(job, options, Purpose::kGather, memory, stages); });
 }
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,

@@ -93,8 +93,8 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
 
 /// Binds each vertex of an attachment to the joints of the nearest skin vertex; a rigid attachment
 /// is bound as a whole, by its centroid.
-Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
-  Grouped<Influence> influences;
+CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
+  CompressedRows<Influence> influences;
   if (inputs.rig.empty()) return influences;
   const Positions& points = item.file.positions;
   const PointGrid grid(inputs.attachments.fitted_to, skin_vertices(inputs));
@@ -110,15 +110,15 @@ Grouped<Influence> influences_of(const Attachment& item, const Inputs& inputs) {
 }
 
 /// The materials and images of an attachment.
-struct WornLook {
+struct AttachmentLook {
   std::vector<GlbPartMaterial> materials;
   std::vector<std::uint32_t> of_face;
   std::vector<GlbImage> images;
 };
 
-WornLook look_of(const Attachment& item) {
+AttachmentLook look_of(const Attachment& item) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  WornLook look;
+  AttachmentLook look;
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.emplace_back();
     look.materials.back().name = material.name;
@@ -132,9 +132,9 @@ WornLook look_of(const Attachment& item) {
   return look;
 }
 
-GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inputs,
+GlbPart part_of(const Attachment& item, const AttachmentLook& look, const Inputs& inputs,
                 const DetailLevel* level) {
-  const Grouped<Influence> influences = influences_of(item, inputs);
+  const CompressedRows<Influence> influences = influences_of(item, inputs);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   if (level == nullptr) {
@@ -155,12 +155,12 @@ GlbPart part_of(const Attachment& item, const WornLook& look, const Inputs& inpu
 
 MeshEncoders glb_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
-  std::map<const Attachment*, WornLook> looks;
+  std::map<const Attachment*, AttachmentLook> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     return part_of(item, looks.at(&item), inputs, here);
   };
-  using Form = DressedForm<GlbTemplate, GlbPart>;
+  using Form = MeshWithAttachments<GlbTemplate, GlbPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
     encoders.push_back(encoder_by(
@@ -170,7 +170,8 @@ MeshEncoders glb_encoders(const MeshSource& source) {
                  AttachmentForms<GlbPart>(inputs.attachments, level, make_part)}),
         [](const Form& form, const FaceMesh& face) {
           return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves, face.images,
-                                  *face.points, form.parts.placed<PlacedGlbPart>(face.worn),
+                                  *face.points,
+                                  form.parts.placed<PlacedGlbPart>(face.placed_attachments),
                                   *face.joints, *face.colours);
         }));
   }

@@ -34,8 +34,8 @@ struct FaceMesh {
   const Positions* positions = &kNoRows;      ///< #V by 3
   const Positions* normals = &kNoRows;        ///< #V by 3; no rows if no encoder needs them
   std::span<const Displacements> moves = {};  ///< one per shape, or none
-  std::span<const WornAttachment> worn = {};  ///< attachments
-  const ColourRows* colours = &kNoColours;    ///< #V vertex colours; no rows if there are none
+  std::span<const PlacedAttachment> placed_attachments = {};  ///< attachments
+  const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
   const Positions* joints = &kNoRows;  ///< positions of the rig's joints
   std::span<const std::string_view> images = {};  ///< files of the face's own textures, or none …

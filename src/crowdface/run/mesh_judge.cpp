@@ -26,12 +26,11 @@ Viewing viewing_of(const Config& config) {
 }  // namespace
 
 bool skin_is_judged(const Config& config, const Inputs& inputs) {
-  constexpr Index kMostFaces = 200'000;  // polygons; larger meshes would dominate the run time
+  constexpr Index kMaxFaces = 200'000;  // polygons; larger meshes would dominate the run time
   const BelievabilityOptions& believability = config.believability;
   using Meshes = BelievabilityOptions::Meshes;
   return believability.check && believability.meshes != Meshes::kNone &&
-         (believability.meshes != Meshes::kAuto ||
-          inputs.faces.topology.face_count() <= kMostFaces);
+         (believability.meshes != Meshes::kAuto || inputs.faces.topology.face_count() <= kMaxFaces);
 }
 
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets) {
@@ -53,7 +52,7 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
 }
 
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
-                                      const std::vector<CastFace>& crowd,
+                                      const std::vector<FacePlan>& crowd,
                                       const std::vector<FaceResult>& files) {
   std::vector<std::string> beyond;
   for (std::size_t i = 0; i < crowd.size(); ++i) {

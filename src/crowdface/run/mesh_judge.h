@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
 #include "crowdface/cast/face_judge.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_files.h"
 
@@ -27,7 +27,7 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
 
 /// Warns about faces whose whole mesh exceeds a limit that their samples met. \return the warning.
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
-                                      const std::vector<CastFace>& crowd,
+                                      const std::vector<FacePlan>& crowd,
                                       const std::vector<FaceResult>& files);
 
 }  // namespace crowdface

@@ -14,10 +14,10 @@ namespace {
 std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const MeasuredLevel> levels) {
   const Topology& topology = item.file.topology;
   const auto triangles = static_cast<double>(topology.corner_count() - 2 * topology.face_count());
-  constexpr double kFewestTriangles = 300;
+  constexpr double kMinTriangles = 300;
   std::vector<double> shares;
   for (const MeasuredLevel& level : levels) {
-    shares.push_back(std::min(1.0, std::max(level.level.share, kFewestTriangles / triangles)));
+    shares.push_back(std::min(1.0, std::max(level.level.share, kMinTriangles / triangles)));
   }
   return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}},
                        face_materials(item.file.materials, topology.face_count()).of_face, shares);
@@ -38,9 +38,9 @@ const DetailLevel* MeshLevel::find(const Attachment& item) const {
   return found == attachments.end() ? nullptr : &found->second;
 }
 
-std::vector<WornAttachment> MeshLevel::of(std::span<const WornAttachment> worn) const {
-  std::vector<WornAttachment> reduced;
-  for (const WornAttachment& one : worn) {
+std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> placed) const {
+  std::vector<PlacedAttachment> reduced;
+  for (const PlacedAttachment& one : placed) {
     const DetailLevel& level = attachments.at(one.item);
     reduced.push_back({one.item, level.of(one.positions)});
     for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
@@ -48,7 +48,7 @@ std::vector<WornAttachment> MeshLevel::of(std::span<const WornAttachment> worn) 
   return reduced;
 }
 
-std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const CastFace> crowd) {
+std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd) {
   std::vector<MeshLevel> levels(1 + inputs.levels.size());
   if (inputs.levels.empty()) return levels;
   for (std::size_t l = 1; l < levels.size(); ++l) {
@@ -56,7 +56,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const CastFac
     levels[l].face = &inputs.levels[l - 1].level;
   }
   std::set<std::string> names;
-  for (const CastFace& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());
+  for (const FacePlan& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());
   std::vector<const Attachment*> items;
   for (const std::string& name : names) items.push_back(&inputs.attachments.at(name));
   std::vector<std::vector<DetailLevel>> of_items(items.size());

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
-#include "crowdface/core/grouped.h"
+#include "crowdface/cast/face_plan.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
@@ -39,7 +39,7 @@ struct MeshLevel {
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
   /// A face's attachments, reduced to this level.
-  std::vector<WornAttachment> of(std::span<const WornAttachment> worn) const;
+  std::vector<PlacedAttachment> of(std::span<const PlacedAttachment> placed) const;
 };
 
 /// The text `before`, then "LOD2"; empty for the whole mesh.
@@ -57,8 +57,8 @@ std::vector<T> at_rows(const std::vector<T>& whole, std::span<const std::uint32_
 }
 /// Selects rows of grouped values; empty if `whole` is.
 template <class T>
-Grouped<T> at_rows(const Grouped<T>& whole, std::span<const std::uint32_t> rows) {
-  Grouped<T> some;
+CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
+  CompressedRows<T> some;
   if (whole.group_count() == 0) return some;
   for (const std::uint32_t row : rows) some.add_group(whole.of(row));
   return some;
@@ -67,6 +67,6 @@ Grouped<T> at_rows(const Grouped<T>& whole, std::span<const std::uint32_t> rows)
 /// The whole mesh, then the levels of detail of the inputs.
 /// \param inputs  must outlive the result.
 /// \param crowd   faces, whose attachments the levels include
-std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const CastFace> crowd);
+std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd);
 
 }  // namespace crowdface

@@ -24,7 +24,7 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
   for (const fs::path& input : input_files(config)) {
     if (sheet && input == sheet->compare.file) continue;  // may belong to this crowd
     for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
-      if (!leads_below(input, folder)) continue;
+      if (!is_inside_folder(input, folder)) continue;
       throw UsageError(concat(directory.root.string(), ": the input ", input.string(),
                               " lies where files of this crowd are written; choose another folder "
                               "with --out"));
@@ -37,9 +37,9 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
 void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
   std::error_code error;
   const bool is_same = fs::equivalent(config.file, directory.config(), error);
-  require_look(directory.config(), error);
+  require_stat(directory.config(), error);
   if (!is_same) return;
-  if (is_there(directory.plan())) return;  // the config belongs to a crowd
+  if (path_exists(directory.plan())) return;  // the config belongs to a crowd
   if (read_file(config.file) == config_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
                           ": stands where the crowd's own config would be written; choose another "
@@ -49,7 +49,7 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
 }  // namespace
 
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace) {
-  if (replace == Replace::kForce || !is_there(directory.plan())) return;
+  if (replace == Replace::kForce || !path_exists(directory.plan())) return;
   const MappedFile file(directory.plan());
   const std::string_view plan = file.bytes();
   // Search the whole plan, because a damaged plan may still have one line with the hash.
@@ -65,7 +65,7 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
 }
 
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) {
-  if (!is_there(directory.report())) return;
+  if (!path_exists(directory.report())) return;
   const auto report = read_report_summary(directory.report());
   if (!report.is_object() || !report.contains("inputs")) return;
   const auto& recorded = report["inputs"];

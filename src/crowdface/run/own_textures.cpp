@@ -50,11 +50,11 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
   if (!as_bytes) {
     return encode_png16(picture.width, picture.height, picture.channels, picture.words);
   }
-  constexpr int kWordsAByte = 257;
+  constexpr int kWordsPerByte = 257;
   std::vector<std::uint8_t> bytes;
   bytes.reserve(picture.words.size());
   for (const int word : picture.words) {
-    bytes.push_back(static_cast<std::uint8_t>((word + kWordsAByte / 2) / kWordsAByte));
+    bytes.push_back(static_cast<std::uint8_t>((word + kWordsPerByte / 2) / kWordsPerByte));
   }
   return encode_png(picture.width, picture.height, picture.channels, bytes);
 }
@@ -153,9 +153,9 @@ std::vector<std::string> own_texture_names(const Config& config, const Inputs& i
 }
 
 OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
-                         std::span<const CastFace> crowd, const std::string& shared)
+                         std::span<const FacePlan> crowd, const std::string& shared)
     : config_(config), inputs_(inputs), pictures_(own_pictures(inputs)) {
-  for (const CastFace& face : crowd) {
+  for (const FacePlan& face : crowd) {
     const Index target = face.recipe.target;
     if (of_target_.contains(target)) continue;
     const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
@@ -193,7 +193,7 @@ std::vector<std::string_view> OwnTextures::of_mesh(const Encoded& encoded) const
   return held;
 }
 
-EncodedFile OwnTextures::material_file(const CastFace& face) const {
+EncodedFile OwnTextures::material_file(const FacePlan& face) const {
   const Materials& materials = of_target_.at(face.recipe.target);
   OwnMaterials::Replacements textures;
   for (const auto& [kind, pictures] : materials.pictures) {

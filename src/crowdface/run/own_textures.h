@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/config/config.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
@@ -47,7 +47,7 @@ class OwnTextures {
   /// \param config, inputs  must outlive this object.
   /// \param crowd   all faces that may be written
   /// \param shared  see MeshSource
-  OwnTextures(const Config& config, const Inputs& inputs, std::span<const CastFace> crowd,
+  OwnTextures(const Config& config, const Inputs& inputs, std::span<const FacePlan> crowd,
               const std::string& shared = {});
 
   /// #own_pictures by #formats: the bytes of each image in each of its formats.
@@ -58,7 +58,7 @@ class OwnTextures {
   /// The images that a GLB file contains (see glb_pictures).
   std::vector<std::string_view> of_mesh(const Encoded& encoded) const;
   /// The target's material file, with the face's textures in place of the target's.
-  EncodedFile material_file(const CastFace& face) const;
+  EncodedFile material_file(const FacePlan& face) const;
 
   /// Approximate memory of one face's encoded images plus the memory for encoding the largest, in
   /// bytes.

@@ -118,15 +118,15 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
 }
 
 /// Larger crowds use numbered subfolders, unless the config sets output.faces_per_folder.
-constexpr std::uint64_t kMostInOneFolder = 10'000;
+constexpr std::uint64_t kMaxInOneFolder = 10'000;
 constexpr std::uint64_t kFacesPerFolder = 1'000;
 
 /// Sets numbered subfolders for a large crowd, unless its folder already exists without them.
 void choose_folders(Config& config) {
-  if (config.output.faces_per_folder || face_count(config) <= kMostInOneFolder) return;
+  if (config.output.faces_per_folder || face_count(config) <= kMaxInOneFolder) return;
   const CrowdDirectory directory{config.output.directory};
   const bool stands_there =
-      is_there(directory.config()) &&
+      path_exists(directory.config()) &&
       !config_difference(read_file(directory.config()), effective_config(config, directory.root));
   if (!stands_there) config.output.faces_per_folder = kFacesPerFolder;
 }
@@ -139,7 +139,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   ConfigReading reading = read(overrides, problems);
   if (reading.complete) choose_folders(reading.config);
   const CrowdDirectory directory{reading.config.output.directory};
-  if (!reading.complete || !is_there(directory.config())) return reading;
+  if (!reading.complete || !path_exists(directory.config())) return reading;
   overrides.kept_reviews = directory.kept_reviews();
   if (overrides.kept_reviews.empty()) return reading;
   const std::string config = effective_config(reading.config, directory.root);

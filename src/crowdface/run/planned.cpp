@@ -27,10 +27,10 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
 }
 
 /// Reads a shard's faces from the plan; parses lines in parallel.
-std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& plan,
+std::vector<FacePlan> read_faces(const Job& job, const std::filesystem::path& plan,
                                  const Shard& shard) {
   constexpr std::size_t kAtOnce = 4096, kBlock = 16;
-  std::vector<CastFace> faces;
+  std::vector<FacePlan> faces;
   faces.reserve(face_count(job.config) / shard.count + 1);
   std::vector<std::pair<std::size_t, std::string>> lines;
   const auto read = [&] {
@@ -54,27 +54,27 @@ std::vector<CastFace> read_faces(const Job& job, const std::filesystem::path& pl
 
 /// A report marks a folder as complete, so it must be removed when the plan changes.
 void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
-  if (!is_there(directory.report()) || holds(directory.plan(), digest_of(plan))) return;
-  remove_if_there(directory.report());
+  if (!path_exists(directory.report()) || holds(directory.plan(), digest_of(plan))) return;
+  remove_if_exists(directory.report());
 }
 
 }  // namespace
 
-void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                 const nlohmann::ordered_json& casting, const WriteFile& write) {
-  const TextPieces plan = plan_text(cast.crowd, job.names, job.settings);
+  const TextPieces plan = plan_text(crowd_plan.crowd, job.names, job.settings);
   remove_report_of_other_plan(directory, plan);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   const auto write_and_mark = [&](const std::filesystem::path& path, const TextPieces& text) {
     files.push_back(file_to_json({directory.relative(path), write(path, text)}));
   };
   write_and_mark(directory.plan(), plan);
-  write(directory.table(), table_text(cast.crowd, job.names));
-  if (!cast.founders.empty()) {
-    write_and_mark(directory.founders(), plan_text(cast.founders, job.names, job.settings));
+  write(directory.table(), table_text(crowd_plan.crowd, job.names));
+  if (!crowd_plan.founders.empty()) {
+    write_and_mark(directory.founders(), plan_text(crowd_plan.founders, job.names, job.settings));
   }
-  if (!cast.rejected.empty()) {
-    write_and_mark(directory.rejected(), plan_text(cast.rejected, job.names, job.settings));
+  if (!crowd_plan.rejected.empty()) {
+    write_and_mark(directory.rejected(), plan_text(crowd_plan.rejected, job.names, job.settings));
   }
   write_and_mark(directory.casting(), [&](const TakePiece& take) { take(casting.dump(2) + "\n"); });
   const nlohmann::ordered_json mark = {{"job", key_of(job, directory).hex()}, {"files", files}};
@@ -98,9 +98,9 @@ std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& 
   return PlannedFaces{read_faces(job, directory.plan(), shard), *files};
 }
 
-std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& directory) {
-  std::vector<CastFace> founders;
-  if (!is_there(directory.founders())) return founders;
+std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& directory) {
+  std::vector<FacePlan> founders;
+  if (!path_exists(directory.founders())) return founders;
   for (PlanLine& line : read_plan(directory.founders(), job.names)) {
     founders.push_back(std::move(line.face));
     founders.back().family = founders.back().family.value_or(founders.back().id);
@@ -108,22 +108,23 @@ std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& direct
   return founders;
 }
 
-Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                     std::vector<CastFace> crowd, const std::filesystem::path& cache) {
+CrowdPlan cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                          std::vector<FacePlan> crowd, const std::filesystem::path& cache) {
   const FaceSpace space = casting_space(job.config, job.inputs, prepared, cache).space;
-  const Casting casting = casting_of(job.config, job.inputs, space.head_distances());
-  Cast cast;
-  cast.anchors = casting.anchors;
-  cast.crowd = std::move(crowd);
-  cast.kinds = schedule_groups(casting.groups, casting.count);
-  cast.founders = read_founders(job, directory);
+  const CastingOptions casting = casting_options(job.config, job.inputs, space.head_distances());
+  CrowdPlan crowd_plan;
+  crowd_plan.anchors = casting.anchors;
+  crowd_plan.crowd = std::move(crowd);
+  crowd_plan.kinds = schedule_groups(casting.groups, casting.count);
+  crowd_plan.founders = read_founders(job, directory);
   if (job.config.output.contact_sheet) {
-    cast.points.resize(cast.crowd.size());
+    crowd_plan.points.resize(crowd_plan.crowd.size());
     constexpr std::size_t kBlock = 64;
-    parallel_for_each(cast.crowd.size(), kBlock,
-                      [&](std::size_t i) { cast.points[i] = space.point(cast.crowd[i].recipe); });
+    parallel_for_each(crowd_plan.crowd.size(), kBlock, [&](std::size_t i) {
+      crowd_plan.points[i] = space.point(crowd_plan.crowd[i].recipe);
+    });
   }
-  return cast;
+  return crowd_plan;
 }
 
 }  // namespace crowdface

@@ -22,12 +22,12 @@ using WriteFile = std::function<FileDigest(const std::filesystem::path& path, co
 /// Writes the plan of a cast crowd, the table, and the files that go with them; then a marker file,
 /// which shows that the plan is complete and to which job it belongs.
 /// \param casting  content of casting.json
-void write_plan(const Job& job, const CrowdDirectory& directory, const Cast& cast,
+void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                 const nlohmann::ordered_json& casting, const WriteFile& write);
 
 /// A shard's part of the folder's plan, or the whole plan.
 struct PlannedFaces {
-  std::vector<CastFace> faces;           ///< the shard's faces, in the plan's order
+  std::vector<FacePlan> faces;           ///< the shard's faces, in the plan's order
   std::vector<LedgerEntry::File> files;  ///< the plan and the files written with it
 };
 
@@ -38,12 +38,12 @@ std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& 
                                           const Shard& shard);
 
 /// The founders of families recorded in the folder; empty if it has no such file.
-std::vector<CastFace> read_founders(const Job& job, const CrowdDirectory& directory);
+std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& directory);
 
 /// Restores the result of `cast` from a plan, as far as later stages need it: without distances,
 /// rejections and family reports, which casting.json has.
 /// \param cache  see casting_space
-Cast cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                     std::vector<CastFace> crowd, const std::filesystem::path& cache);
+CrowdPlan cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
+                          std::vector<FacePlan> crowd, const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -32,13 +32,13 @@ Json distribution(const Json& of) {
   return {{"min", of["min"]}, {"median", of["median"]}, {"max", of["max"]}};
 }
 
-Json heads_to_json(const Job& job, const Cast& cast) {
+Json heads_to_json(const Job& job, const CrowdPlan& crowd_plan) {
   Json heads = Json::array();
   for (std::size_t h = 0; h < job.names.heads.size(); ++h) {
     heads.push_back({{"name", job.names.heads[h]},
                      {"file", job.config.faces.files[h].filename().string()},
                      {"positions", job.inputs.head_digests[h].hex()},
-                     {"anchor", {cast.anchors[h].x(), cast.anchors[h].y()}}});
+                     {"anchor", {crowd_plan.anchors[h].x(), crowd_plan.anchors[h].y()}}});
   }
   return heads;
 }
@@ -69,14 +69,14 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
 }
 
 /// The range of sizes at which each band begins, over all regions and faces.
-Json bands_to_json(const Job& job, const std::vector<CastFace>& crowd) {
+Json bands_to_json(const Job& job, const std::vector<FacePlan>& crowd) {
   const auto size = [&](std::uint64_t level) {
     return rounded(size_of_iterations(job.smoothing.kind(), level, job.inputs.edge_length_mm));
   };
   Json bands = Json::array();
   for (std::size_t b = 0; b < job.names.bands.size(); ++b) {
     std::uint64_t least = job.inputs.max_level, most = 0;
-    for (const CastFace& face : crowd) {
+    for (const FacePlan& face : crowd) {
       for (const RegionRecipe& region : face.recipe.regions) {
         least = std::min(least, band_of(region, b).iterations);
         most = std::max(most, band_of(region, b).iterations);
@@ -103,7 +103,7 @@ Json lods_to_json(const Inputs& inputs) {
   return lods;
 }
 
-Json smoothing_to_json(const Job& job, const Prepared& prepared, const Cast& cast) {
+Json smoothing_to_json(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan) {
   const Inputs& inputs = job.inputs;
   Json smoothing = {
       {"max_iterations", inputs.max_level},
@@ -113,8 +113,8 @@ Json smoothing_to_json(const Job& job, const Prepared& prepared, const Cast& cas
   if (job.config.smoothing.levels == Levels::kBasis) {
     smoothing["basis"] = levels_to_json(job, prepared);
   }
-  if (!job.names.bands.empty() && !cast.crowd.empty()) {
-    smoothing["bands"] = bands_to_json(job, cast.crowd);
+  if (!job.names.bands.empty() && !crowd_plan.crowd.empty()) {
+    smoothing["bands"] = bands_to_json(job, crowd_plan.crowd);
   }
   return smoothing;
 }
@@ -174,8 +174,8 @@ std::string indented(const Json& json, std::size_t levels) {
 }
 
 /// The report without the faces.
-Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const Json& casting,
-             const std::vector<FaceResult>& faces, std::size_t sheets,
+Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
+             const Json& casting, const std::vector<FaceResult>& faces, std::size_t sheets,
              const std::vector<std::string>& warnings) {
   Json report;
   report["crowdface"] = kVersion;
@@ -184,12 +184,12 @@ Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const J
                      {"recipes", job.config.recipes.size()},
                      {"families", job.config.families.size()},
                      {"seed", job.config.crowd.seed}};
-  report["reached"] = {{"faces", cast.crowd.size()}, {"sheets", sheets}};
+  report["reached"] = {{"faces", crowd_plan.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();
   report["topology"] = topology_to_json(job.inputs);
   if (!job.inputs.levels.empty()) report["lods"] = lods_to_json(job.inputs);
-  report["smoothing"] = smoothing_to_json(job, prepared, cast);
-  report["heads"] = heads_to_json(job, cast);
+  report["smoothing"] = smoothing_to_json(job, prepared, crowd_plan);
+  report["heads"] = heads_to_json(job, crowd_plan);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
   for (const auto& [name, digest] : digests_beside_heads(job.inputs)) {
@@ -206,18 +206,18 @@ Json summary(const Job& job, const Prepared& prepared, const Cast& cast, const J
 
 }  // namespace
 
-TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
+TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
                        const Json& casting, const FaceFileLists& lists,
                        const std::vector<FaceResult>& faces, std::size_t sheets,
                        const std::vector<std::string>& warnings) {
   // Replace invalid UTF-8: warnings may contain any file names.
-  std::string head = summary(job, prepared, cast, casting, faces, sheets, warnings)
+  std::string head = summary(job, prepared, crowd_plan, casting, faces, sheets, warnings)
                          .dump(2, ' ', false, Json::error_handler_t::replace);
   head.resize(head.size() - std::string_view("\n}").size());
   return [&, head = concat(head, kBeforeFaces)](const TakePiece& take) {
     take(head);
     text_of_items(faces.size(), [&](std::size_t i) {
-      const CastFace& face = cast.crowd[i];
+      const FacePlan& face = crowd_plan.crowd[i];
       return concat(i > 0 ? ",\n    " : "\n    ",
                     indented(face_to_json(face.id, lists.of(face), faces[i]), 2));
     })(take);
@@ -248,7 +248,7 @@ std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& i
   return digests;
 }
 
-std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
+std::string format_timings(const StageSeconds& stages, const StageTimes& busy, std::size_t faces,
                            std::size_t heads_from_cache) {
   Json timings;
   timings["crowdface"] = kVersion;

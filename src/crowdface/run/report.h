@@ -23,7 +23,7 @@ namespace crowdface {
 /// \param casting  content of casting.json
 /// \param faces    results, one per face of the crowd
 /// \param lists    make the faces' lists of files
-TextPieces report_text(const Job& job, const Prepared& prepared, const Cast& cast,
+TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
                        const nlohmann::ordered_json& casting, const FaceFileLists& lists,
                        const std::vector<FaceResult>& faces, std::size_t sheets,
                        const std::vector<std::string>& warnings);
@@ -41,20 +41,20 @@ using StageSeconds = std::vector<std::pair<std::string, double>>;
 
 /// Time that threads spent on each stage of making faces, in seconds. The sum exceeds the elapsed
 /// time, because stages overlap and several threads work.
-struct StageBusy {
+struct StageTimes {
   std::atomic<double> blend = 0, encode = 0, write = 0, render = 0, check = 0;
 };
 
 /// Adds its lifetime to a stage's time.
-class Busy {
+class StageTimer {
  public:
-  explicit Busy(std::atomic<double>& stage) : stage_(stage) {}
-  ~Busy() {
+  explicit StageTimer(std::atomic<double>& stage) : stage_(stage) {}
+  ~StageTimer() {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
     stage_ += took.count();
   }
-  Busy(const Busy&) = delete;
-  Busy& operator=(const Busy&) = delete;
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
 
  private:
   std::atomic<double>& stage_;
@@ -62,7 +62,7 @@ class Busy {
 };
 
 /// timings.json: times and machine, which may differ between runs.
-std::string format_timings(const StageSeconds& stages, const StageBusy& busy, std::size_t faces,
+std::string format_timings(const StageSeconds& stages, const StageTimes& busy, std::size_t faces,
                            std::size_t heads_from_cache);
 
 }  // namespace crowdface

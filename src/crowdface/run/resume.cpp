@@ -15,9 +15,9 @@ namespace crowdface {
 
 namespace fs = std::filesystem;
 
-FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
-                           const Shard& shard, const std::function<void()>& asked) {
-  FacesSoFar so_far;
+FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
+                             const Shard& shard, const std::function<void()>& asked) {
+  FaceProgress so_far;
   so_far.faces.resize(crowd.size());
   std::vector<char> missing(crowd.size(), 0);
   parallel_for_each(crowd.size(), [&](std::size_t i) {
@@ -37,7 +37,7 @@ FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>
   return so_far;
 }
 
-void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
+void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
                           const std::vector<std::size_t>& todo) {
   if (todo.empty()) return;
   constexpr std::size_t kNamed = 8;
@@ -78,14 +78,14 @@ std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const
 }
 
 void remove_notes_of_shards(const CrowdDirectory& directory) {
-  for (const fs::path& path : directory.all_progress()) remove_if_there(path);
-  remove_if_there(directory.planned());
+  for (const fs::path& path : directory.all_progress()) remove_if_exists(path);
+  remove_if_exists(directory.planned());
 }
 
 void gather_logs(const CrowdDirectory& directory) {
   for (const fs::path& log : directory.shard_logs()) {
     AppendFile(directory.log()).append(read_file(log));
-    remove_if_there(log);
+    remove_if_exists(log);
   }
 }
 

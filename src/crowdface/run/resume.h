@@ -12,7 +12,7 @@
 namespace crowdface {
 
 /// The finished and the missing faces of a crowd.
-struct FacesSoFar {
+struct FaceProgress {
   std::vector<FaceResult> faces;  ///< #crowd; default value for missing faces
   std::vector<std::size_t> todo;  ///< this shard's missing faces, ascending
   std::size_t owned = 0;          ///< number of faces of this shard
@@ -20,11 +20,11 @@ struct FacesSoFar {
 
 /// Looks up the faces in the ledger, in parallel; reads every file once. \throws Interrupted.
 /// \param asked  called from any thread after each face of the shard; may be empty
-FacesSoFar find_done_faces(const FaceLedger& ledger, const std::vector<CastFace>& crowd,
-                           const Shard& shard, const std::function<void()>& asked = {});
+FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
+                             const Shard& shard, const std::function<void()>& asked = {});
 
 /// \throws MissingInput that names the first few missing faces, if there are any.
-void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<CastFace>& crowd,
+void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
                           const std::vector<std::size_t>& todo);
 
 /// Writes the files that all faces share, if a format needs any and they do not exist yet.

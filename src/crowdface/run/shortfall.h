@@ -14,12 +14,12 @@ namespace crowdface {
 class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.
-  explicit ScarcityWarning(const Casting& casting) : casting_(casting) {}
+  explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
   /// \param thrown  candidates rejected before this face was accepted
   void face_joined(const Rejections& thrown);
 
  private:
-  const Casting& casting_;
+  const CastingOptions& casting_;
   CapacityForecast forecast_;
   std::uint64_t cast_ = 0;
   bool foreseen_ = false;

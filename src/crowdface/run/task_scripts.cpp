@@ -229,9 +229,9 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
                              std::uint64_t processors) {
   constexpr double kSeconds = 600;
-  constexpr std::uint64_t kMost = 1000;  // default limit of Slurm's job arrays
+  constexpr std::uint64_t kMax = 1000;  // default limit of Slurm's job arrays
   const double all = face_seconds(config, inputs) * static_cast<double>(faces);
-  return tasks_for(all / static_cast<double>(processors), kSeconds, std::min(kMost, faces));
+  return tasks_for(all / static_cast<double>(processors), kSeconds, std::min(kMax, faces));
 }
 
 std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors) {

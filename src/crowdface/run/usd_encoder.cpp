@@ -92,7 +92,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
     return UsdaPart(prim, here->topology, here->uvs, materials, at_rows(of_face, here->faces),
                     targets);
   };
-  using Form = DressedForm<UsdaTemplate, UsdaPart>;
+  using Form = MeshWithAttachments<UsdaTemplate, UsdaPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
     // Levels of detail are not subdivided: they are coarse on purpose.
@@ -104,9 +104,9 @@ MeshEncoders usd_encoders(const MeshSource& source) {
                          glb_options(source.config, inputs, source.shared, level), subdivision),
             AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
         [](const Form& form, const FaceMesh& face) {
-          return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves,
-                                  face.image_names, *face.points,
-                                  form.parts.placed<PlacedUsdaPart>(face.worn), *face.colours);
+          return form.mesh.encode(
+              *face.positions, *face.normals, face.id, face.moves, face.image_names, *face.points,
+              form.parts.placed<PlacedUsdaPart>(face.placed_attachments), *face.colours);
         }));
   }
   return encoders;

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Copies the material files that the face's attachments refer to.
-void write_attachment_materials(const Job& job, const CastFace& face, const fs::path& folder) {
+void write_attachment_materials(const Job& job, const FacePlan& face, const fs::path& folder) {
   for (const std::string& name : face.attachments) {
     for (const MaterialFile& material : job.inputs.attachments.at(name).materials.files) {
       const fs::path to = folder / attachment_folder(name) / material.relative;
@@ -30,7 +30,7 @@ void write_attachment_materials(const Job& job, const CastFace& face, const fs::
 
 }  // namespace
 
-void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
+void write_face(const Job& job, const FaceTextures& textures, const FacePlan& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file) {
   const std::vector<MeshFormat> formats(1, format);
   const FaceEncoders encoders(job.config, job.inputs, std::vector<MeshFormat>(1, format),
@@ -38,7 +38,7 @@ void write_face(const Job& job, const FaceTextures& textures, const CastFace& fa
   const FaceAttachments attachments(job.config, job.inputs, {&face, 1});
   const FaceShapes shapes(job.config, job.inputs);
   FinishedFace finished(face, positions);
-  StageBusy busy;
+  StageTimes busy;
   FaceFinisher{textures, attachments, shapes, &encoders}.finish(finished, busy);
   const fs::path folder = file.parent_path();
   if (names_attachment_textures(traits_of(format))) write_attachment_materials(job, face, folder);

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "crowdface/cast/cast_face.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/run/pipeline.h"
 
@@ -14,7 +14,7 @@ namespace crowdface {
 /// \param textures   blends the face's own textures; has none if faces have no own textures
 /// \param positions  #V by 3
 /// \throws CannotCreate, IoError.
-void write_face(const Job& job, const FaceTextures& textures, const CastFace& face,
+void write_face(const Job& job, const FaceTextures& textures, const FacePlan& face,
                 MeshFormat format, const Positions& positions, const std::filesystem::path& file);
 
 }  // namespace crowdface

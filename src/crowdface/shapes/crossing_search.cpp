@@ -23,7 +23,7 @@ constexpr float kAlike = 0.998F;
 
 /// Upper limit of both search distances, in mean leaf sizes. On a dense mesh, leaves are small, and
 /// larger distances would give too many pairs of leaves.
-constexpr double kMostLeaves = 3;
+constexpr double kMaxLeaves = 3;
 
 /// Candidates of a leaf paired with itself: each pair of triangles once.
 constexpr std::uint64_t kOnce = [] {
@@ -107,7 +107,7 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
 void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Positions& points,
                                double reach, double facing) {
   const SingleRows single = points.cast<float>();
-  const double most = kMostLeaves * mean_leaf_size(tree_, single);
+  const double most = kMaxLeaves * mean_leaf_size(tree_, single);
   reach = std::min(reach, most);
   facing = std::min(facing, most);
   const TriangleScene scene(numbered, tree_, points, facing / 2);

@@ -21,7 +21,7 @@ constexpr double kPatch = 0.1;     // radius of the patch that determines a node
 /// Weight of the whole skin's similarity in a node's fit, as a fraction of the patch's scatter.
 constexpr double kWhole = 0.02;
 /// Largest number of vertices used for the whole skin, as candidates for nodes, and for a patch.
-constexpr std::size_t kMostSkin = 4000, kMostCandidates = 20000, kMostPatch = 400;
+constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
 /// Farthest-point sampling: adds the vertex farthest from those chosen so far, until none is
 /// farther than `spacing`.
@@ -55,8 +55,11 @@ Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m) {
 
 FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
                        std::span<const std::uint32_t> used)
-    : neutral_(&neutral), some_skin_(some_of(skin, kMostSkin)), ones_(some_skin_.size(), 1.0) {
-  const auto chosen = spread_over(neutral, some_of(skin, kMostCandidates), kSpacing * extent);
+    : neutral_(&neutral),
+      some_skin_(evenly_spaced_items(skin, kMaxSkin)),
+      ones_(some_skin_.size(), 1.0) {
+  const auto chosen =
+      spread_over(neutral, evenly_spaced_items(skin, kMaxCandidates), kSpacing * extent);
   places_.resize(chosen.size());
   parallel_for_each(chosen.size(), [&](std::size_t p) {
     const Eigen::Vector3d middle = row3(neutral, chosen[p]);
@@ -64,7 +67,8 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
     for (const std::uint32_t v : skin) {
       if ((row3(neutral, v) - middle).norm() < kPatch * extent) patch.push_back(v);
     }
-    places_[p] = place_at(neutral, some_of(patch, kMostPatch), kPatch * extent, chosen[p]);
+    places_[p] =
+        place_at(neutral, evenly_spaced_items(patch, kMaxPatch), kPatch * extent, chosen[p]);
   });
   for (const std::uint32_t v : used) {
     std::vector<Share> shares;

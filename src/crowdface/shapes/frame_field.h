@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/core/grouped.h"
+#include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/topology.h"
 #include "crowdface/parts/rigid_motion.h"
 
@@ -60,7 +60,7 @@ class FrameField {
   std::vector<std::uint32_t> some_skin_;
   std::vector<double> ones_;  ///< #some_skin_
   std::vector<Place> places_;
-  Grouped<Share> shares_;  ///< #used: nodes that each vertex interpolates
+  CompressedRows<Share> shares_;  ///< #used: nodes that each vertex interpolates
 };
 
 /// Inverts a regular 3 by 3 matrix by cofactors.

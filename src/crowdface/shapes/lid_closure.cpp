@@ -24,7 +24,7 @@ constexpr std::size_t kPlaces = 52;  // number of places along the opening
 constexpr double kProfile = 0.35;    // radius of a profile around its place
 constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
 // A place counts as closed by the shape if its gap shrinks by at least this much.
-constexpr double kLeastClosed = 0.05;
+constexpr double kMinClosed = 0.05;
 /// The template's shape closes a place if at most this fraction of the gap at rest is left.
 constexpr double kLeft = 0.4;
 // clearance from the eyeball, if template and face have at least this
@@ -154,7 +154,7 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     cut_profiles(adjacency, closed, eye.skin, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
-    if (before - after < kLeastClosed * radius_ || after > kLeft * before) continue;
+    if (before - after < kMinClosed * radius_ || after > kLeft * before) continue;
     Place place{{}, {}, at, before - after};
     const auto add = [&](const std::vector<EdgePoint>& points, std::vector<Point>& to) {
       for (const EdgePoint& point : points) {
@@ -257,7 +257,7 @@ void LidClosure::close(std::size_t count, const Eigen::Vector3d& up, const Posit
   }
 }
 
-double LidClosure::least_gap(std::size_t lid, double rest, double scale, const Goals& goals) const {
+double LidClosure::min_gap(std::size_t lid, double rest, double scale, const Goals& goals) const {
   const double of_shape = std::max(scale * goals.least[lid], -kDeepest * scale * radius_);
   return std::min({rest, of_shape, kMargin * scale * radius_});
 }
@@ -270,7 +270,7 @@ void LidClosure::hold_off(std::size_t count, const Positions& face, const FaceEy
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     const double rest = eye.rest_gaps[lid.number];
     const double wanted =
-        std::max(rest + scale * goals.gap_change[i], least_gap(i, rest, scale, goals));
+        std::max(rest + scale * goals.gap_change[i], min_gap(i, rest, scale, goals));
     moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
   }
 }
@@ -282,7 +282,7 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const Rigid
   for (std::size_t i = 0; i < lids_.size(); ++i) {
     const Lid& lid = lids_[i];
     if (lid.hold == 0) continue;
-    const double least = least_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
+    const double least = min_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
     // Count only the part by which this vertex is moved.

@@ -140,7 +140,7 @@ class LidClosure {
              std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
   /// smallest of its distance at rest, its distance in the shape, and a small margin.
-  double least_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
+  double min_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
   void hold_off(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
                 const Goals& goals, Positions& moves) const;
   Axes axes_on(const RigidMotion& whole) const;

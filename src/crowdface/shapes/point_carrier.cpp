@@ -54,11 +54,11 @@ Socket PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& me
   // Use skin up to half as far again as the nearest skin, so that a deep point follows all the skin
   // around it.
   constexpr double kFurther = 1.5;
-  constexpr std::size_t kFewest = 60;
+  constexpr std::size_t kMin = 60;
   std::vector<std::pair<double, std::uint32_t>> by_distance;
   for (const std::uint32_t v : skin) by_distance.emplace_back((row3(mesh, v) - point).norm(), v);
   std::sort(by_distance.begin(), by_distance.end());
-  const std::size_t fewest = std::min(kFewest, by_distance.size());
+  const std::size_t fewest = std::min(kMin, by_distance.size());
   const double reach = std::max(kFurther * to_skin, by_distance[fewest - 1].first);
   const double fades = 1.05 * reach;
   Socket anchor;

@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 /// Number of vertices of an eyeball or jaw used to fit its motion.
-constexpr std::size_t kMostFitted = 500;
+constexpr std::size_t kMaxFitted = 500;
 /// Skin this near to an eyeball's centre belongs to the eye; in radii.
 constexpr double kEyeSkin = 3;
 /// A shape that moves lips through each other by more than this needs a companion. As a fraction of
@@ -49,7 +49,7 @@ Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& sh
 }  // namespace
 
 std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
-                                                      const KeptContacts& contacts, double extent) {
+                                                      const GapPreserver& contacts, double extent) {
   const auto through_in = [&](std::initializer_list<std::size_t> shapes) {
     Positions mesh = set.neutral;
     for (const std::size_t s : shapes) set.shapes[s].moves.add_to(mesh);
@@ -73,7 +73,7 @@ std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
   return companions;
 }
 
-PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjacency,
+PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjacency,
                                const PartList& parts, const HeadAxes& head_axes,
                                const ShapeSet& shape_set, const RegionWeights& regions)
     : faces(all_faces),
@@ -107,7 +107,8 @@ PreparedShapes::PreparedShapes(const FaceSet& all_faces, const Adjacency& adjace
 }
 
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
-  RigidPart bound{part.vertices, some_of(part.vertices, kMostFitted), {}, Eigen::Vector3d::Zero()};
+  RigidPart bound{
+      part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
   bound.ones.assign(bound.fitted.size(), 1.0);
   if (part.eyeball) {
     const RigidMotion motion = fit_rigid_motion(mean, set.neutral, bound.fitted, bound.ones);

@@ -14,7 +14,7 @@
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"
 #include "crowdface/shapes/frame_field.h"
-#include "crowdface/shapes/kept_contacts.h"
+#include "crowdface/shapes/gap_preserver.h"
 #include "crowdface/shapes/lid_closure.h"
 #include "crowdface/shapes/rigid_turn.h"
 #include "crowdface/shapes/shape_set.h"
@@ -57,7 +57,7 @@ struct Hanging {
 /// \param extent  Diagonal of the skin's bounding box.
 /// \return        #shapes: the companion of each shape, if it has one.
 std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
-                                                      const KeptContacts& contacts, double extent);
+                                                      const GapPreserver& contacts, double extent);
 
 /// One shape: what it moves, and the data for its corrections on a face.
 struct PreparedShape {
@@ -80,11 +80,11 @@ struct PreparedShape {
 /// skin, parts, lids and lips.
 struct PreparedShapes {
   /// Parameters as for ShapeTransfer.
-  PreparedShapes(const FaceSet& all_faces, const Adjacency& adjacency, const PartList& parts,
+  PreparedShapes(const HeadSet& all_faces, const Adjacency& adjacency, const PartList& parts,
                  const HeadAxes& head_axes, const ShapeSet& shape_set,
                  const RegionWeights& regions);
 
-  const FaceSet& faces;
+  const HeadSet& faces;
   const ShapeSet& set;
   HeadAxes axes;
   FacesAround around;
@@ -96,7 +96,7 @@ struct PreparedShapes {
   std::vector<std::uint32_t> used;  ///< vertices that any shape moves, ascending
   /// #used by #regions: weights of the skin nearest to each vertex
   RegionWeights::Alpha alpha;
-  KeptContacts contacts;
+  GapPreserver contacts;
   RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
   FrameField field;
   double extent = 0;                 ///< diagonal of the template's skin's bounding box

@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 
 /// Returns the quaternion (w, x, y, z) of a rotation by less than half a turn.
 std::array<double, 4> quaternion_of(const RigidMotion& motion) {
-  constexpr double kLeast = 1e-6;
+  constexpr double kMin = 1e-6;
   const Eigen::Matrix3d& r = motion.rotation;
-  const double w = std::sqrt(std::max(1 + r(0, 0) + r(1, 1) + r(2, 2), kLeast)) / 2;
+  const double w = std::sqrt(std::max(1 + r(0, 0) + r(1, 1) + r(2, 2), kMin)) / 2;
   return {w, (r(2, 1) - r(1, 2)) / (4 * w), (r(0, 2) - r(2, 0)) / (4 * w),
           (r(1, 0) - r(0, 1)) / (4 * w)};
 }

@@ -176,7 +176,7 @@ void CarriedShape::keep_contacts() {
   // Adjust the mesh in the shape, and convert the result back to displacements.
   result_.add_to(mesh_);
   const auto how =
-      shape_.companion ? KeptContacts::Keeping::kAll : KeptContacts::Keeping::kNearlySame;
+      shape_.companion ? GapPreserver::Keeping::kAll : GapPreserver::Keeping::kNearlySame;
   prepared_.contacts.keep(carrier_.gaps, widening, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
@@ -263,7 +263,7 @@ void CarriedShape::hang(const Positions& carried) {
 
 }  // namespace
 
-ShapeTransfer::ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency,
+ShapeTransfer::ShapeTransfer(const HeadSet& faces, const Adjacency& adjacency,
                              const PartList& parts, const HeadAxes& axes, const ShapeSet& shapes,
                              const RegionWeights& regions)
     : prepared_(std::make_unique<PreparedShapes>(faces, adjacency, parts, axes, shapes, regions)) {}

@@ -35,7 +35,7 @@ class ShapeTransfer {
   /// \param parts    If there are no parts, everything is skin.
   /// \param shapes   Must outlive this object.
   /// \param regions  Region weights α, #V by #regions; needed if each head has its own shapes.
-  ShapeTransfer(const FaceSet& faces, const Adjacency& adjacency, const PartList& parts,
+  ShapeTransfer(const HeadSet& faces, const Adjacency& adjacency, const PartList& parts,
                 const HeadAxes& axes, const ShapeSet& shapes, const RegionWeights& regions = {});
   ~ShapeTransfer();
 

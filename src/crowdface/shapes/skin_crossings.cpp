@@ -9,7 +9,7 @@
 
 #include "crowdface/core/smooth_step.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/shapes/evened_field.h"
+#include "crowdface/shapes/smoothed_vectors.h"
 
 namespace crowdface {
 namespace {
@@ -184,12 +184,12 @@ class SkinCrossings::Mending {
     for (const std::uint32_t v : vertices_of(pairs_, watched_.search)) {
       around.push_back(row3(face_.rest, v));
     }
-    const EvenedField field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
-    std::vector<EvenedField::Sample> samples;
+    const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
+    std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
       const ShapeRow& row = watched_.rows[i];
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
-      if (field.hears(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
+      if (field.affects(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
     }
     const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
@@ -211,12 +211,12 @@ class SkinCrossings::Mending {
         around.push_back(shaped(i));
       }
     }
-    const EvenedField field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
-    std::vector<EvenedField::Sample> samples;
+    const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
+    std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
       const ShapeRow& row = watched_.rows[i];
       if (!watched_.comes_from_afar && side(row.vertex) == 0) continue;
-      if (!field.hears(shaped(i))) continue;
+      if (!field.affects(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.whole.apply(shaped(i))});
     }
     for (const auto& [number, by] : field.changes(samples)) move(watched_.rows[number], by);
@@ -305,7 +305,7 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
     watched.shaped.row(static_cast<Index>(i)) = shaped.row(watched.rows[i].vertex);
   }
   // Search skin that may meet, and a few rings around it.
-  std::vector<bool> meets = skin_that_may_meet(skin_, neutral, shaped, extent_);
+  std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<bool> wider = meets;
     for (const Triangle& t : skin_.triangles) {

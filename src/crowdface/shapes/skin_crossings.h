@@ -10,8 +10,8 @@
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/crossing_search.h"
-#include "crowdface/shapes/meeting_skin.h"
 #include "crowdface/shapes/skin_over_parts.h"
+#include "crowdface/shapes/touching_skin.h"
 
 namespace crowdface {
 
@@ -27,7 +27,7 @@ class SkinCrossings {
 
   const SkinTriangles& mesh() const { return skin_; }
 
-  /// The skin of a shape that is searched for intersections, see skin_that_may_meet.
+  /// The skin of a shape that is searched for intersections, see skin_that_may_touch.
   struct Watched {
     CrossingSearch search;
     /// #triangles of `search`: at intersections that the template already has

@@ -33,8 +33,8 @@ constexpr double kTooNear = 0.25;
 // smallest cosine between the skin's normal and the front; excludes the rims of the lips
 constexpr double kFacesFront = 0.5;
 /// The triangles around the covering triangle that may be in front on a face: kSlides wide, but
-/// between kFewestRings and kMostRings rings.
-constexpr double kFewestRings = 2, kMostRings = 12;
+/// between kMinRings and kMaxRings rings.
+constexpr double kMinRings = 2, kMaxRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
 
@@ -140,7 +140,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
   for (const Triangle& t : around) area += area_vector(shaped, t).norm();
   const double edge =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, around.size())));
-  const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kFewestRings, kMostRings));
+  const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kMinRings, kMaxRings));
   const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
   // Find the vertices that the shape's skin covers, one per cell.

@@ -8,7 +8,7 @@
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/rigid_motion.h"
-#include "crowdface/shapes/meeting_skin.h"
+#include "crowdface/shapes/touching_skin.h"
 
 namespace crowdface {
 

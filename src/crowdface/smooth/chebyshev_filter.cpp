@@ -14,7 +14,7 @@ namespace {
 /// Chosen by measurement: a tile's two vectors and its part of the sums stay in a core's own cache
 /// (docs/benchmarks.md).
 constexpr Index kTileRows = 6144;
-constexpr int kStepsARound = 8;
+constexpr int kStepsPerTurn = 8;
 
 template <class T>
 using RowVector = std::vector<Row<T>>;
@@ -58,14 +58,14 @@ class Recurrence {
     }
   }
 
-  /// Runs up to kStepsARound steps on one tile, from T_k on, and adds the terms in the order of k.
+  /// Runs up to kStepsPerTurn steps on one tile, from T_k on, and adds the terms in the order of k.
   /// \param visit  called with each k and the tile's own rows of T_k(W) x.
   template <class Visit>
   void round(const Tile& tile, Index k, const Visit& visit) {
     thread_local RowVector<T> now, previous;
     load(tile, now_, now);
     load(tile, previous_, previous);
-    const auto steps = static_cast<int>(std::min<Index>(kStepsARound, terms_ - 1 - k));
+    const auto steps = static_cast<int>(std::min<Index>(kStepsPerTurn, terms_ - 1 - k));
     for (int step = 0; step < steps; ++step) {
       const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
       const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings needed by later steps
@@ -168,7 +168,7 @@ Positions positions_of(const ChebyshevFilter& filter, const RowArray<double>& ro
 
 ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions)
     : kind_(smoothing.kind()),
-      tiling_(cut_into_tiles(smoothing, positions, kTileRows, kStepsARound)) {}
+      tiling_(cut_into_tiles(smoothing, positions, kTileRows, kStepsPerTurn)) {}
 
 template <class T>
 std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) const {
@@ -203,7 +203,7 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
       probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first);
     }
   }
-  for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsARound) {
+  for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsPerTurn) {
     throw_if_interrupted();
     parallel_for_each(tiling_.tiles.size(), [&](std::size_t t) {
       const Tile& tile = tiling_.tiles[t];

@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kPatchesATask = 16;
+constexpr std::size_t kPatchesPerTask = 16;
 
 /// Weights w_p such that |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any error
 /// vectors e_p: the largest |φ_p| over the levels, times the factor from the Cauchy–Schwarz
@@ -335,15 +335,15 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
   auto all = std::make_shared<OwnedPatches>();
   all->vertices.assign(order.begin(), order.end());
   const std::size_t patches = patch_count(order.size());
-  std::vector<MadePatches> parts((patches + kPatchesATask - 1) / kPatchesATask);
-  parallel_blocks(patches, kPatchesATask, [&](std::size_t begin, std::size_t end) {
+  std::vector<MadePatches> parts((patches + kPatchesPerTask - 1) / kPatchesPerTask);
+  parallel_blocks(patches, kPatchesPerTask, [&](std::size_t begin, std::size_t end) {
     PatchMaker maker(heads, weights, tolerance);
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t first = i * kPatchVertices;
       const auto vertices =
           std::span(all->vertices).subspan(first, std::min(kPatchVertices, order.size() - first));
       std::ranges::sort(vertices);
-      maker.add(vertices, parts[begin / kPatchesATask]);
+      maker.add(vertices, parts[begin / kPatchesPerTask]);
     }
     progress(end - begin);
   });

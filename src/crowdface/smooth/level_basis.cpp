@@ -22,7 +22,7 @@ constexpr double kFieldSeriesTolerance = 1e-6;
 constexpr std::size_t kProbes = 1024;
 /// Number of vertices from which the principal directions are computed.
 constexpr std::size_t kSampleRows = 4096;
-constexpr Index kTilesATask = 64;
+constexpr Index kTilesPerTask = 64;
 
 /// Every n-th of `count` rows, with the smallest n that gives at most `most` rows.
 std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
@@ -286,9 +286,9 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   const auto tiles =
       static_cast<Index>(LevelFields::tile_count(static_cast<std::size_t>(filter.vertex_count())));
   std::vector<TileFitter::Fitted> parts(
-      static_cast<std::size_t>((tiles + kTilesATask - 1) / kTilesATask));
-  parallel_blocks(tiles, kTilesATask, [&](Index begin, Index end) {
-    parts[static_cast<std::size_t>(begin / kTilesATask)] = fitter.fit(begin, end);
+      static_cast<std::size_t>((tiles + kTilesPerTask - 1) / kTilesPerTask));
+  parallel_blocks(tiles, kTilesPerTask, [&](Index begin, Index end) {
+    parts[static_cast<std::size_t>(begin / kTilesPerTask)] = fitter.fit(begin, end);
   });
 
   LevelBasis basis;

@@ -29,12 +29,12 @@ double LevelFields::value(Index field, Index vertex, Index coordinate) const {
 }
 
 float step_of(std::span<const float> values) {
-  constexpr float kMost = std::numeric_limits<std::int16_t>::max();
+  constexpr float kMax = std::numeric_limits<std::int16_t>::max();
   float largest = 0;
   for (const float value : values) largest = std::max(largest, std::abs(value));
   if (largest < 1e-30F) return 0;  // the inverse of the step would overflow
-  int exponent = 0;                // largest/kMost = m·2^exponent, ½ ≤ m < 1
-  const float m = std::frexp(largest / kMost, &exponent);
+  int exponent = 0;                // largest/kMax = m·2^exponent, ½ ≤ m < 1
+  const float m = std::frexp(largest / kMax, &exponent);
   return std::ldexp(1.0F, m == 0.5F ? exponent - 1 : exponent);
 }
 

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostNodes = 48;
+constexpr std::size_t kMaxNodes = 48;
 /// Weight of negative eigenvalues: the amplitude of checkerboard modes in a face's shape.
 constexpr double kNegativeWeight = 1e-2;
 
@@ -87,7 +87,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
   for (const std::uint64_t level : candidates) left.push_back(displacement(level));
   const double enough = missed * missed * fixed_dot(left.back(), left.back());
   std::vector<std::uint64_t> chosen;
-  while (chosen.size() < std::min(kMostNodes, candidates.size())) {
+  while (chosen.size() < std::min(kMaxNodes, candidates.size())) {
     // The next node is the candidate with the largest residual.
     std::size_t worst = 0;
     double most = -1;

@@ -159,7 +159,7 @@ Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sa
 }
 
 /// The lowest rank whose largest error is at most the tolerance.
-Index least_rank(const Eigen::MatrixXd& missed, double tolerance) {
+Index min_rank(const Eigen::MatrixXd& missed, double tolerance) {
   Index rank = 0;
   while (rank + 1 < missed.cols() && missed.col(rank).maxCoeff() > tolerance) ++rank;
   return rank;
@@ -198,7 +198,7 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
   for (int round = 0; round < kRounds; ++round) {
     Directions directions = weighted_directions(tested, importance, moments);
     directions.missed = missed(directions, sample);
-    directions.rank = least_rank(directions.missed, tolerance);
+    directions.rank = min_rank(directions.missed, tolerance);
     const Eigen::MatrixXd distances = directions.missed;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;

@@ -32,7 +32,7 @@ class SmoothingOperator {
 
  private:
   OperatorKind kind_;
-  Grouped<std::uint32_t> neighbours_;  ///< one group per vertex
+  CompressedRows<std::uint32_t> neighbours_;  ///< one group per vertex
 };
 
 }  // namespace crowdface

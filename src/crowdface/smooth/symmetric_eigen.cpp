@@ -54,8 +54,8 @@ SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix) {
   const Index size = matrix.rows();
   Eigen::MatrixXd vectors = Eigen::MatrixXd::Identity(size, size);
   const double small = 1e-16 * std::max(matrix.cwiseAbs().maxCoeff(), 1e-300);
-  constexpr int kMostSweeps = 60;  // few sweeps suffice: convergence is quadratic
-  for (int sweep = 0; sweep < kMostSweeps && off_diagonal(matrix) > small; ++sweep) {
+  constexpr int kMaxSweeps = 60;  // few sweeps suffice: convergence is quadratic
+  for (int sweep = 0; sweep < kMaxSweeps && off_diagonal(matrix) > small; ++sweep) {
     for (Index p = 0; p < size; ++p) {
       for (Index q = p + 1; q < size; ++q) {
         const Rotation rotation = zeroing(matrix, p, q);

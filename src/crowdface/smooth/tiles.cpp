@@ -197,8 +197,8 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
   for (std::size_t r = 0; r < tiling.order.size(); ++r) {
     tiling.row[tiling.order[r]] = static_cast<std::uint32_t>(r);
   }
-  constexpr Index kTilesATask = 32;  // large tasks, because each allocates an array of #V
-  parallel_blocks(tile_count, kTilesATask, [&](Index begin, Index end) {
+  constexpr Index kTilesPerTask = 32;  // large tasks, because each allocates an array of #V
+  parallel_blocks(tile_count, kTilesPerTask, [&](Index begin, Index end) {
     TileBuilder builder(smoothing, tiling);
     for (Index t = begin; t < end; ++t) builder.build(tiling.tiles[static_cast<std::size_t>(t)]);
   });

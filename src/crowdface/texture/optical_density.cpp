@@ -10,7 +10,7 @@ namespace {
 constexpr double kFloor = 1.0 / 4096;
 
 double scale() {
-  static const double value = kMostDensity / std::log((1 + kFloor) / kFloor);
+  static const double value = kMaxDensity / std::log((1 + kFloor) / kFloor);
   return value;
 }
 
@@ -27,7 +27,7 @@ double light_of_srgb(double value) {
 Density density_of_light(float light) {
   const double clamped = std::clamp(static_cast<double>(light), 0.0, 1.0);
   const double density = scale() * std::log((1 + kFloor) / (clamped + kFloor));
-  return static_cast<Density>(std::clamp(std::floor(density + 0.5), 0.0, double{kMostDensity}));
+  return static_cast<Density>(std::clamp(std::floor(density + 0.5), 0.0, double{kMaxDensity}));
 }
 
 float light_of_density(float density) {

@@ -10,7 +10,7 @@ namespace crowdface {
 /// 0 is white and 65,535 black; 1/4096 is added to all light, so that black has a finite density.
 /// The steps are finer than the steps of 8-bit sRGB everywhere.
 using Density = std::uint16_t;
-inline constexpr float kMostDensity = 65535;
+inline constexpr float kMaxDensity = 65535;
 
 /// The density of light.
 /// \param light  linear, 0 … 1; clamped to this range.

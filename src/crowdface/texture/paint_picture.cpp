@@ -72,7 +72,7 @@ RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<floa
   static const std::uint8_t* const srgb8 = srgb8_of_densities().data();
   RowSums total = {};
   const auto byte_at = [&](std::size_t c, std::size_t x) {
-    const float density = std::clamp(sums[c][x] + 0.5F, 0.0F, kMostDensity);
+    const float density = std::clamp(sums[c][x] + 0.5F, 0.0F, kMaxDensity);
     return srgb8[static_cast<std::size_t>(static_cast<int>(density))];
   };
   for (const SurfaceTexels::Span& span : spans) {
@@ -174,7 +174,7 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
   parallel_blocks(texels.height(), kPictureRowsPerBlock, [&](int begin, int end) {
     const RowBuffer buffer(texels.width(), fields.width());
     const std::span<float* const> sums = buffer.rows().first(fields.channels);
-    std::vector<LentRow> lent(fields.heads.size());
+    std::vector<BorrowedRow> lent(fields.heads.size());
     for (int y = begin; y < end; ++y) {
       const auto spans = texels.row(y);
       if (spans.empty()) continue;

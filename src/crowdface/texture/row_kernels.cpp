@@ -35,7 +35,7 @@ HWY_INLINE hn::Vec<D> floats_of(D lanes, const Density* stored) {
 }
 
 template <std::size_t kChannels>
-HWY_INLINE void add_products_of(const LentRow* heads, std::size_t count, std::size_t begin,
+HWY_INLINE void add_products_of(const BorrowedRow* heads, std::size_t count, std::size_t begin,
                                 std::size_t end, float* const* sums) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
@@ -66,7 +66,7 @@ HWY_INLINE void add_products_of(const LentRow* heads, std::size_t count, std::si
   }
 }
 
-void add_products(const LentRow* heads, std::size_t count, std::size_t begin, std::size_t end,
+void add_products(const BorrowedRow* heads, std::size_t count, std::size_t begin, std::size_t end,
                   float* const* sums, std::size_t channels) {
   if (channels == 1) add_products_of<1>(heads, count, begin, end, sums);
   if (channels == 2) add_products_of<2>(heads, count, begin, end, sums);
@@ -86,7 +86,7 @@ void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* r
   HWY_DYNAMIC_DISPATCH(write_ramps)(ramps.data(), ramps.size(), count, rows);
 }
 
-void add_products(std::span<const LentRow> heads, std::size_t begin, std::size_t end,
+void add_products(std::span<const BorrowedRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums) {
   HWY_DYNAMIC_DISPATCH(add_products)
   (heads.data(), heads.size(), begin, end, sums.data(), sums.size());

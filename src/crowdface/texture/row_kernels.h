@@ -25,7 +25,7 @@ struct Ramp {
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
 /// One row of one head's map.
-struct LentRow {
+struct BorrowedRow {
   /// The head's factor at each texel.
   const float* factors;
   std::array<const Density*, 3> stored;  ///< stored values of each channel
@@ -33,7 +33,7 @@ struct LentRow {
 
 /// sums[c][x] += factors[x]·stored[c][x] for x in [begin, end), head by head.
 /// \param sums  #channels rows, one to three.
-void add_products(std::span<const LentRow> heads, std::size_t begin, std::size_t end,
+void add_products(std::span<const BorrowedRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums);
 
 }  // namespace crowdface

@@ -16,7 +16,7 @@ namespace {
 using Colours = SurfaceStatistics::Colours;
 
 /// Largest number of sampled texels; more do not improve the means.
-constexpr double kMostSamples = 1 << 21;
+constexpr double kMaxSamples = 1 << 21;
 constexpr Index kBlock = 1024;
 
 /// A texel and its point on the surface.
@@ -93,12 +93,13 @@ void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_
   }
 }
 
-Grouped<Sample> sample_surface(const std::vector<SurfaceTexels>& texels, std::size_t vertices) {
+CompressedRows<Sample> sample_surface(const std::vector<SurfaceTexels>& texels,
+                                      std::size_t vertices) {
   double covered = 0;
   for (const SurfaceTexels& picture : texels) covered += static_cast<double>(picture.covered());
-  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(covered / kMostSamples))));
-  return grouped<Sample>(vertices,
-                         [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
+  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(covered / kMaxSamples))));
+  return compressed_rows<Sample>(
+      vertices, [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
 }
 
 /// Smooths vertex data with missing values by normalized convolution. Input rows are three values
@@ -110,9 +111,9 @@ Grouped<Sample> sample_surface(const std::vector<SurfaceTexels>& texels, std::si
 template <class RowOf, class Take>
 void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_t count,
                   const RowOf& row_of, const Take& take) {
-  constexpr std::size_t kMostAtOnce = 4;
+  constexpr std::size_t kMaxAtOnce = 4;
   constexpr double kTolerance = 1e-6;  // the values have seven digits
-  constexpr float kLeastKnown = 1e-3F;
+  constexpr float kMinKnown = 1e-3F;
   const ChebyshevSeries series = power_series(OperatorKind::kLazy, level, kTolerance);
   const std::span<const std::uint32_t> vertex_of_row = filter.vertex_of_row();
   const auto for_each_row = [&](const auto& visit) {
@@ -120,9 +121,9 @@ void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_
                       [&](Index row) { visit(static_cast<std::size_t>(row)); });
   };
   std::vector<FilterInput<float>> inputs;
-  for (std::size_t first = 0; first < count; first += kMostAtOnce) {
+  for (std::size_t first = 0; first < count; first += kMaxAtOnce) {
     throw_if_interrupted();
-    inputs.resize(std::min(kMostAtOnce, count - first),
+    inputs.resize(std::min(kMaxAtOnce, count - first),
                   {std::vector<Row<float>>(vertex_of_row.size()), {series}});
     for_each_row([&](std::size_t row) {
       for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -134,7 +135,7 @@ void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_
       for (std::size_t i = 0; i < inputs.size(); ++i) {
         Row<float> means = smoothed[i].front()[row];
         const float known = means.value[3];
-        for (float& mean : means.value) mean = known > kLeastKnown ? mean / known : 0;
+        for (float& mean : means.value) mean = known > kMinKnown ? mean / known : 0;
         take(first + i, vertex_of_row[row], means);
       }
     });
@@ -159,7 +160,7 @@ Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, s
 
 /// Computes the mean product of the details of each pair of heads at each vertex, not yet smoothed;
 /// NaN where one of the heads has no map.
-void multiply_details(const Grouped<Sample>& samples, const HeadMaps& maps,
+void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& maps,
                       SurfaceStatistics& statistics) {
   const std::size_t heads = statistics.coarse.size(), pairs = statistics.pairs;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
@@ -254,7 +255,7 @@ SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
   if (maps.empty()) return statistics;
   const std::size_t heads = maps.front().size();
   const auto vertices = static_cast<std::size_t>(filter.vertex_count());
-  const Grouped<Sample> samples = sample_surface(texels, vertices);
+  const CompressedRows<Sample> samples = sample_surface(texels, vertices);
   statistics.coarse.assign(heads, Colours(filter.vertex_count(), 3));
   smooth_known(
       filter, scale.detail, heads,

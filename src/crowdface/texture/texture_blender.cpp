@@ -268,14 +268,14 @@ std::size_t TextureBlender::memory_bytes() const {
 }
 
 std::size_t TextureBlender::blend_bytes() const {
-  constexpr std::size_t kBytesATexel = 3, kBytesAWord = 2;
+  constexpr std::size_t kBytesPerTexel = 3, kBytesPerWord = 2;
   std::size_t most = 0;
   for (std::size_t p = 0; p < texels_.size(); ++p) {
     const SurfaceTexels& texels = texels_[p];
     const bool is_colour = codings_[p].content == MapContent::kColours;
     const std::size_t bytes =
-        kBytesATexel * (is_colour ? 1 : kBytesAWord) * static_cast<std::size_t>(texels.width()) *
-            static_cast<std::size_t>(texels.height()) +
+        kBytesPerTexel * (is_colour ? 1 : kBytesPerWord) *
+            static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(texels.height()) +
         texels.vertices().size() * (3 + statistics_.coarse.size()) * sizeof(float);
     most = std::max(most, bytes);
   }

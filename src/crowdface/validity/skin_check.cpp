@@ -46,12 +46,12 @@ constexpr double kFlattestCosine = 0.2;
 /// Spacing of the visibility samples on a triangle, and the largest number of samples along an
 /// edge.
 constexpr double kSpacingMm = 1;
-constexpr int kMostAlongEdge = 8;
+constexpr int kMaxAlongEdge = 8;
 
 int points_along_edge(const Corners& at, double mm_per_unit) {
   const double longest =
       std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
-  return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMostAlongEdge);
+  return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMaxAlongEdge);
 }
 
 /// The fraction of a triangle whose back side is visible to any viewer, sampled at the centroids of
@@ -76,7 +76,7 @@ double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_
     const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
     shown += std::ranges::any_of(behind, [&](std::size_t viewer) {
       std::uint32_t& other = in_the_way[viewer];
-      other = scene.met_by(point, viewing.directions[viewer], triangle, other);
+      other = scene.intersected_by(point, viewing.directions[viewer], triangle, other);
       return other == kNoIndex;
     });
   };
@@ -196,8 +196,8 @@ std::uint64_t SkinCheck::memory_bytes() const {
 
 std::uint64_t SkinCheck::compare_bytes() const {
   // 120 bytes per triangle measured with 2.4 million triangles.
-  constexpr std::uint64_t kBytesATriangle = 150;
-  return kBytesATriangle * triangles_.size();
+  constexpr std::uint64_t kBytesPerTriangle = 150;
+  return kBytesPerTriangle * triangles_.size();
 }
 
 }  // namespace crowdface

@@ -43,9 +43,9 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
       positions_(positions),
       leaves_(tree.leaf_count()),
       boxes_(tree.nodes.size()) {
-  constexpr std::size_t kLeavesATask = 512;
+  constexpr std::size_t kLeavesPerTask = 512;
   const SingleRows points = positions.cast<float>();
-  parallel_for_each(leaves_.size(), kLeavesATask, [&](std::size_t l) {
+  parallel_for_each(leaves_.size(), kLeavesPerTask, [&](std::size_t l) {
     leaves_[l] = LeafBoxes(tree.corners[l], points, margin);
   });
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
@@ -175,8 +175,9 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
   return near;
 }
 
-std::uint32_t TriangleScene::met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                    std::uint32_t start, std::uint32_t guess) const {
+std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
+                                            const Eigen::Vector3d& direction, std::uint32_t start,
+                                            std::uint32_t guess) const {
   const auto is_met = [&](std::uint32_t place) {
     const std::uint32_t triangle = tree_.order[place];
     return triangle != start && meets_triangle(origin, direction, positions_, triangles_[triangle]);

@@ -40,8 +40,8 @@ class TriangleScene {
   /// \param start      index of the triangle from which the ray starts, or kNoIndex
   /// \param guess      position to test first, usually the result for the previous ray, because
   ///                   neighbouring rays often hit the same triangle; or kNoIndex
-  std::uint32_t met_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                       std::uint32_t start, std::uint32_t guess) const;
+  std::uint32_t intersected_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                               std::uint32_t start, std::uint32_t guess) const;
 
  private:
   struct NodePair {

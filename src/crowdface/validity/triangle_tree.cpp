@@ -7,10 +7,10 @@
 namespace crowdface {
 namespace {
 
-/// Marks triangles at vertices with more than kMostAround triangles. Their boxes all overlap:
+/// Marks triangles at vertices with more than kMaxAround triangles. Their boxes all overlap:
 /// 60,000 triangles at one vertex took 90 seconds of pair tests per face.
 std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vertex_count) {
-  constexpr std::uint32_t kMostAround = 1000;
+  constexpr std::uint32_t kMaxAround = 1000;
   std::vector<std::uint32_t> around(static_cast<std::size_t>(vertex_count), 0);
   for (const Triangle& triangle : triangles) {
     for (const std::uint32_t vertex : triangle) ++around[vertex];
@@ -18,7 +18,7 @@ std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vert
   std::vector<bool> left_out;
   for (const Triangle& triangle : triangles) {
     left_out.push_back(std::ranges::any_of(
-        triangle, [&](std::uint32_t vertex) { return around[vertex] > kMostAround; }));
+        triangle, [&](std::uint32_t vertex) { return around[vertex] > kMaxAround; }));
   }
   return left_out;
 }

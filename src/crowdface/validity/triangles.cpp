@@ -82,7 +82,7 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
   if (!stretches.empty()) {
     const double count = static_cast<double>(stretches.size());
     const auto rank = static_cast<std::size_t>(kPercentile * count);
-    defects.stretch = std::sqrt(value_of_rank(std::move(stretches), rank));
+    defects.stretch = std::sqrt(nth_smallest(std::move(stretches), rank));
   }
   return defects;
 }

@@ -15,9 +15,9 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastOpen = 0.04;       // vertices below this openness are inside
+constexpr double kMinOpen = 0.04;         // vertices below this openness are inside
 constexpr double kOpennessOfSkin = 0.25;  // the scan has full weight from this openness on
-constexpr std::size_t kMostScanPoints = 8000;
+constexpr std::size_t kMaxScanPoints = 8000;
 constexpr int kBendSteps = 3;              // steps per round
 constexpr double kHiddenStiffnessMm = 10;  // least stiffness where the scan shows nothing
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
@@ -61,7 +61,7 @@ class Bending {
     visible_.resize(skin.openness.size());
     for (std::size_t v = 0; v < visible_.size(); ++v) {
       visible_[v] =
-          std::clamp((skin.openness[v] - kLeastOpen) / (kOpennessOfSkin - kLeastOpen), 0.0, 1.0);
+          std::clamp((skin.openness[v] - kMinOpen) / (kOpennessOfSkin - kMinOpen), 0.0, 1.0);
     }
     choose_scan_points();
     choose_rims();
@@ -90,7 +90,7 @@ class Bending {
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       if (used[v] && !scan_.rim()[v]) inside.push_back(v);
     }
-    scan_points_ = some_of(inside, kMostScanPoints);
+    scan_points_ = evenly_spaced_items(inside, kMaxScanPoints);
     const auto count = static_cast<double>(scan_points_.size());
     scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / count;
   }
@@ -106,14 +106,15 @@ class Bending {
   }
 
   /// Adds data terms that align the skin's boundary with the scan's boundary where they are close.
-  void ask_rims(const Positions& current, double reach, Wishes& wishes) const {
+  void ask_rims(const Positions& current, double reach, DataTerms& data_terms) const {
     if (!scan_end_grid_) return;
     for (const std::uint32_t v : skin_end_) {
       const Eigen::Vector3d point = row3(current, v);
       const auto nearest = scan_end_grid_->nearest(point, reach);
       if (nearest.vertex == kNoIndex) continue;
-      wishes.add(v, Eigen::Vector3d::UnitX(), 0, areas_(v),
-                 row3(scan_.scan().positions, nearest.vertex) - point + row3(displacements_, v));
+      data_terms.add(
+          v, Eigen::Vector3d::UnitX(), 0, areas_(v),
+          row3(scan_.scan().positions, nearest.vertex) - point + row3(displacements_, v));
     }
   }
 
@@ -132,20 +133,20 @@ class Bending {
     const ElasticSolver solver(stiffness, typical);
     for (int i = 0; i < kBendSteps; ++i) {
       const Positions current = base_ + displacements_;
-      Wishes wishes(base_.rows());
-      ask_scan(current, reach, tangential, wishes);
-      ask_rims(current, std::min(reach, kRimReachMm), wishes);
-      ask_skin(current, reach, tangential, wishes);
+      DataTerms data_terms(base_.rows());
+      ask_scan(current, reach, tangential, data_terms);
+      ask_rims(current, std::min(reach, kRimReachMm), data_terms);
+      ask_skin(current, reach, tangential, data_terms);
       for (const WrapLandmark& landmark : landmarks_) {
-        wishes.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
-                   landmark.place - base_.row(landmark.vertex).transpose());
+        data_terms.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
+                       landmark.place - base_.row(landmark.vertex).transpose());
       }
-      solver.solve(wishes, {}, displacements_);
+      solver.solve(data_terms, {}, displacements_);
     }
   }
 
   /// Adds data terms from each vertex of the skin to the closest point of the scan.
-  void ask_scan(const Positions& current, double reach, double tangential, Wishes& wishes) {
+  void ask_scan(const Positions& current, double reach, double tangential, DataTerms& data_terms) {
     const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
     std::vector<Pull> pulls(visible_.size());
     parallel_for_each(static_cast<std::uint32_t>(pulls.size()), 128, [&](std::uint32_t v) {
@@ -153,7 +154,7 @@ class Bending {
       if (seen == 0) return;
       const Eigen::Vector3d point = row3(current, v);
       const auto place =
-          scan_.nearest(point, row3(normals, v), kLeastCosine, reach, found_on_scan_[v]);
+          scan_.nearest(point, row3(normals, v), kMinCosine, reach, found_on_scan_[v]);
       found_on_scan_[v] = place.triangle;
       if (place.found) pulls[v] = {true, place.normal, place.point - point, areas_(v) * seen};
     });
@@ -162,13 +163,13 @@ class Bending {
       const Pull& pull = pulls[v];
       if (!pull.found) continue;
       const double weight = pull.weight * robust(pull.offset.norm(), spread);
-      wishes.add(v, pull.normal, weight * (1 - tangential), weight * tangential,
-                 pull.offset + row3(displacements_, v));
+      data_terms.add(v, pull.normal, weight * (1 - tangential), weight * tangential,
+                     pull.offset + row3(displacements_, v));
     }
   }
 
   /// Adds data terms from sampled points of the scan to the closest point of the skin.
-  void ask_skin(const Positions& current, double reach, double tangential, Wishes& wishes) {
+  void ask_skin(const Positions& current, double reach, double tangential, DataTerms& data_terms) {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Pull> pulls(scan_points_.size());
     std::vector<SurfaceHit>& hits = found_on_skin_;
@@ -177,7 +178,7 @@ class Bending {
       const Eigen::Vector3d point = row3(scan_.scan().positions, s);
       const Eigen::Vector3d normal = row3(scan_.normals(), s);
       const SurfaceHit hit = hits[i] =
-          tree.nearest_facing(point, normal, kLeastCosine, reach, hits[i].triangle);
+          tree.nearest_facing(point, normal, kMinCosine, reach, hits[i].triangle);
       if (hit.triangle == kNoIndex || at_rim(hit)) return;
       pulls[i] = {true, normal, point - hit.point, scan_weight_ * scan_areas_(s)};
     });
@@ -190,8 +191,8 @@ class Bending {
         const std::uint32_t v = skin_.triangles[hits[i].triangle][k];
         const double share = weight * hits[i].shares[k] * visible_[v];
         if (share == 0) continue;
-        wishes.add(v, pull.normal, share * (1 - tangential), share * tangential,
-                   pull.offset + row3(displacements_, v));
+        data_terms.add(v, pull.normal, share * (1 - tangential), share * tangential,
+                       pull.offset + row3(displacements_, v));
       }
     }
   }

@@ -22,15 +22,15 @@ constexpr double kReachMm = 3;
 constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kNoWall = 0.7;  // least cosine between the normals of scan and skin
-constexpr double kLeastOpenness = 0.15;
+constexpr double kMinOpenness = 0.15;
 constexpr double kUnasked = 1e-4;  ///< weight of a zero offset where there is no scan data
 constexpr int kSteps = 30;
-constexpr int kMostEvenings = 10, kEvenOnly = 3, kSweeps = 8;
+constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
 /// Least share of a triangle's area, projected on its previous normal.
-constexpr double kLeastLeft = 0.05;
+constexpr double kMinLeft = 0.05;
 /// Least cosine between a triangle's normal and the template's.
-constexpr double kLeastFaceCosine = 0.05;
+constexpr double kMinFaceCosine = 0.05;
 
 constexpr std::ptrdiff_t kDetailBlock = 8192;
 
@@ -101,7 +101,7 @@ AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Pos
   parallel_blocks(positions.rows(), 256, [&](Index begin, Index end) {
     std::uint32_t before = kNoIndex;
     for (Index v = begin; v < end; ++v) {
-      if (skin.openness[static_cast<std::size_t>(v)] < kLeastOpenness) continue;
+      if (skin.openness[static_cast<std::size_t>(v)] < kMinOpenness) continue;
       const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
       const auto place = scan.nearest(point, normal, kNoWall, kReachMm, before);
       before = place.triangle;
@@ -124,9 +124,9 @@ bool turns_over(const Positions& rest, const Positions& before, const Positions&
   };
   const Eigen::Vector3d was = area_vector(before, t), first = moved(t[0]);
   const Eigen::Vector3d is = (moved(t[1]) - first).cross(moved(t[2]) - first);
-  if (was.dot(is) <= kLeastLeft * was.squaredNorm()) return true;
+  if (was.dot(is) <= kMinLeft * was.squaredNorm()) return true;
   const Eigen::Vector3d of_rest = area_vector(rest, t);
-  const double least = kLeastFaceCosine * of_rest.norm();
+  const double least = kMinFaceCosine * of_rest.norm();
   return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
@@ -183,7 +183,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     if (uneven[v] == 0) evened.push_back(v);
     uneven[v] = 1;
   };
-  for (int round = 0; round < kMostEvenings && !turned.empty(); ++round) {
+  for (int round = 0; round < kMaxEvenings && !turned.empty(); ++round) {
     for (const std::uint32_t i : turned) {
       for (const std::uint32_t v : skin.triangles[i]) {
         add(v);

@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastCotangent = 0.05;
+constexpr double kMinCotangent = 0.05;
 constexpr std::ptrdiff_t kElasticBlock = 2048;
 
 double product(const Positions& a, const Positions& b) {
@@ -83,8 +83,8 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
     for (const std::uint32_t v : t) areas(v) += area / 3;
     sum += area;
   }
-  constexpr double kLeast = 1e-3;
-  const double least = kLeast * sum / static_cast<double>(std::max<Index>(1, positions.rows()));
+  constexpr double kMin = 1e-3;
+  const double least = kMin * sum / static_cast<double>(std::max<Index>(1, positions.rows()));
   for (double& area : areas) area = std::max(area, least);
   return areas;
 }
@@ -99,8 +99,8 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
       const Eigen::Vector3d apex = row3(positions, t[k]);
       const Eigen::Vector3d a = row3(positions, i) - apex, b = row3(positions, j) - apex;
       const double area = a.cross(b).norm();
-      const double cotangent = area > 0 ? std::min(a.dot(b) / area, 1 / kLeastCotangent) : 0;
-      const double weight = std::max(cotangent, kLeastCotangent) / 2;
+      const double cotangent = area > 0 ? std::min(a.dot(b) / area, 1 / kMinCotangent) : 0;
+      const double weight = std::max(cotangent, kMinCotangent) / 2;
       entries.insert(entries.end(), {Entry(i, j, weight), Entry(j, i, weight), Entry(i, i, -weight),
                                      Entry(j, j, -weight)});
     }
@@ -116,8 +116,8 @@ SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd
   return laplacian.transpose() * weights.asDiagonal() * laplacian;
 }
 
-void Wishes::add(std::uint32_t vertex, const Eigen::Vector3d& normal, double along, double all,
-                 const Eigen::Vector3d& offset) {
+void DataTerms::add(std::uint32_t vertex, const Eigen::Vector3d& normal, double along, double all,
+                    const Eigen::Vector3d& offset) {
   Eigen::Matrix3d weight = along * normal * normal.transpose();
   weight.diagonal().array() += all;
   matrices[vertex] += weight;
@@ -129,11 +129,11 @@ struct ElasticSolver::State {
   Factors factors;
 
   /// (W + B) x; because B is symmetric, the code reads its columns as rows.
-  Positions times(const Wishes& wishes, const Positions& x) const {
+  Positions times(const DataTerms& data_terms, const Positions& x) const {
     Positions y(x.rows(), 3);
     parallel_for_each(x.rows(), kElasticBlock, [&](Index i) {
       Eigen::RowVector3d sum =
-          x.row(i) * wishes.matrices[static_cast<std::size_t>(i)];  // symmetric
+          x.row(i) * data_terms.matrices[static_cast<std::size_t>(i)];  // symmetric
       for (SparseMatrix::InnerIterator entry(stiffness, i); entry; ++entry) {
         sum += entry.value() * x.row(entry.row());
       }
@@ -147,18 +147,18 @@ ElasticSolver::ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorX
     : state_(new State{stiffness, Factors(with_diagonal(stiffness, typical))}) {}
 ElasticSolver::~ElasticSolver() = default;
 
-void ElasticSolver::solve(const Wishes& wishes, const Limits& limits,
+void ElasticSolver::solve(const DataTerms& data_terms, const Limits& limits,
                           Positions& displacements) const {
-  Positions residual = wishes.right;
-  add_scaled(residual, -1, state_->times(wishes, displacements));
+  Positions residual = data_terms.right;
+  add_scaled(residual, -1, state_->times(data_terms, displacements));
   Positions preconditioned = state_->factors.solve(residual);
   Positions direction = preconditioned;
   double rho = product(residual, preconditioned);
   const double enough = limits.tolerance * limits.tolerance *
-                        product(wishes.right, state_->factors.solve(wishes.right));
+                        product(data_terms.right, state_->factors.solve(data_terms.right));
   for (int k = 0; k < limits.steps && rho > enough; ++k) {
     throw_if_interrupted();
-    const Positions image = state_->times(wishes, direction);
+    const Positions image = state_->times(data_terms, direction);
     const double curvature = product(direction, image);
     if (!(curvature > 0)) return;
     const double length = rho / curvature;

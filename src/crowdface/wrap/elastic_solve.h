@@ -29,11 +29,11 @@ SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd
 
 /// Quadratic data term of each vertex: Σ (d − offset)ᵀ W (d − offset) with one 3 by 3 matrix W per
 /// vertex.
-struct Wishes {
+struct DataTerms {
   std::vector<Eigen::Matrix3d> matrices;  ///< #V: W, symmetric, positive semidefinite
   Positions right;                        ///< #V by 3: W · offset
 
-  explicit Wishes(Index vertices)
+  explicit DataTerms(Index vertices)
       : matrices(static_cast<std::size_t>(vertices), Eigen::Matrix3d::Zero()),
         right(Positions::Zero(vertices, 3)) {}
   /// Adds along · (n · (d − offset))² + all · |d − offset|².
@@ -57,7 +57,7 @@ class ElasticSolver {
     double tolerance = 1e-3;  ///< residual relative to the right-hand side
   };
   /// Improves `displacements`, #V by 3. The result is bitwise identical for any number of threads.
-  void solve(const Wishes& wishes, const Limits& limits, Positions& displacements) const;
+  void solve(const DataTerms& data_terms, const Limits& limits, Positions& displacements) const;
 
  private:
   struct State;

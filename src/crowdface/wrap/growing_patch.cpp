@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMostPatchMm = 15;
-constexpr double kLeastRings = 12, kMostRings = 100;
+constexpr double kMaxPatchMm = 15;
+constexpr double kMinRings = 12, kMaxRings = 100;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
   double area = 0;
   for (const Triangle& t : skin.triangles) area += area_vector(rest, t).norm();
   const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
-  most_rings_ = static_cast<int>(std::clamp(kMostPatchMm / edge, kLeastRings, kMostRings));
+  max_rings_ = static_cast<int>(std::clamp(kMaxPatchMm / edge, kMinRings, kMaxRings));
 }
 
 void PatchMender::mend(std::span<const std::uint32_t> triangles,
@@ -66,7 +66,7 @@ void PatchMender::mend_around(const Triangle& triangle,
     std::ranges::sort(bad);
     return std::unique(bad.begin(), bad.end()) - bad.begin();
   };
-  for (int ring = 0; ring < most_rings_; ++ring) {
+  for (int ring = 0; ring < max_rings_; ++ring) {
     patch.grow();
     const auto before = count_bad();
     for (const double steepness : {1.0, 2.0, 4.0}) {

@@ -58,7 +58,7 @@ class PatchMender {
 
   const SkinMesh& skin_;
   FacesAround around_;  ///< triangles around each vertex of the skin
-  int most_rings_ = 0;
+  int max_rings_ = 0;
 };
 
 }  // namespace crowdface

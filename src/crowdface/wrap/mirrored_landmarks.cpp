@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastMm = 6;  ///< natural variation between people
+constexpr double kMinMm = 6;  ///< natural variation between people
 constexpr double kTimesWorse = 2.5;
 
 /// Median distance of the landmarks after the best similarity, in mm.
@@ -25,7 +25,7 @@ double residual_of(const Positions& positions, const std::vector<WrapLandmark>& 
     off.push_back((there - landmark.place).norm() / pose.scale);
   }
   const std::size_t middle = off.size() / 2;
-  return value_of_rank(std::move(off), middle);
+  return nth_smallest(std::move(off), middle);
 }
 
 /// "eye_left" for "eye_right"; the name itself if it has no side.
@@ -65,17 +65,16 @@ std::vector<WrapLandmark> with_sides_exchanged(const std::vector<WrapLandmark>& 
 
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks) {
-  constexpr std::size_t kFewest = 5;  // four points cannot reveal a reflection
-  if (landmarks.size() < kFewest) return;
+  constexpr std::size_t kMin = 5;  // four points cannot reveal a reflection
+  if (landmarks.size() < kMin) return;
   const double as_they_are = residual_of(positions, landmarks);
-  if (!(as_they_are > kLeastMm)) return;
+  if (!(as_they_are > kMinMm)) return;
   std::vector<WrapLandmark> mirrored = landmarks;
   for (WrapLandmark& landmark : mirrored) landmark.place.x() = -landmark.place.x();
   const double reflected = residual_of(positions, mirrored);
   if (!(reflected * kTimesWorse < as_they_are)) return;
   const std::vector<WrapLandmark> exchanged = with_sides_exchanged(landmarks);
-  const double swapped =
-      exchanged.size() < kFewest ? as_they_are : residual_of(positions, exchanged);
+  const double swapped = exchanged.size() < kMin ? as_they_are : residual_of(positions, exchanged);
   const std::string numbers = concat(format_fixed(std::min(reflected, swapped), 1),
                                      " mm, without to ", format_fixed(as_they_are, 1), " mm");
   if (swapped < reflected) {

@@ -23,15 +23,15 @@ namespace crowdface {
 namespace {
 
 // largest median distance of landmarks after the similarity
-constexpr double kMostMedianMm = 15;
-constexpr double kMostDistanceMm = 3;  // 95th percentile over the visible skin
-constexpr double kMostFarShare = 0.02, kMostWithoutData = 0.15, kLeastWithData = 0.02;
+constexpr double kMaxMedianMm = 15;
+constexpr double kMaxDistanceMm = 3;  // 95th percentile over the visible skin
+constexpr double kMaxFarShare = 0.02, kMaxWithoutData = 0.15, kMinWithData = 0.02;
 constexpr std::size_t kFewHeads = 8;
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  return value_of_rank(std::move(values), rank);
+  return nth_smallest(std::move(values), rank);
 }
 
 bool seen(const WrapTemplate& shape, Index v) {
@@ -82,7 +82,7 @@ nlohmann::ordered_json spread_json(const std::vector<double>& values) {
           {"95 %", rounded(percentile(values, 0.95))}};
 }
 
-constexpr double kMostFaceOffMm = 25;
+constexpr double kMaxFaceOffMm = 25;
 
 constexpr int kSidePx = 320;
 constexpr double kScaleEndMm = 2;  // end of the heat map's scale
@@ -143,18 +143,18 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   const std::vector<std::string> faults = scan_faults(shape, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
   const double share = share_far(seen_distances(shape, result));
-  if (share > kMostFarShare && faults.empty()) {
+  if (share > kMaxFarShare && faults.empty()) {
     warnings.push_back(
         concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarFromScanMm,
                " mm off the scan", farthest_region(shape, result, regions),
                ": leave out with --ignore what is no skin, or pick landmarks there"));
   }
-  if (const double lacking = share_without_data(shape, result); lacking > kMostWithoutData) {
+  if (const double lacking = share_without_data(shape, result); lacking > kMaxWithoutData) {
     warnings.push_back(concat("the scan shows nothing of ", format_fixed(100 * lacking, 0),
                               " % of the skin, which is guessed"));
   }
   const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
-  if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kFewestLandmarks)) {
+  if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     warnings.push_back(
         "no part of the scan, or of the template, has the relief of a face, so nothing says that "
         "the face lies where it "
@@ -173,28 +173,28 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
 
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                      const SkinRegions& regions) {
-  if (share_without_data(shape, result) > 1 - kLeastWithData) {
+  if (share_without_data(shape, result) > 1 - kMinWithData) {
     throw InvalidInput(
         "the scan shows nothing of the skin: is it a head, and do the landmarks, or --scan-up and "
         "--scan-front, say how it stands?");
   }
   std::vector<double> residuals;
   for (const LandmarkResidual& landmark : result.landmarks) residuals.push_back(landmark.pose_mm);
-  if (const double median = percentile(residuals, 0.5); !(median <= kMostMedianMm)) {
+  if (const double median = percentile(residuals, 0.5); !(median <= kMaxMedianMm)) {
     throw InvalidInput(concat(
         "landmarks of template and scan do not belong together: half of them stay more than ",
-        format_fixed(median, 1), " mm apart, expected less than ", kMostMedianMm,
+        format_fixed(median, 1), " mm apart, expected less than ", kMaxMedianMm,
         "; are left and right swapped, or vertices counted from 1?"));
   }
-  if (const double far = distances_of(shape, result).percentile_95; !(far <= kMostDistanceMm)) {
+  if (const double far = distances_of(shape, result).percentile_95; !(far <= kMaxDistanceMm)) {
     throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
-                              " mm off the scan, expected less than ", kMostDistanceMm,
+                              " mm off the scan, expected less than ", kMaxDistanceMm,
                               farthest_region(shape, result, regions),
                               result.landmarks.empty() ? ": pick four landmarks or more"
                                                        : ": check the landmarks, pick more of them",
                               ", or leave out with --ignore what the scan does not show as skin"));
   }
-  if (result.face_off_mm && *result.face_off_mm > kMostFaceOffMm) {
+  if (result.face_off_mm && *result.face_off_mm > kMaxFaceOffMm) {
     throw InvalidInput(
         concat("the template's face came to lie ", format_fixed(*result.face_off_mm, 0),
                " mm from the face that the scan shows: pick four landmarks or more (crowdface wrap "

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "crowdface/mesh/grouping.h"
+#include "crowdface/mesh/disjoint_sets.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/part_list.h"
 
@@ -36,7 +36,7 @@ bool degenerate(const Triangle& t) {
 
 /// For each triangle, twice the area of its connected component.
 std::vector<double> areas_of_pieces(const Scan& scan) {
-  Grouping groups(static_cast<std::size_t>(scan.positions.rows()));
+  DisjointSets groups(static_cast<std::size_t>(scan.positions.rows()));
   for (const Triangle& t : scan.triangles) {
     groups.join(t[0], t[1]);
     groups.join(t[1], t[2]);
@@ -64,9 +64,9 @@ std::vector<bool> used_vertices(const Scan& scan) {
 }
 
 std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
-                                     const Positions& positions, double least_length) {
+                                     const Positions& positions, double min_length) {
   const std::vector<Edge> edges = rim_edges(triangles);
-  Grouping rims(static_cast<std::size_t>(positions.rows()));
+  DisjointSets rims(static_cast<std::size_t>(positions.rows()));
   for (const auto& [a, b] : edges) rims.join(a, b);
   std::vector<double> length(static_cast<std::size_t>(positions.rows()), 0.0);
   for (const auto& [a, b] : edges) {
@@ -74,16 +74,16 @@ std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
   }
   std::vector<std::uint32_t> vertices;
   for (const auto& [a, b] : edges) {
-    if (length[rims.root(a)] >= least_length) vertices.insert(vertices.end(), {a, b});
+    if (length[rims.root(a)] >= min_length) vertices.insert(vertices.end(), {a, b});
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 
-Scan without_small_pieces(const Scan& scan, double least_share) {
+Scan without_small_pieces(const Scan& scan, double min_share) {
   const std::vector<double> areas = areas_of_pieces(scan);
-  const double least = least_share * largest(areas);
+  const double least = min_share * largest(areas);
   Scan kept{scan.positions, {}, scan.notes};
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (!degenerate(scan.triangles[i]) && areas[i] >= least) {

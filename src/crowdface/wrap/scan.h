@@ -18,14 +18,14 @@ struct Scan {
 /// #V: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
 
-/// The vertices of boundary loops that are at least `least_length` long, ascending: where a surface
+/// The vertices of boundary loops that are at least `min_length` long, ascending: where a surface
 /// ends.
 std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
-                                     const Positions& positions, double least_length);
+                                     const Positions& positions, double min_length);
 
-/// Removes connected components with less than `least_share` of the largest component's area, and
+/// Removes connected components with less than `min_share` of the largest component's area, and
 /// triangles with a repeated vertex. Keeps all vertices, so that vertex indices do not change.
-Scan without_small_pieces(const Scan& scan, double least_share);
+Scan without_small_pieces(const Scan& scan, double min_share);
 
 /// For a modelled head with eyeballs, removes the surfaces over skin and eyes: lashes, tear lines,
 /// shadow shells. Returns other scans unchanged.

@@ -21,13 +21,13 @@ constexpr double kClosed = 0.4;  // relative to the template's lid opening
 constexpr double kMiddle = 0.4;
 constexpr double kOpenMouthMm = 3;  // more than between the template's lips
 constexpr double kHairMm = 10;      // heads without hair differ by less
-constexpr double kMostFar = 0.05;
-constexpr std::size_t kFewest = 20;  // least number of vertices in a region
+constexpr double kMaxFar = 0.05;
+constexpr std::size_t kMin = 20;  // least number of vertices in a region
 
 std::optional<double> median(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
   const std::size_t rank = values.size() / 2;
-  return value_of_rank(std::move(values), rank);
+  return nth_smallest(std::move(values), rank);
 }
 
 /// Height of the upper lid above the lower lid at the middle of an eye.
@@ -67,7 +67,7 @@ void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const Sk
   for (std::uint32_t v = 0; v < shape.skin.vertex_count(); ++v) {
     if (regions.is(v, "mouth")) of_mouth.push_back(shape.skin.vertices[v]);
   }
-  const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
+  const HeadSet faces{shape.topology, {}, {{"template", shape.positions}}};
   const SkinContacts contacts(faces, shape.adjacency, of_mouth);
   const std::vector<double> before = contacts.gaps(shape.positions),
                             after = contacts.gaps(result.positions);
@@ -88,7 +88,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
     if (regions.is(v, "nose") || regions.is(v, "mouth")) face.push_back(v);
     if (regions.is(v, "brow")) skull.push_back(v);
   }
-  if (face.size() < kFewest || skull.size() < kFewest) return;
+  if (face.size() < kMin || skull.size() < kMin) return;
   const Similarity faces_meet =
       fit_similarity(rest(face, kAllColumns), wrapped(face, kAllColumns), ScaleFit::kUniform);
   const Positions placed = faces_meet.apply(rest);
@@ -101,7 +101,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   }
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());
   const double above = median(std::move(out)).value_or(0);
-  if (above <= kHairMm && share <= kMostFar) return;
+  if (above <= kHairMm && share <= kMaxFar) return;
   faults.push_back(concat("the scan seems to show hair or a hat: above the brows it stands ",
                           format_fixed(std::max(above, 0.0), 0),
                           " mm out beyond the template's head, and ", format_fixed(100 * share, 1),

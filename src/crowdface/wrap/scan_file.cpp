@@ -27,7 +27,7 @@ bool has_area(const Scan& scan) {
 /// Rejects scans in map coordinates stored in single precision: rounding turns the surface into
 /// steps.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
-  constexpr double kMostOfSize = 1e-3;
+  constexpr double kMaxOfSize = 1e-3;
   const std::vector<bool> used = used_vertices(scan);
   Eigen::AlignedBox3d box;
   double farthest = 0;
@@ -40,7 +40,7 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
   }
   const double size = box.diagonal().norm();
   const double step = std::ldexp(1.0, std::ilogb(farthest) - 23);
-  if (!(farthest > 0 && step > kMostOfSize * size)) return;
+  if (!(farthest > 0 && step > kMaxOfSize * size)) return;
   refuse_file(
       path, concat("numbers of ", format_fixed(farthest, 0), " in single precision go in steps of ",
                    format_fixed(step, 3), ", of a scan that is ", format_fixed(size, 1),

@@ -11,14 +11,14 @@ namespace {
 
 /// Least share of the largest component's area; smaller components are dust or hair clips. An
 /// eyeball has about a hundredth of a head's area.
-constexpr double kLeastShare = 0.001;
+constexpr double kMinShare = 0.001;
 
 constexpr double kRounded = 1e-9;  ///< barycentric coordinate that counts as zero
 
 }  // namespace
 
 ScanSurface::ScanSurface(const Scan& scan)
-    : scan_(without_small_pieces(scan, kLeastShare)),
+    : scan_(without_small_pieces(scan, kMinShare)),
       normals_(vertex_normals_or_zero(scan_.triangles, scan_.positions)),
       rim_(build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
       tree_(scan_.positions, scan_.triangles) {}
@@ -42,9 +42,9 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
 }
 
 ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                                        double least_cosine, double reach,
+                                        double min_cosine, double reach,
                                         std::uint32_t guess) const {
-  return place_of(tree_.nearest_facing(point, facing, least_cosine, reach, guess));
+  return place_of(tree_.nearest_facing(point, facing, min_cosine, reach, guess));
 }
 
 ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, double reach,
@@ -64,7 +64,7 @@ double outlier_distance(std::vector<double> distances, double reach) {
   const double least = 0.5 * reach;
   if (distances.empty()) return least;
   const std::size_t middle = distances.size() / 2;
-  return std::max(least, 4.5 * value_of_rank(std::move(distances), middle));
+  return std::max(least, 4.5 * nth_smallest(std::move(distances), middle));
 }
 
 }  // namespace crowdface

@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// Least cosine between compatible normals: within 60°.
-inline constexpr double kLeastCosine = 0.5;
+inline constexpr double kMinCosine = 0.5;
 
 /// A scan prepared for closest-point queries.
 class ScanSurface {
@@ -29,9 +29,9 @@ class ScanSurface {
     bool on_rim = false;
     std::uint32_t triangle = kNoIndex;
   };
-  /// The closest point whose surface normal is within `least_cosine` of the unit vector `facing`.
+  /// The closest point whose surface normal is within `min_cosine` of the unit vector `facing`.
   /// \param guess  a triangle that is probably the closest, or kNoIndex.
-  Place nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing, double least_cosine,
+  Place nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing, double min_cosine,
                 double reach, std::uint32_t guess = kNoIndex) const;
   /// The closest point regardless of the surface normal.
   Place nearest(const Eigen::Vector3d& point, double reach, std::uint32_t guess = kNoIndex) const;

@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMostProbes = 3000;  ///< vertices sampled in each step
-constexpr double kKept = 0.8;              ///< share of the correspondences that is kept
+constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
+constexpr double kKept = 0.8;             ///< share of the correspondences that is kept
 constexpr Index kPoseUnknowns = 7;
 constexpr double kGrowth = 0.02;  ///< standard deviation of the scale once a model is fitted
 
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> choose_probes(const SkinMesh& skin) {
   for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
     if (skin.openness[v] > kOpenEnough) open.push_back(v);
   }
-  return some_of(open, kMostProbes);
+  return evenly_spaced_items(open, kMaxProbes);
 }
 
 std::vector<Match> find_matches(const Positions& placed, const Positions& normals,
@@ -43,7 +43,7 @@ std::vector<Match> find_matches(const Positions& placed, const Positions& normal
   parallel_for_each(probes.size(), 128, [&](std::size_t i) {
     const std::uint32_t v = probes[i];
     const Eigen::Vector3d point = row3(placed, v);
-    const auto place = scan.nearest(point, row3(normals, v), kLeastCosine, reach, found[i]);
+    const auto place = scan.nearest(point, row3(normals, v), kMinCosine, reach, found[i]);
     found[i] = place.triangle;
     if (place.found) matches[i] = {v, place.point - point, place.normal, place.distance};
   });
@@ -55,7 +55,7 @@ void leave_out_farthest(std::vector<Match>& matches) {
   std::vector<double> distances;
   for (const Match& match : matches) distances.push_back(match.distance);
   const auto rank = static_cast<std::size_t>(kKept * static_cast<double>(distances.size() - 1));
-  const double most = value_of_rank(std::move(distances), rank);
+  const double most = nth_smallest(std::move(distances), rank);
   std::erase_if(matches, [&](const Match& match) { return match.distance > most; });
 }
 
@@ -66,8 +66,8 @@ class Equations {
   explicit Equations(Index modes)
       : matrix_(Eigen::MatrixXd::Zero(kPoseUnknowns + modes, kPoseUnknowns + modes)),
         right_(Eigen::VectorXd::Zero(kPoseUnknowns + modes)),
-        rows_(kPoseUnknowns + modes, kMostRows),
-        values_(kMostRows) {}
+        rows_(kPoseUnknowns + modes, kMaxRows),
+        values_(kMaxRows) {}
 
   /// Adds |W (J · unknowns − value)|² with J 3 by #unknowns.
   void add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& jacobian, const Eigen::Vector3d& value,
@@ -75,7 +75,7 @@ class Equations {
     rows_.middleCols<3>(count_) = (weight * jacobian).transpose();
     values_.segment<3>(count_) = weight * value;
     count_ += 3;
-    if (count_ == kMostRows) take_up();
+    if (count_ == kMaxRows) take_up();
   }
   void hold(Index unknown, double value, double weight) {
     matrix_(unknown, unknown) += weight;
@@ -87,7 +87,7 @@ class Equations {
   }
 
  private:
-  static constexpr Index kMostRows = 384;
+  static constexpr Index kMaxRows = 384;
 
   void take_up() {
     if (count_ == 0) return;  // Eigen divides by the count
@@ -98,7 +98,7 @@ class Equations {
 
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_;
-  Eigen::MatrixXd rows_;  ///< #unknowns by kMostRows
+  Eigen::MatrixXd rows_;  ///< #unknowns by kMaxRows
   Eigen::VectorXd values_;
   Index count_ = 0;
 };
@@ -220,7 +220,7 @@ ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurf
     const auto place = scan.nearest(placed.row(v).transpose(), 1e300);
     if (!place.on_rim) distances.push_back(place.distance / fit.pose.scale);
   }
-  if (!distances.empty()) fit.residual = value_of_rank(distances, distances.size() / 2);
+  if (!distances.empty()) fit.residual = nth_smallest(distances, distances.size() / 2);
   return fit;
 }
 

@@ -140,7 +140,7 @@ std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
   std::vector<Asked> asked(places.size());
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
     const std::uint32_t v = places[i];
-    const auto place = scan.nearest(row3(positions, v), row3(normals, v), kLeastCosine, reach);
+    const auto place = scan.nearest(row3(positions, v), row3(normals, v), kMinCosine, reach);
     if (!place.found) return;
     const double off = place.normal.dot(place.point - row3(positions, v));
     asked[i] = {v, place.normal, place.normal.dot(place.point - row3(model.mean, v)), off};

@@ -16,7 +16,7 @@ struct SkinMesh {
   std::vector<std::uint32_t> vertices;  ///< rows of the template, ascending
   std::vector<Triangle> triangles;      ///< indices into `vertices`
   Adjacency adjacency;                  ///< neighbours along edges
-  std::vector<double> openness;         ///< #vertices, 0 … 1: see `vertex_openness`
+  std::vector<double> openness;         ///< #vertices, 0 … 1: see `vertex_visibility`
 
   Index vertex_count() const { return static_cast<Index>(vertices.size()); }
   /// The rows of the template's positions that belong to the skin.
@@ -26,8 +26,8 @@ struct SkinMesh {
 /// The share of unoccluded rays from each vertex into its outer hemisphere: 0 inside mouth, nose
 /// and eye sockets, near 1 on a forehead.
 /// \param triangles  occluders, including the skin.
-std::vector<double> vertex_openness(const Positions& positions, const Positions& normals,
-                                    const std::vector<Triangle>& triangles,
-                                    const std::vector<std::uint32_t>& vertices);
+std::vector<double> vertex_visibility(const Positions& positions, const Positions& normals,
+                                      const std::vector<Triangle>& triangles,
+                                      const std::vector<std::uint32_t>& vertices);
 
 }  // namespace crowdface

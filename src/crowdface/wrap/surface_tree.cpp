@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kMostInLeaf = 4;
+constexpr std::uint32_t kMaxInLeaf = 4;
 constexpr std::size_t kDeepestTree = 64;  // enough for a tree that halves at every level
 
 }  // namespace
@@ -38,7 +38,7 @@ SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>
     centres.row(t) = positions.row(a) + positions.row(b) + positions.row(c);
     if (!area_vector(positions, triangles[t]).normalized().isZero()) rows.push_back(t);
   }
-  tree_ = MedianSplitTree(std::move(rows), centres, kMostInLeaf);
+  tree_ = MedianSplitTree(std::move(rows), centres, kMaxInLeaf);
   for (const auto& [begin, end, second] : tree_.nodes) {
     Eigen::AlignedBox3d& box = boxes_.emplace_back();
     for (const std::uint32_t t : std::span(tree_.order).subspan(begin, end - begin)) {
@@ -100,9 +100,8 @@ SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,
 }
 
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                                       double least_cosine, double reach,
-                                       std::uint32_t guess) const {
-  const auto accept = [&](std::uint32_t t) { return facing_[t].dot(facing) >= least_cosine; };
+                                       double min_cosine, double reach, std::uint32_t guess) const {
+  const auto accept = [&](std::uint32_t t) { return facing_[t].dot(facing) >= min_cosine; };
   if (guess != kNoIndex && !accept(guess)) guess = kNoIndex;
   return search(point, on_triangle(guess, point, reach), accept);
 }

@@ -38,12 +38,11 @@ class SurfaceTree {
   /// the search.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
-  /// The closest point among triangles whose normal has at least `least_cosine` with the unit
+  /// The closest point among triangles whose normal has at least `min_cosine` with the unit
   /// vector `facing`. The normal of a triangle here is the mean of its corners' vertex normals,
   /// which smooths noise and crease edges.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                            double least_cosine, double reach,
-                            std::uint32_t guess = kNoIndex) const;
+                            double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
 
  private:
   /// The closest point of one triangle; none beyond the reach.

@@ -8,12 +8,12 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLeastArea = 0.025;  // the validity check counts triangles below 0.02
+constexpr double kMinArea = 0.025;  // the validity check counts triangles below 0.02
 
 bool is_folded(const Positions& rest, const Positions& positions, const Triangle& t) {
   const Eigen::Vector3d was = area_vector(rest, t), is = area_vector(positions, t);
   if (was.isZero()) return false;
-  return was.dot(is) <= 0 || is.norm() < kLeastArea * was.norm();
+  return was.dot(is) <= 0 || is.norm() < kMinArea * was.norm();
 }
 
 }  // namespace

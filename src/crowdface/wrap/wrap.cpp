@@ -25,7 +25,7 @@ namespace {
 
 /// Least share of mirrored vertices in a symmetric head.
 constexpr double kMirroredShare = 0.9;
-constexpr double kLeastOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier is in medians
+constexpr double kMinOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier is in medians
 
 /// Converts landmarks from rows of the template to rows of the skin; drops landmarks outside the
 /// skin.
@@ -61,7 +61,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
     all.push_back(residuals[i].final_mm);
   }
   if (all.empty()) return;
-  const double most = std::max(kLeastOutlierMm, kOutlier * value_of_rank(all, all.size() / 2));
+  const double most = std::max(kMinOutlierMm, kOutlier * nth_smallest(all, all.size() / 2));
   for (LandmarkResidual& residual : residuals) residual.outlier = residual.final_mm > most;
 }
 
@@ -116,12 +116,12 @@ Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel*
 Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTemplate& shape,
                       const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
                       const std::optional<PoseHint>& hint) {
-  if (landmarks.size() >= kFewestLandmarks) {
+  if (landmarks.size() >= kMinLandmarks) {
     refuse_mirrored_landmarks(rest, landmarks);
     return pose_of_landmarks(rest, landmarks);
   }
   if (!hint) {
-    throw InvalidInput(concat("expected at least ", kFewestLandmarks,
+    throw InvalidInput(concat("expected at least ", kMinLandmarks,
                               " landmarks on template and scan, or which way the scan looks "
                               "(--scan-up, --scan-front), found ",
                               landmarks.size(), " landmarks"));
@@ -218,7 +218,7 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   for (Index v = 0; v < wrapped.rows(); ++v) {
     result.positions.row(skin.vertices[static_cast<std::size_t>(v)]) = wrapped.row(v);
   }
-  const FaceSet faces{shape.topology, {}, {{"template", shape.positions}}};
+  const HeadSet faces{shape.topology, {}, {{"template", shape.positions}}};
   PartFollower(faces, shape.parts, shape.axes).follow(0, result.positions);
   return result;
 }
@@ -228,7 +228,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   const CentredScan moved = centred(scan, landmarks);
   std::optional<PoseHint> standing = hint;
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
-  if (standing && picked >= static_cast<std::ptrdiff_t>(kFewestLandmarks)) {
+  if (standing && picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     standing->face.reset();
   } else if (standing && !standing->face) {
     standing->face = find_scan_face(scan, hint);
@@ -245,7 +245,7 @@ std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const 
                                                const std::optional<PoseHint>& hint) {
   constexpr std::size_t kOneByOne = 12, kFolds = 4;
   std::map<std::string, double> unseen;
-  if (!hint && landmarks.size() <= kFewestLandmarks) return unseen;
+  if (!hint && landmarks.size() <= kMinLandmarks) return unseen;
   const std::size_t folds = landmarks.size() < kOneByOne ? landmarks.size() : kFolds;
   for (std::size_t fold = 0; fold < folds; ++fold) {
     std::vector<WrapLandmark> known, left_out;

@@ -40,13 +40,13 @@ struct WrapResult {
 /// symmetric, adds the mirror images of the heads.
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 
-inline constexpr std::size_t kFewestLandmarks = 4;  ///< landmarks needed to determine the pose
+inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determine the pose
 
 /// Deforms the template's skin onto the scan; eyes, teeth and lashes follow.
 /// \param model  of the template's skin, in its frame and in millimetres; or nullptr.
 /// \param landmarks  vertices of the whole template, positions in the scan's frame; the function
 /// ignores landmarks outside the skin.
-/// \throws InvalidInput if there are fewer than kFewestLandmarks and no hint, or if the scan has no
+/// \throws InvalidInput if there are fewer than kMinLandmarks and no hint, or if the scan has no
 /// data near the landmarks.
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);

@@ -11,21 +11,21 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kFewestVertices = 100;
+constexpr Index kMinVertices = 100;
 
 /// Computes the openness of the skin; for a large skin, only at the vertices of its reduced skin.
 void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
   const Positions normals = vertex_normals(shape.topology, shape.positions);
   const std::vector<Triangle> solid = solid_triangles(shape);
   SkinMesh& skin = shape.skin;
-  if (skin.vertices.size() <= options.most_vertices) {
-    skin.openness = vertex_openness(shape.positions, normals, solid, skin.vertices);
+  if (skin.vertices.size() <= options.max_vertices) {
+    skin.openness = vertex_visibility(shape.positions, normals, solid, skin.vertices);
     return;
   }
   shape.reduced = reduce_skin(skin, skin.of(shape.positions), options.reduced_vertices);
   std::vector<std::uint32_t> rows;
   for (const std::uint32_t v : shape.reduced->mesh.vertices) rows.push_back(skin.vertices[v]);
-  shape.reduced->mesh.openness = vertex_openness(shape.positions, normals, solid, rows);
+  shape.reduced->mesh.openness = vertex_visibility(shape.positions, normals, solid, rows);
   skin.openness = shape.reduced->carry(shape.reduced->mesh.openness);
 }
 
@@ -46,8 +46,8 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
     result.skin.vertices =
         renumber({triangles.front().data(), 3 * triangles.size()}, topology.vertex_count);
   }
-  if (result.skin.vertex_count() < kFewestVertices) {
-    throw InvalidInput(concat("expected a template with skin of at least ", kFewestVertices,
+  if (result.skin.vertex_count() < kMinVertices) {
+    throw InvalidInput(concat("expected a template with skin of at least ", kMinVertices,
                               " vertices, found ", result.skin.vertex_count()));
   }
   result.skin.adjacency =

@@ -26,9 +26,9 @@ struct WrapTemplate {
 };
 
 struct TemplateOptions {
-  /// Skins with more than `most_vertices` vertices are deformed through a reduced skin with about
+  /// Skins with more than `max_vertices` vertices are deformed through a reduced skin with about
   /// `reduced_vertices` vertices.
-  std::size_t most_vertices = 20000, reduced_vertices = 12000;
+  std::size_t max_vertices = 20000, reduced_vertices = 12000;
 };
 
 /// Finds skin and parts.

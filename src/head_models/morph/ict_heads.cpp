@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostModes = 1000;
+constexpr std::size_t kMaxModes = 1000;
 constexpr double kLimit = 2;  // largest weight of a mode, in standard deviations
 
 std::vector<fs::path> identity_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  while (files.size() < kMostModes) {
+  while (files.size() < kMaxModes) {
     const fs::path file = folder / concat("identity", zero_padded(files.size(), 3), ".obj");
     if (!is_file(file)) break;
     files.push_back(file);

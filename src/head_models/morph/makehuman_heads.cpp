@@ -126,7 +126,7 @@ std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
   return rows;
 }
 
-void MakeHumanHeads::wear(std::vector<WornPart> parts) {
+void MakeHumanHeads::wear(std::vector<ClothingPart> parts) {
   // Keep the faces of the skin, the first material.
   const Topology& naked = mesh_.head.topology;
   Topology topology;
@@ -157,13 +157,13 @@ void MakeHumanHeads::wear(std::vector<WornPart> parts) {
     uvs.bottomRows(mesh.uvs.rows()) = mesh.uvs;
   }
   topology.vertex_count = vertices;
-  worn_ = std::move(parts);
+  placed_ = std::move(parts);
   neutral_ = {std::move(topology), dressed(mesh_.file_positions), std::move(uvs)};
 }
 
 Positions MakeHumanHeads::dressed(const Positions& base) const {
   Positions head = base(skin_, kAllColumns);
-  for (const WornPart& part : worn_) {
+  for (const ClothingPart& part : placed_) {
     const Positions more = part.mesh.on(base);
     head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
     head.bottomRows(more.rows()) = more;
@@ -183,7 +183,7 @@ Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) con
   for (const TargetWeight& target : makehuman_targets(person, seed, index)) {
     targets_.add(target, rows, base);
   }
-  if (!worn_.empty()) return dressed(base);
+  if (!placed_.empty()) return dressed(base);
   return in_frame(base(mesh_.rows, kAllColumns), base);
 }
 

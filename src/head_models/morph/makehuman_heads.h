@@ -27,7 +27,7 @@ struct MakeHumanMesh {
 MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 
 /// A fitted mesh that is part of every head.
-struct WornPart {
+struct ClothingPart {
   std::string material;  ///< "eyelashes"
   FittedMesh mesh;
 };
@@ -42,7 +42,7 @@ class MakeHumanHeads : public HeadModel {
   explicit MakeHumanHeads(const std::filesystem::path& package);
   /// Adds these parts to all heads and removes the base mesh's eyeballs. The skin keeps its
   /// vertices, bit for bit.
-  void wear(std::vector<WornPart> parts);
+  void wear(std::vector<ClothingPart> parts);
 
   /// Returns all vertices of the base mesh, including helpers and joints: decimetres, as in its
   /// file.
@@ -66,7 +66,7 @@ class MakeHumanHeads : public HeadModel {
   MorphTargets targets_;
   std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs in the base mesh
   std::vector<std::uint32_t> skin_;  ///< after wear(): rows of the skin in the base mesh
-  std::vector<WornPart> worn_;
+  std::vector<ClothingPart> placed_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;
   FaceHeights heights_;

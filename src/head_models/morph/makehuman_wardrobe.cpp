@@ -102,8 +102,8 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
       refuse_file(file, concat("expected an eyeball on either side, found none on the ",
                                right ? "right" : "left"));
     }
-    parts.worn.push_back({right ? "eyeball_r" : "eyeball_l", eyes});
-    parts.worn.back().mesh.keep(kept);
+    parts.clothing.push_back({right ? "eyeball_r" : "eyeball_l", eyes});
+    parts.clothing.back().mesh.keep(kept);
   }
 }
 
@@ -233,10 +233,10 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
     FittedMesh mesh = read_free(file, base.rows());
     picture = only_picture(mesh, file);
     licence = mesh.licence;
-    parts.worn.push_back({material, std::move(mesh)});
+    parts.clothing.push_back({material, std::move(mesh)});
   };
   add("eyelashes", "Eyelashes01", "eyelashes", parts.lashes, parts.lashes_licence);
-  parts.worn.back().mesh.hold_to(skin, base);
+  parts.clothing.back().mesh.hold_to(skin, base);
   add("teeth", "Teeth_Base", "teeth", parts.teeth, parts.teeth_licence);
   add("tongue", "tongue01", "tongue", parts.tongue, parts.tongue_licence);
   return parts;

@@ -33,7 +33,7 @@ std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t se
 
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
-  std::vector<WornPart> worn;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
+  std::vector<ClothingPart> clothing;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
   std::vector<FittedMesh::Picture> eye_colours;
   std::filesystem::path lashes, teeth, tongue;  ///< textures
   AssetLicence eyes_licence, lashes_licence, teeth_licence, tongue_licence;

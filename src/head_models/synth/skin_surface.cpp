@@ -59,7 +59,7 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
   }
   if (steps.empty()) return 1;
   const std::size_t middle = steps.size() / 2;
-  return value_of_rank(std::move(steps), middle);
+  return nth_smallest(std::move(steps), middle);
 }
 
 std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,

@@ -16,13 +16,13 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kFewest = 5000, kMost = 1200000;
+constexpr Index kMin = 5000, kMax = 1200000;
 constexpr std::size_t kVerticesPerBlock = 1024;
 
 }  // namespace
 
 SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp) : scalp_(scalp) {
-  require(vertices >= kFewest && vertices <= kMost, "synthetic heads of ", vertices, " vertices");
+  require(vertices >= kMin && vertices <= kMax, "synthetic heads of ", vertices, " vertices");
   // The smallest layout, 5,000 vertices, has edges of 5 mm.
   const auto edge_of = [](Index count) {
     return 0.5 * std::sqrt(5000.0 / static_cast<double>(count));

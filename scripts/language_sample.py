@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Draws comments, identifiers and sentences of the docs at random, for the check that docs, comments and names need
+one reading: give the output to a reader who does not know the project, and count what needed a second one.
+
+  scripts/language_sample.py [--seed 1] [--count 100]
+"""
+import argparse
+import pathlib
+import random
+import re
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def sources(*endings):
+    return sorted(p for p in (ROOT / "src").rglob("*") if p.suffix in endings)
+
+
+def comments():
+    """Blocks of consecutive comment lines, with the first line of code after them."""
+    for path in sources(".h", ".cpp"):
+        block = []
+        for line in path.read_text().split("\n"):
+            text = line.strip()
+            if text.startswith("//") and "SPDX" not in text:
+                block.append(text.lstrip("/< ").rstrip())
+            elif block:
+                yield f"{path.relative_to(ROOT)}: {' '.join(block)}    [{text}]"
+                block = []
+
+
+def identifiers():
+    """Declarations in headers, with their file."""
+    declaration = re.compile(r"^\s*(?:class|struct|enum class|[\w:<>,&*\s\[\]]+?[\s&*])(\w{3,})\s*[({=;]")
+    for path in sources(".h"):
+        for line in path.read_text().split("\n"):
+            code = line.split("//")[0].rstrip()
+            match = declaration.match(code)
+            if match and not code.lstrip().startswith(("#", "namespace", "return", "using", "}", "if", "for", "static_assert")):
+                yield f"{path.relative_to(ROOT)}: {code.strip()}"
+
+
+def sentences():
+    """Sentences of the docs, without code blocks, tables and headings."""
+    for path in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]:
+        prose = re.sub(r"```.*?```", "", path.read_text(), flags=re.S)
+        for paragraph in re.split(r"\n\s*\n", prose):
+            if re.match(r"\s*[#|!<]", paragraph):
+                continue
+            text = " ".join(line.strip(" -*") for line in paragraph.split("\n"))
+            for sentence in re.split(r"(?<=[.!?]) +(?=[A-Z`\[])", text):
+                if len(sentence.split()) > 4:
+                    yield f"{path.relative_to(ROOT)}: {sentence}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=100)
+    options = parser.parse_args()
+    draw = random.Random(options.seed)
+    kinds = [list(kind) for kind in (comments(), identifiers(), sentences())]
+    for number in range(1, options.count + 1):
+        print(f"{number}. {draw.choice(kinds[number % len(kinds)])}")
+
+
+if __name__ == "__main__":
+    main()

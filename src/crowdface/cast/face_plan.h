@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/blend/recipe.h"
+
+namespace crowdface {
+
+/// The nearest neighbours of a face; for information only.
+struct Nearest {
+  Index head = 0;  ///< the nearest input head
+  double head_mm = 0;
+  std::optional<std::string> crowd;  ///< the nearest earlier face in the plan
+  double crowd_mm = 0;
+};
+
+/// How a face was found. Meshes do not depend on it.
+struct CastingNotes {
+  std::uint32_t attempt = 0;  ///< number of rejected draws before this one
+  std::optional<Nearest> nearest;
+  std::optional<std::string> review;  ///< a reviewer's note
+};
+
+/// A face of a crowd: one line of its plan.
+struct FacePlan {
+  std::string id;
+  std::optional<std::uint64_t> index;  ///< from 1; empty if the face is not sampled
+  std::optional<std::string> family;
+  std::optional<std::string> group;
+  Recipe recipe;
+  std::optional<double> age;  ///< −1 … 1, if the face was aged
+  /// mother and father, if the family has parents: names of heads or ids of faces
+  std::vector<std::string> parents;
+  /// with parents, #regions by #bands: whose detail the face has
+  std::vector<std::string> inherits;
+  double mother_share = 0;  ///< mother's share of the large forms, if these are inherited
+  std::vector<std::string> attachments;  ///< names
+  CastingNotes notes;
+};
+
+}  // namespace crowdface

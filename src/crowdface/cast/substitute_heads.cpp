@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/substitute_heads.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "crowdface/core/contains.h"
+
+namespace crowdface {
+namespace {
+
+/// Returns the mean point of the heads inside a group, or outside.
+Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
+  Eigen::VectorXf sum = Eigen::VectorXf::Zero(space.dimensions());
+  float count = 0;
+  for (Index head = 0; head < space.head_count(); ++head) {
+    if (contains(group, head) != inside) continue;
+    sum += space.head_point(head).as_built;
+    count += 1;
+  }
+  return count > 0 ? Eigen::VectorXf(sum / count) : sum;
+}
+
+}  // namespace
+
+std::size_t common_tags(const std::vector<std::string>& one,
+                        const std::vector<std::string>& other) {
+  return static_cast<std::size_t>(
+      std::count_if(one.begin(), one.end(), [&](const auto& tag) { return contains(other, tag); }));
+}
+
+SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
+                                 const std::vector<Index>& taken, const FaceSpace& space) {
+  const Eigen::VectorXf apart = mean_place(space, group, true) - mean_place(space, group, false);
+  for (Index head = 0; head < space.head_count(); ++head) {
+    if (contains(group, head)) {
+      of_head_.push_back(head);
+      continue;
+    }
+    const Eigen::VectorXf place = space.head_point(head).as_built + apart;
+    const auto rank = [&](Index other) {
+      const std::size_t common = tags.empty() ? 0
+                                              : common_tags(tags[static_cast<std::size_t>(head)],
+                                                            tags[static_cast<std::size_t>(other)]);
+      return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(taken, other),
+                        (space.head_point(other).as_built - place).norm());
+    };
+    of_head_.push_back(*std::min_element(group.begin(), group.end(),
+                                         [&](Index a, Index b) { return rank(a) < rank(b); }));
+  }
+}
+
+std::vector<SourceWeight> SubstituteHeads::of(const std::vector<SourceWeight>& shares) const {
+  if (has_all(shares)) return shares;
+  std::map<Index, double> sums;
+  for (const SourceWeight& share : shares) {
+    sums[of_head_[static_cast<std::size_t>(share.head)]] += share.weight;
+  }
+  std::vector<SourceWeight> result;
+  for (const auto& [head, weight] : sums) result.push_back({head, weight});
+  return result;
+}
+
+bool SubstituteHeads::has_all(const std::vector<SourceWeight>& shares) const {
+  return of_head_.empty() || std::all_of(shares.begin(), shares.end(), [&](const auto& share) {
+           return of_head_[static_cast<std::size_t>(share.head)] == share.head;
+         });
+}
+
+}  // namespace crowdface

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/cast/face_space.h"
+#include "crowdface/cast/typical_head.h"
+
+namespace crowdface {
+
+/// Substitutes heads outside a group by similar heads of the group: if daughters are made of
+/// women's heads, a woman's head stands for each head of the father. The substitute has the most
+/// tags in common with the original; then it is preferably not a head of a parent; then it is the
+/// nearest in shape, after the difference between the mean of the group and the mean of all other
+/// heads is removed.
+class SubstituteHeads {
+ public:
+  /// No head is substituted.
+  SubstituteHeads() = default;
+  /// \param group  Heads of the group; ascending, not empty.
+  /// \param tags   #heads, or empty if unknown.
+  /// \param taken  Heads of the parents.
+  SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
+                  const std::vector<Index>& taken, const FaceSpace& space);
+
+  /// Returns weights with each head replaced by its substitute.
+  ///
+  /// \param shares  Weights, by ascending head.
+  std::vector<SourceWeight> of(const std::vector<SourceWeight>& shares) const;
+  /// Returns whether the group contains every head that has a share.
+  bool has_all(const std::vector<SourceWeight>& shares) const;
+
+ private:
+  std::vector<Index> of_head_;  ///< #heads: substitute of each head; or empty
+};
+
+/// Returns how many tags two heads have in common.
+std::size_t common_tags(const std::vector<std::string>& one, const std::vector<std::string>& other);
+
+}  // namespace crowdface

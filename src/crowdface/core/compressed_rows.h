@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace crowdface {
+
+/// Items in numbered groups, stored contiguously by group (compressed rows).
+template <class T>
+struct CompressedRows {
+  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 positions in `items`
+  std::vector<T> items;                      ///< group g is [offsets[g], offsets[g + 1])
+
+  std::size_t group_count() const { return offsets.size() - 1; }
+  template <std::integral Number>
+  std::span<const T> of(Number group) const {
+    const T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
+    return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
+  }
+  template <std::integral Number>
+  std::span<T> of(Number group) {
+    T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
+    return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
+  }
+  void reserve(std::size_t groups, std::size_t item_count) {
+    offsets.reserve(groups + 1);
+    items.reserve(item_count);
+  }
+  void add_group(std::span<const T> group) {
+    items.insert(items.end(), group.begin(), group.end());
+    offsets.push_back(static_cast<std::uint32_t>(items.size()));
+  }
+};
+
+/// Builds the groups by a counting sort. Items keep their order within a group.
+/// \param visit  visit(put) calls put(group, item) for each item. Called twice; both calls must
+///               visit the same items in the same order.
+template <class T, class Visit>
+CompressedRows<T> compressed_rows(std::size_t groups, const Visit& visit) {
+  CompressedRows<T> result{.offsets = std::vector<std::uint32_t>(groups + 1, 0), .items = {}};
+  visit([&](std::size_t group, const T&) { ++result.offsets[group + 1]; });
+  for (std::size_t g = 0; g < groups; ++g) result.offsets[g + 1] += result.offsets[g];
+  result.items.resize(result.offsets.back());
+  std::vector<std::uint32_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  visit([&](std::size_t group, const T& item) { result.items[next[group]++] = item; });
+  return result;
+}
+
+}  // namespace crowdface

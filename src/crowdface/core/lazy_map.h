@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace crowdface {
+
+/// Values computed on first request and kept. Thread-safe. No lock is held during the computation,
+/// because it may run parallel loops. Two threads may therefore compute the same value; the first
+/// result is kept.
+template <class Key, class Value>
+class LazyMap {
+ public:
+  /// \param make  returns a std::unique_ptr to the value.
+  /// \return     a reference that stays valid as long as this object.
+  template <class Make>
+  const Value& get(const Key& key, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = made_.find(key);
+      if (found != made_.end()) return *found->second;
+    }
+    std::unique_ptr<const Value> made = make();
+    const std::lock_guard lock(mutex_);
+    return *made_.try_emplace(key, std::move(made)).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, std::unique_ptr<const Value>> made_;
+};
+
+}  // namespace crowdface

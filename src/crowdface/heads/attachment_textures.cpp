@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/attachment_textures.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/io/tile_files.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+using TilePlace = std::array<std::int32_t, 2>;
+
+/// The UDIM tile of a polygon, determined by its centroid, so that corners may lie on a tile's
+/// border. The first tile if the polygon has no texture coordinates or lies outside all tiles.
+TilePlace tile_of(const HeadSet& faces, Index face) {
+  Eigen::RowVector2d sum(0, 0);
+  double corners = 0;
+  for (const std::uint32_t uv : faces.topology.face_uvs(face)) {
+    if (uv == kNoIndex) return {0, 0};
+    sum += faces.uvs.row(uv);
+    corners += 1;
+  }
+  const Eigen::RowVector2d middle = sum / corners;
+  if (!(middle.minCoeff() >= 0 && middle.x() < 10 && middle.y() < 900)) return {0, 0};
+  return {static_cast<std::int32_t>(middle.x()), static_cast<std::int32_t>(middle.y())};
+}
+
+AttachmentTextures attachments_of(const std::map<std::string, fs::path>& of_material,
+                                  const std::vector<TilePlace>& tiles,
+                                  const std::vector<MaterialRange>& ranges,
+                                  std::vector<fs::path>& missing) {
+  AttachmentTextures placed;
+  if (of_material.empty()) return placed;
+  placed.of_face.assign(tiles.size(), kNoIndex);
+  const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
+  std::map<fs::path, std::uint32_t> rows;
+  for (std::size_t f = 0; f < tiles.size(); ++f) {
+    throw_if_interrupted();
+    const std::uint32_t material = materials.of_face[f];
+    if (f > 0 && material == materials.of_face[f - 1] && tiles[f] == tiles[f - 1]) {
+      placed.of_face[f] = placed.of_face[f - 1];
+      continue;
+    }
+    const auto found = of_material.find(materials.names[material]);
+    if (found == of_material.end()) continue;
+    const fs::path path = with_tile(found->second, tile_number(tiles[f][0], tiles[f][1]));
+    const auto [row, is_new] = rows.emplace(path, kNoIndex);
+    if (is_new && is_file(path)) {
+      row->second = static_cast<std::uint32_t>(placed.files.size());
+      placed.files.push_back({path, found->second});
+    } else if (is_new && !find_tiles(found->second).empty()) {
+      // other missing files were reported by the reader of the material file
+      missing.push_back(path);
+    }
+    placed.of_face[f] = row->second;
+  }
+  return placed;
+}
+
+}  // namespace
+
+bool HeadsTextures::any() const {
+  return std::ranges::any_of(
+      heads, [](const AttachmentTextures& placed) { return !placed.files.empty(); });
+}
+
+bool HeadsTextures::differ() const {
+  const auto paths_of = [](const AttachmentTextures& placed) {
+    std::vector<fs::path> paths;
+    for (const AttachmentTextures::File& file : placed.files) paths.push_back(file.path);
+    return paths;
+  };
+  const AttachmentTextures* first = nullptr;
+  for (const AttachmentTextures& placed : heads) {
+    if (placed.files.empty()) continue;
+    if (first == nullptr) first = &placed;
+    if (paths_of(placed) != paths_of(*first)) return true;
+  }
+  return false;
+}
+
+void leave_out(HeadsTextures& textures, const std::set<fs::path>& files) {
+  for (AttachmentTextures& placed : textures.heads) {
+    std::vector<std::uint32_t> row(placed.files.size(), kNoIndex);
+    std::vector<AttachmentTextures::File> kept;
+    for (std::size_t i = 0; i < placed.files.size(); ++i) {
+      if (files.contains(placed.files[i].path)) continue;
+      row[i] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(placed.files[i]);
+    }
+    placed.files = std::move(kept);
+    for (std::uint32_t& file : placed.of_face) {
+      if (file != kNoIndex) file = row[file];
+    }
+  }
+}
+
+std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
+  std::vector<std::string> warnings;
+  std::set<fs::path> seen, unreadable;
+  for (const AttachmentTextures& placed : textures.heads) {
+    for (const AttachmentTextures::File& file : placed.files) {
+      if (!seen.insert(file.path).second) continue;
+      try {
+        read_image_size(file.path, {.jpeg = true});
+      } catch (const InvalidInput& error) {
+        unreadable.insert(file.path);
+        warnings.push_back(concat(error.what(), "; the texture is neither blended nor shown"));
+      }
+    }
+  }
+  leave_out(textures, unreadable);
+  return warnings;
+}
+
+std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
+                                                    std::span<const ObjFile> files) {
+  const Index face_count = faces.topology.face_count();
+  const bool has_uvs = !faces.topology.corner_uvs.empty();
+  std::vector<TilePlace> tile(static_cast<std::size_t>(face_count), TilePlace{0, 0});
+  if (has_uvs) {
+    constexpr Index kBlock = 16384;
+    parallel_for_each(face_count, kBlock,
+                      [&](Index f) { tile[static_cast<std::size_t>(f)] = tile_of(faces, f); });
+  }
+  // Heads in one folder mostly share their material files.
+  std::map<std::pair<fs::path, std::vector<std::string>>, NamedTextures> known;
+  std::vector<const NamedTextures*> of_head;
+  std::set<TextureKind> kinds = {TextureKind::kColour};
+  for (const ObjFile& file : files) {
+    const auto [entry, is_new] =
+        known.try_emplace({file.material_path().parent_path(), file.material_libraries});
+    NamedTextures& named = entry->second;
+    if (is_new) {
+      named = find_textures(file.material_path(), file.material_libraries);
+      if (!has_uvs) named.of_kind.clear();
+    }
+    for (const auto& [kind, of_material] : named.of_kind) kinds.insert(kind);
+    of_head.push_back(&named);
+  }
+  std::vector<HeadsTextures> all;
+  for (const TextureKind kind : kinds) {
+    HeadsTextures result{kind, {}, tile, {}};
+    std::map<std::string, std::vector<std::string>> heads_of_warning;
+    for (std::size_t h = 0; h < files.size(); ++h) {
+      const std::string head = files[h].path.stem().string();
+      if (kind == TextureKind::kColour) {
+        for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
+      }
+      std::vector<fs::path> missing;
+      const auto named = of_head[h]->of_kind.find(kind);
+      result.heads.push_back(attachments_of(
+          named == of_head[h]->of_kind.end() ? std::map<std::string, fs::path>() : named->second,
+          tile, files[h].materials, missing));
+      for (const fs::path& path : missing) {
+        heads_of_warning[concat("texture ", quoted(path.string()),
+                                " is missing; pictures do without")]
+            .push_back(head);
+      }
+    }
+    for (const auto& [text, heads] : heads_of_warning) {
+      result.warnings.push_back(concat(text, " (", join(heads), ")"));
+    }
+    if (result.any()) {
+      for (AttachmentTextures& placed : result.heads) placed.of_face.resize(tile.size(), kNoIndex);
+    }
+    if (kind == TextureKind::kColour || result.any()) all.push_back(std::move(result));
+  }
+  return all;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/cached_face_space.h"
+
+#include <span>
+#include <utility>
+
+#include "crowdface/core/result_versions.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/cached.h"
+
+namespace crowdface {
+namespace {
+
+template <class Matrix>
+void add_matrix(Hasher& hasher, const Matrix& matrix) {
+  hasher.add(matrix.cols())
+      .add_array(std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+void add_heads(Hasher& hasher, const SampledHeads& heads) {
+  hasher.add(heads.heads.size()).add(heads.mm_per_unit);
+  for (const Positions& head : heads.heads) add_matrix(hasher, head);
+  for (const Trajectory& trajectory : heads.trajectories) add_matrix(hasher, trajectory);
+  add_matrix(hasher, heads.mean);
+  add_matrix(hasher, heads.alpha);
+  hasher.add_array(std::span(heads.levels)).add(heads.image != nullptr);
+  if (heads.image != nullptr) add_heads(hasher, *heads.image);
+}
+
+Digest face_space_digest(const SampledHeads& heads, const std::vector<double>& weights,
+                         std::size_t bands) {
+  Hasher hasher;
+  hasher.add(kFaceSpaceVersion).add(bands).add_array(std::span(weights));
+  add_heads(hasher, heads);
+  return hasher.digest();
+}
+
+constexpr auto kFaceSpaceArrays = [](auto& arrays, auto& tables) {
+  arrays("levels", tables.levels);
+  arrays("functions", tables.functions);
+  arrays("directions", tables.directions);
+  for (std::size_t k = 0; k < tables.metrics.size(); ++k) {
+    arrays(concat("metric ", k), tables.metrics[k]);
+  }
+};
+
+}  // namespace
+
+FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
+                            const std::vector<double>& weights, std::size_t bands) {
+  if (cache.path.empty()) return FaceSpace(std::move(heads), weights, bands);
+  const CacheKey key{"face-space", face_space_digest(heads, weights, bands)};
+  FaceSpaceTables room;
+  if (heads.alpha.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.alpha.cols()));
+  auto tables = find_cached(
+      cache, key, kFaceSpaceArrays,
+      [&](const FaceSpaceTables& found, const CacheEntry&) { return FaceSpace::fit(found, heads); },
+      std::move(room));
+  if (tables) return FaceSpace(std::move(heads), weights, *std::move(tables));
+  FaceSpace made(std::move(heads), weights, bands);
+  store(cache, key, arrays_of(made.tables(), kFaceSpaceArrays));
+  return made;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/cast/face_space.h"
+#include "crowdface/heads/cache_folder.h"
+
+namespace crowdface {
+
+/// Makes a FaceSpace (see its constructor), with its tables from the cache if they are there.
+FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
+                            const std::vector<double>& weights, std::size_t bands);
+
+}  // namespace crowdface

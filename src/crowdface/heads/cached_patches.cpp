@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/cached_patches.h"
+
+#include <optional>
+#include <utility>
+
+#include "crowdface/heads/cached.h"
+
+namespace crowdface {
+
+namespace {
+
+constexpr auto kPatchArrays = [](auto& arrays, auto& lists) {
+  arrays("weights", lists.weights);
+  arrays("vertices", lists.vertices);
+  arrays("skeletons", lists.skeletons);
+  arrays("counts", lists.counts);
+  arrays("steps", lists.steps);
+  arrays("numbers", lists.numbers);
+};
+
+}  // namespace
+
+CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index vertex_count,
+                             std::span<const Index> ranks,
+                             const std::function<FieldPatches()>& make) {
+  const CacheKey entry_key{"patches", key};
+  const auto in_file = [&] {
+    CachedPatches kept;
+    const bool path_exists =
+        find_cached<PatchLists>(cache, entry_key, kPatchArrays,
+                                [&](PatchLists& lists, const CacheEntry& entry) {
+                                  lists.owner = kept.mapped = entry.file();
+                                  auto patches = FieldPatches::of(lists, vertex_count, ranks);
+                                  if (!patches) return false;
+                                  kept.patches = *std::move(patches);
+                                  return true;
+                                })
+            .has_value();
+    return path_exists ? std::optional(std::move(kept)) : std::nullopt;
+  };
+  if (auto found = in_file()) return *std::move(found);
+  FieldPatches made = make();
+  if (store(cache, entry_key, arrays_of(made.lists(), kPatchArrays))) {
+    // use the mapped file, so that the patches do not stay in memory twice
+    if (auto found = in_file()) return *std::move(found);
+  }
+  return {std::move(made), nullptr};
+}
+
+}  // namespace crowdface

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/file_fingerprint.h"
+
+#include <ctime>
+#include <span>
+
+#include <sys/stat.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/heads/cache_entry.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t nanoseconds(const timespec& time) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return time.tv_sec * kSecond + time.tv_nsec;
+}
+
+/// The key has one entry for each device and inode.
+CacheKey seen_key(std::span<const std::int64_t> stamp) {
+  return {"seen", Hasher().add(stamp[0]).add(stamp[1]).digest()};
+}
+
+}  // namespace
+
+std::optional<FileFingerprint::Stamp> FileFingerprint::stamp_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+  return Stamp{static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino),
+               status.st_size, nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
+}
+
+FileFingerprint::FileFingerprint(const CacheFolder& cache, const fs::path& file)
+    : file_(file), cache_(cache.path) {
+  if (!cache.trusts_seen_files || cache.path.empty()) return;
+  stamp_ = stamp_of(file);
+  if (!stamp_) return;
+  try {
+    const auto entry = CacheEntry::open(cache_, seen_key(*stamp_));
+    if (!entry) return;
+    const ArrayReader arrays(*entry);
+    Stamp seen;
+    Digest digest;
+    arrays("stamp", seen);
+    arrays("digest", digest);
+    if (seen == *stamp_) digest_ = digest;
+  } catch (const RecoverableError&) {  // ignore a damaged entry: the file will be hashed
+  }
+}
+
+void FileFingerprint::remember(const Digest& digest) const {
+  if (!stamp_ || digest_ == digest || stamp_of(file_) != stamp_) return;
+  // File systems update times only some hundred times a second: a change within this time might go
+  // unnoticed.
+  constexpr std::int64_t kSettled = 1'000'000'000;
+  timespec now{};
+  if (::clock_gettime(CLOCK_REALTIME, &now) != 0 || nanoseconds(now) - stamp_->back() < kSettled) {
+    return;
+  }
+  try {
+    ArrayWriter arrays;
+    arrays("stamp", *stamp_);
+    arrays("digest", digest);
+    write_entry(cache_, seen_key(*stamp_), arrays.arrays);
+  } catch (const RecoverableError&) {  // the next run will hash the file again
+  }
+}
+
+}  // namespace crowdface

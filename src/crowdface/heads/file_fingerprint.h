@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
+
+namespace crowdface {
+
+/// Recalls the hash of a file that is about to be read, if the cache trusts seen files and the file
+/// has not changed since it was last read. A file counts as unchanged if device, inode, size, mtime
+/// and ctime (which no program can set) are the same. This saves hashing gigabytes before the
+/// program can show anything.
+class FileFingerprint {
+ public:
+  /// \param cache  its folder keeps the records of seen files
+  FileFingerprint(const CacheFolder& cache, const std::filesystem::path& file);
+
+  /// Hash of the file's bytes, if seen files are trusted and this one has not changed.
+  const std::optional<Digest>& digest() const { return digest_; }
+  /// Stores the hash of the bytes, after the caller has read them (since this object was made) and
+  /// found them valid. Does nothing if seen files are not trusted, if the file has changed
+  /// meanwhile, or if its last change is so recent that a further one might leave the times the
+  /// same.
+  void remember(const Digest& digest) const;
+
+ private:
+  /// Device, inode, size, and the times mtime and ctime in nanoseconds.
+  using Stamp = std::array<std::int64_t, 5>;
+  static std::optional<Stamp> stamp_of(const std::filesystem::path& file);
+
+  std::filesystem::path file_, cache_;
+  std::optional<Stamp> stamp_;
+  std::optional<Digest> digest_;
+};
+
+}  // namespace crowdface

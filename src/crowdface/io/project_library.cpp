@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/project_library.h"
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// The purpose of the library that is being loaded, for messages.
+std::atomic<const char*> starting_for{"run"};
+
+// Calls only async-signal-safe functions.
+[[noreturn]] void end_without_libraries(int /*signal*/) {
+  const auto say = [](const char* text) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
+  };
+  say("error: the libraries that ");
+  say(starting_for.load());
+  say(" cannot be started: out of memory, or of threads?\n");
+  ::_exit(static_cast<int>(ExitCode::kIoError));
+}
+
+constexpr unsigned kLongestStart = 60;  ///< seconds
+
+std::atomic<bool> guarded = false;
+volatile std::sig_atomic_t starting = 0;
+
+/// Called by exit(), which libgfortran calls if it cannot allocate memory during start.
+void end_if_starting() {
+  if (starting != 0) end_without_libraries(0);
+}
+
+/// During its lifetime, a library that ends the program for lack of memory while it is being loaded
+/// does so with a message of this program; likewise a library that hangs, for example a logger
+/// waiting for a thread that could not start.
+class StartOfLibraries {
+ public:
+  explicit StartOfLibraries(const char* needs) {
+    starting_for = needs;
+    [[maybe_unused]] static const int registered = std::atexit(end_if_starting);
+    starting = 1;
+    struct sigaction action {};
+    action.sa_handler = end_without_libraries;
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      ::sigaction(kSignals[i], &action, &before_[i]);
+    }
+    ::alarm(kLongestStart);
+    end_before_ = std::set_terminate([] { end_without_libraries(0); });
+  }
+  ~StartOfLibraries() {
+    starting = 0;
+    std::set_terminate(end_before_);
+    ::alarm(0);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      ::sigaction(kSignals[i], &before_[i], nullptr);
+    }
+  }
+  StartOfLibraries(const StartOfLibraries&) = delete;
+  StartOfLibraries& operator=(const StartOfLibraries&) = delete;
+
+ private:
+  static constexpr std::array kSignals = {SIGABRT, SIGALRM, SIGSEGV, SIGTRAP};
+  std::array<struct sigaction, kSignals.size()> before_ = {};
+  std::terminate_handler end_before_ = nullptr;
+};
+
+void* open_library(const std::string& name, int flags, const char* needs, const char* without) {
+  std::optional<StartOfLibraries> start;
+  if (guarded) start.emplace(needs);
+  try {
+    return ::dlopen(name.c_str(), flags | RTLD_LAZY);
+  } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
+    if (guarded) end_without_libraries(0);
+    throw IoError(concat(without, ": the libraries for them threw as they started"));
+  }
+}
+
+}  // namespace
+
+void guard_library_loading() {
+  guarded = true;
+}
+
+void* project_library_function(const char* library, const char* function, const char* needs,
+                               const char* without) {
+  // Third-party programs are linked with the library. This program loads the library from its
+  // folder relative to the executable.
+  void* opened = open_library(library, RTLD_NOLOAD, needs, without);
+  std::string why;
+  if (opened == nullptr) {
+    std::error_code ignored;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    const auto file = program.parent_path() / CROWDFACE_LIBRARIES / library;
+    opened = open_library(file.lexically_normal().string(), 0, needs, without);
+    if (opened == nullptr) why = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
+  }
+  if (opened == nullptr) opened = open_library(library, 0, needs, without);
+  if (opened == nullptr) {
+    throw IoError(concat(
+        without, ", as the library for them cannot be loaded (is the installation whole?): ", why));
+  }
+  void* found = ::dlsym(opened, function);
+  if (found == nullptr) throw IoError(concat(library, ": is of another version"));
+  return found;
+}
+
+}  // namespace crowdface

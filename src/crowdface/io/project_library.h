@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace crowdface {
+
+/// Loads a function from one of the project's own shared libraries. These libraries contain what
+/// only some runs need and what is slow to load, and link the third-party libraries. They are
+/// beside the program, both in the build folder and after installation.
+/// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
+/// \param needs, without  for messages: "images need (OpenImageIO)", "images cannot be read".
+/// \throws IoError if the library is not where it was installed, cannot be loaded, or lacks the
+/// function.
+void* project_library_function(const char* library, const char* function, const char* needs,
+                               const char* without);
+
+/// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than
+/// a minute while it is being loaded, the handlers end the process with code 74 and a message;
+/// libraries do so when memory or threads run out. Only for programs, at their start: handlers and
+/// the alarm belong to the whole process.
+void guard_library_loading();
+
+}  // namespace crowdface

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/mesh/disjoint_sets.h"
+#include "crowdface/mesh/median_split_tree.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// A bounding volume hierarchy of the points of components, for joining components with nearby
+/// points. A query skips each box whose points all belong to the group of the query, so that the
+/// time grows little faster than the number of points, even if many points coincide.
+class ProximityJoiner {
+ public:
+  /// The points, the components and the groups must outlive the tree. Other code may join groups,
+  /// too.
+  /// \param points      rows outside `rows` may hold anything; the others must be finite.
+  /// \param rows        rows of the points in the tree; may be empty.
+  /// \param components  #points: the component of each point.
+  ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,
+                  const std::vector<std::uint32_t>& components, DisjointSets& groups);
+
+  /// Joins `component` with the component of each point at a distance of at most `reach` from
+  /// `place`.
+  void join_near(const Eigen::Vector3d& place, double reach, std::uint32_t component);
+
+ private:
+  std::span<const std::uint32_t> rows_of(std::size_t node) const;
+  void join_near(std::size_t node, const Eigen::Vector3d& place, double reach,
+                 std::uint32_t component);
+  std::uint32_t only_group(std::size_t node);
+
+  const Positions& points_;
+  const std::vector<std::uint32_t>& components_;
+  DisjointSets& groups_;
+  MedianSplitTree tree_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
+  std::vector<std::uint32_t>
+      /// For each node, a component of its only group; kNoIndex: not known to have one group only.
+      only_groups_;
+};
+
+}  // namespace crowdface

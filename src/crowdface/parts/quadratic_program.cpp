@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/quadratic_program.h"
+
+#include <cmath>
+#include <limits>
+
+#include "crowdface/core/fixed_order.h"
+
+namespace crowdface {
+namespace {
+
+using Vector = QuadraticProgram::Vector;
+using Matrix = std::array<Vector, QuadraticProgram::kMax>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A constraint's normal depends on the active ones if its squared distance from their span is
+/// below this (unit normals).
+constexpr double kDependent = 1e-12;
+
+double dot(const Vector& a, const Vector& b, std::size_t n) {
+  return fixed_dot({a.data(), n}, {b.data(), n});
+}
+
+/// Returns L⁻ᵀ b.
+Vector backward(const Matrix& l, const Vector& b, std::size_t n) {
+  Vector x{};
+  for (std::size_t i = n; i-- > 0;) {
+    double rest = b[i];
+    for (std::size_t j = i + 1; j < n; ++j) rest -= l[j][i] * x[j];
+    x[i] = rest / l[i][i];
+  }
+  return x;
+}
+
+/// The active constraints (those with equality), and the multiplier of each.
+struct Active {
+  std::array<Vector, QuadraticProgram::kMax> normals = {};
+  Vector forces = {};
+  std::size_t count = 0;
+
+  /// Returns the least-squares coefficients of `a` in the active normals.
+  Vector shares_in(const Vector& a, std::size_t n) const {
+    Matrix gram{};
+    Vector right{};
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) gram[i][j] = dot(normals[i], normals[j], n);
+      right[i] = dot(normals[i], a, n);
+    }
+    const Matrix l = cholesky(gram, count);
+    return backward(l, solve_lower(l, right, count), count);
+  }
+  void add(const Vector& normal, double force) {
+    normals[count] = normal;
+    forces[count++] = force;
+  }
+  void drop(std::size_t which) {
+    for (std::size_t i = which; i + 1 < count; ++i) {
+      normals[i] = normals[i + 1];
+      forces[i] = forces[i + 1];
+    }
+    --count;
+  }
+};
+
+/// Moves x onto the constraint a·x ≥ least, dropping active constraints with multipliers that would
+/// become negative.
+///
+/// \return  false if x cannot reach the constraint.
+bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t n) {
+  double force = 0;
+  for (std::size_t guard = 0; guard <= QuadraticProgram::kMax; ++guard) {
+    const Vector shares = active.shares_in(a, n);
+    Vector step = a;
+    for (std::size_t j = 0; j < active.count; ++j) {
+      for (std::size_t i = 0; i < n; ++i) step[i] -= shares[j] * active.normals[j][i];
+    }
+    double blocked = kInfinity;
+    std::size_t blocker = 0;
+    for (std::size_t j = 0; j < active.count; ++j) {
+      if (shares[j] > 0 && active.forces[j] / shares[j] < blocked) {
+        blocked = active.forces[j] / shares[j];
+        blocker = j;
+      }
+    }
+    const double square = dot(step, step, n);
+    const bool depends = active.count == n || square <= kDependent;
+    const double whole = depends ? kInfinity : (least - dot(a, x, n)) / square;
+    if (blocked == kInfinity && whole == kInfinity) return false;
+    const double length = blocked < whole ? blocked : whole;
+    if (!std::isfinite(length)) return false;  // positions are not finite
+    for (std::size_t j = 0; j < active.count; ++j) active.forces[j] -= length * shares[j];
+    force += length;
+    if (!depends) {
+      for (std::size_t i = 0; i < n; ++i) x[i] += length * step[i];
+    }
+    if (whole <= blocked) {
+      active.add(a, force);
+      return true;
+    }
+    active.drop(blocker);
+  }
+  return false;
+}
+
+/// All constraints, transformed to y, stored by column, so that loops over constraints vectorise.
+template <class Bound>
+class Table {
+ public:
+  Table(const std::vector<Bound>& bounds, const Matrix& l, std::size_t n)
+      : unknowns_(n),
+        count_(bounds.size()),
+        normals_(n * count_),
+        least_(count_),
+        stretch_(count_) {
+    std::vector<double> before(count_, 0.0), after(count_, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      double* column = normals_.data() + i * count_;
+      for (std::size_t b = 0; b < count_; ++b) {
+        column[b] = bounds[b].a[i];
+        before[b] += column[b] * column[b];
+      }
+      for (std::size_t j = 0; j < i; ++j) {  // L⁻¹ a
+        const double* solved = normals_.data() + j * count_;
+        for (std::size_t b = 0; b < count_; ++b) column[b] -= l[i][j] * solved[b];
+      }
+      for (std::size_t b = 0; b < count_; ++b) {
+        column[b] /= l[i][i];
+        after[b] += column[b] * column[b];
+      }
+    }
+    for (std::size_t b = 0; b < count_; ++b) {
+      const double length = after[b] > 0 ? std::sqrt(after[b]) : 1;
+      stretch_[b] = before[b] > 0 ? length / std::sqrt(before[b]) : 0;
+      least_[b] = bounds[b].least / length;
+      for (std::size_t i = 0; i < n; ++i) normals_[i * count_ + b] /= length;
+    }
+  }
+
+  /// Computes the violation of each constraint, measured along its normal in x.
+  void missing(const Vector& y, std::vector<double>& result) const {
+    result = least_;
+    for (std::size_t i = 0; i < unknowns_; ++i) {
+      const double* column = normals_.data() + i * count_;
+      for (std::size_t b = 0; b < count_; ++b) result[b] -= column[b] * y[i];
+    }
+    for (std::size_t b = 0; b < count_; ++b) result[b] *= stretch_[b];
+  }
+  Vector normal(std::size_t bound) const {
+    Vector result{};
+    for (std::size_t i = 0; i < unknowns_; ++i) result[i] = normals_[i * count_ + bound];
+    return result;
+  }
+  double least(std::size_t bound) const { return least_[bound]; }
+
+ private:
+  std::size_t unknowns_, count_;
+  std::vector<double> normals_;  ///< #unknowns by #constraints; unit length
+  std::vector<double> least_, stretch_;
+};
+
+}  // namespace
+
+void QuadraticProgram::add_target(const Vector& a, double wanted, double weight) {
+  for (std::size_t i = 0; i < unknowns_; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) quadratic_[i][j] += weight * a[i] * a[j];
+    linear_[i] += weight * wanted * a[i];
+  }
+}
+
+void QuadraticProgram::add_target(std::size_t unknown, double wanted, double weight) {
+  quadratic_[unknown][unknown] += weight;
+  linear_[unknown] += weight * wanted;
+}
+
+void QuadraticProgram::add_lower_bound(const Vector& a, double least) {
+  bounds_.push_back({a, least});
+}
+
+void QuadraticProgram::add_bounds(std::size_t unknown, double least, double most) {
+  Vector a{};
+  a[unknown] = 1;
+  add_lower_bound(a, least);
+  a[unknown] = -1;
+  add_lower_bound(a, -most);
+}
+
+void QuadraticProgram::add_slack(std::size_t unknown, double penalty) {
+  add_target(unknown, 0, 1);
+  linear_[unknown] -= penalty;
+  Vector a{};
+  a[unknown] = 1;
+  add_lower_bound(a, 0);
+}
+
+QuadraticProgram::Vector QuadraticProgram::solve(double tolerance) const {
+  constexpr int kMaxSteps = 200;
+  const std::size_t n = unknowns_;
+  // In y = Lᵀ x the quadratic form is the Euclidean distance. Constraint normals are normalised.
+  const Matrix l = cholesky(quadratic_, n);
+  const Table table(bounds_, l, n);
+  Vector y = solve_lower(l, linear_, n);
+  std::vector<double> missing(bounds_.size());
+  Active active;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    table.missing(y, missing);
+    double worst = tolerance;
+    std::size_t which = missing.size();
+    // Pick the most violated constraint.
+    for (std::size_t b = 0; b < missing.size(); ++b) {
+      if (missing[b] <= worst) continue;
+      worst = missing[b];
+      which = b;
+    }
+    if (which == missing.size()) break;
+    if (!reach(active, table.normal(which), table.least(which), y, n)) break;
+  }
+  return backward(l, y, n);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace crowdface {
+
+/// A convex quadratic program in a few unknowns with up to thousands of constraints. Used to find
+/// the pose of a part that is nearest to the wanted one and violates no constraint.
+///
+///   minimise  Σ w/2 (a·x − wanted)² + Σ price·x_i   subject to  a·x ≥ least
+///
+/// Plain arithmetic in a fixed order: the result has the same bits on every machine.
+class QuadraticProgram {
+ public:
+  static constexpr std::size_t kMax = 9;
+  using Vector = std::array<double, kMax>;  ///< entries beyond the number of unknowns are 0
+
+  explicit QuadraticProgram(std::size_t unknowns) : unknowns_(unknowns) {}
+
+  /// Adds the term weight/2 (a·x − wanted)². \param weight  Positive.
+  void add_target(const Vector& a, double wanted, double weight);
+  void add_target(std::size_t unknown, double wanted, double weight);
+  /// Adds the constraint a·x ≥ least.
+  void add_lower_bound(const Vector& a, double least);
+  void add_bounds(std::size_t unknown, double least, double most);
+  /// Makes an unknown a slack variable: not negative, with a price per unit. Constraints that name
+  /// it may be violated by its value.
+  void add_slack(std::size_t unknown, double penalty);
+
+  /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown
+  /// needs at least one term of positive weight. If no x satisfies all constraints, the solution
+  /// satisfies some of them.
+  ///
+  /// \param tolerance  Largest violation of a constraint, measured along its normal.
+  Vector solve(double tolerance) const;
+
+ private:
+  struct Bound {
+    Vector a;
+    double least;
+  };
+  std::size_t unknowns_;
+  std::array<Vector, kMax> quadratic_ = {};
+  Vector linear_ = {};
+  std::vector<Bound> bounds_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "crowdface/core/lazy_map.h"
+#include "crowdface/heads/face_attachments.h"
+#include "crowdface/io/surface_materials.h"
+#include "crowdface/render/attachment_mesh.h"
+
+namespace crowdface {
+
+/// The attachments of a crowd as meshes for rendering. Materials and textures are read on first
+/// use. Thread-safe.
+class AttachmentSurfaces {
+ public:
+  /// \param max_px   larger textures are reduced to this many texels a side.
+  /// \param textured  whether colour textures are shown; opacity is always applied.
+  AttachmentSurfaces(int max_px, bool textured) : max_px_(max_px), textured_(textured) {}
+
+  /// \param item  attachment of the inputs.
+  const AttachmentSurface& at(const Attachment& item) const;
+  /// The attachments of a face, for rendering. The result refers to `worn` and to this object.
+  std::vector<AttachmentMesh> meshes(const std::vector<PlacedAttachment>& placed) const;
+
+ private:
+  struct Picture {
+    std::shared_ptr<const Texture> colours;
+    std::shared_ptr<const Texture> opacity;  ///< null: no alpha channel
+  };
+  AttachmentMaterial material_of(const SurfaceMaterial& made_of) const;
+
+  int max_px_;
+  bool textured_;
+  mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;
+  // Many attachments share the same textures.
+  mutable LazyMap<std::filesystem::path, Picture> colour_maps_;
+  mutable LazyMap<std::filesystem::path, std::shared_ptr<const Texture>> opacity_maps_;
+};
+
+/// Memory in bytes that the textures of some attachments take once read.
+std::uint64_t attachment_texture_bytes(std::span<const Attachment* const> items, int max_px);
+
+}  // namespace crowdface

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/attachment_mesh.h"
+
+#include <span>
+#include <utility>
+
+#include "crowdface/core/require.h"
+
+namespace crowdface {
+
+AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoordinates& uvs,
+                                     std::vector<AttachmentMaterial> materials,
+                                     const std::vector<std::uint32_t>& of_face)
+    : topology_(topology), fans_(topology), materials_(std::move(materials)) {
+  require(!materials_.empty() && static_cast<Index>(of_face.size()) == topology.face_count(),
+          "worn surface: ", of_face.size(), " materials, ", topology.face_count(), " faces");
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto [begin, end] = topology.corners(f);
+    const auto uv_at = [&](std::uint32_t corner) -> Eigen::Vector2f {
+      const std::uint32_t row =
+          topology.corner_uvs.empty() || uvs.rows() == 0 ? kNoIndex : topology.corner_uvs[corner];
+      if (row == kNoIndex) return {0, 0};
+      return uvs.row(row).transpose().cast<float>();
+    };
+    const auto add = [&](std::array<std::uint32_t, 4> corners) {
+      Quad quad;
+      std::array<Eigen::Vector2f, 4> places;
+      for (std::size_t c = 0; c < 4; ++c) {
+        quad[c] = topology.corner_vertices[corners[c]];
+        places[c] = uv_at(corners[c]);
+      }
+      quads_.push_back(quad);
+      uvs_.push_back(places);
+      materials_of_quads_.push_back(of_face[static_cast<std::size_t>(f)]);
+    };
+    if (end - begin == 4) {
+      add({begin, begin + 1, begin + 2, begin + 3});
+      continue;
+    }
+    for (std::uint32_t c = begin + 1; c + 1 < end; ++c) add({begin, c, c + 1, c + 1});
+  }
+}
+
+Eigen::Vector2f AttachmentSurface::place(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  for (int c = 0; c < 4; ++c) uv += shares[c] * uvs_[quad][static_cast<std::size_t>(c)];
+  return uv;
+}
+
+Light AttachmentSurface::colour(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+  const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
+  return material.texture ? colour_at(*material.texture, place(quad, shares)) : material.colour;
+}
+
+float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+  const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
+  if (!material.opacity) return material.share;
+  return material.share * colour_at(*material.opacity, place(quad, shares))[0];
+}
+
+}  // namespace crowdface

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/render/ray_scene.h"
+#include "crowdface/render/texture.h"
+
+namespace crowdface {
+
+/// Material of an attachment.
+struct AttachmentMaterial {
+  Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
+  std::shared_ptr<const Texture> texture = {};  ///< colours, or null
+  std::shared_ptr<const Texture> opacity = {};  ///< opacity in the first channel, or null: opaque
+  float share = 1;                              ///< factor of the opacity
+};
+
+/// The mesh of an attachment, such as hair or glasses, drawn with a face. It looks the same from
+/// both sides and may be transparent.
+class AttachmentSurface {
+ public:
+  /// \param uvs        #T by 2, may be empty.
+  /// \param materials  at least one.
+  /// \param of_face    #F rows of `materials`.
+  AttachmentSurface(const Topology& topology, const TextureCoordinates& uvs,
+                    std::vector<AttachmentMaterial> materials,
+                    const std::vector<std::uint32_t>& of_face);
+
+  const Topology& topology() const { return topology_; }
+  const NormalFans& fans() const { return fans_; }
+  const std::vector<Quad>& quads() const { return quads_; }
+  const std::vector<AttachmentMaterial>& materials() const { return materials_; }
+
+  /// Colour and opacity at a point of a quad. \param shares  from quad_shares.
+  Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+  float opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+
+ private:
+  Eigen::Vector2f place(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+
+  Topology topology_;
+  NormalFans fans_;
+  std::vector<AttachmentMaterial> materials_;
+  std::vector<Quad> quads_;
+  std::vector<std::uint32_t> materials_of_quads_;
+  std::vector<std::array<Eigen::Vector2f, 4>> uvs_;  ///< #quads
+};
+
+/// An attachment placed on a face.
+struct AttachmentMesh {
+  const AttachmentSurface* surface;
+  const Positions* positions;
+};
+
+/// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.
+inline Eigen::Vector4f quad_shares(const Quad& quad, float u, float v) {
+  if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
+  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+}
+
+}  // namespace crowdface

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/attachment_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "crowdface/core/require.h"
+#include "crowdface/render/camera_space.h"
+
+namespace crowdface {
+
+AttachmentStage::AttachmentStage(const RayDevice& device,
+                                 std::span<const AttachmentMesh> attachments,
+                                 const Camera& camera) {
+  std::vector<float> points;
+  for (const AttachmentMesh& mesh : attachments) {
+    const AttachmentSurface& surface = *mesh.surface;
+    require(mesh.positions->rows() == surface.topology().vertex_count,
+            "render: ", mesh.positions->rows(), " positions of what is worn, ",
+            surface.topology().vertex_count, " vertices");
+    const auto first = static_cast<std::uint32_t>(points.size() / 3);
+    parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size())});
+    const std::vector<float> own = to_camera(*mesh.positions, camera);
+    const auto normals = camera_normals(surface.topology(), surface.fans(), own, 1);
+    points.insert(points.end(), own.begin(), own.end());
+    normals_.insert(normals_.end(), normals.begin(), normals.end());
+    for (Quad quad : surface.quads()) {
+      for (std::uint32_t& vertex : quad) vertex += first;
+      quads_.push_back(quad);
+    }
+  }
+  scene_ = std::make_unique<const RayScene>(
+      device, std::move(points), quads_, [this](std::uint32_t quad, float u, float v) {
+        const Part& part = part_of(quad);
+        return part.surface->opacity(quad - part.first_quad, quad_shares(quads_[quad], u, v));
+      });
+}
+
+const AttachmentStage::Part& AttachmentStage::part_of(std::uint32_t quad) const {
+  const auto after =
+      std::upper_bound(parts_.begin(), parts_.end(), quad,
+                       [](std::uint32_t q, const Part& part) { return q < part.first_quad; });
+  return *(after - 1);
+}
+
+AttachmentStage::Place AttachmentStage::at(const RayHit& hit) const {
+  const Quad& quad = quads_[hit.primitive];
+  const Eigen::Vector4f shares = quad_shares(quad, hit.u, hit.v);
+  const Part& part = part_of(hit.primitive);
+  Place place{Eigen::Vector3f::Zero(),
+              part.surface->colour(hit.primitive - part.first_quad, shares)};
+  for (int c = 0; c < 4; ++c) {
+    place.normal += shares[c] * normals_[quad[static_cast<std::size_t>(c)]];
+  }
+  return place;
+}
+
+}  // namespace crowdface

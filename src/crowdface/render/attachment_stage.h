@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "crowdface/render/attachment_mesh.h"
+#include "crowdface/render/camera.h"
+#include "crowdface/render/ray_scene.h"
+
+namespace crowdface {
+
+/// All attachments of a face, in camera space.
+class AttachmentStage {
+ public:
+  /// \param worn  at least one; their surfaces must outlive this object.
+  AttachmentStage(const RayDevice& device, std::span<const AttachmentMesh> attachments,
+                  const Camera& camera);
+  AttachmentStage(const AttachmentStage&) = delete;
+  AttachmentStage& operator=(const AttachmentStage&) = delete;
+
+  const RayScene& scene() const { return *scene_; }
+
+  /// Surface data at a hit.
+  struct Place {
+    Eigen::Vector3f normal;  ///< interpolated; any length, on either side
+    Light colour;
+  };
+  Place at(const RayHit& hit) const;
+
+ private:
+  struct Part {
+    const AttachmentSurface* surface;
+    std::uint32_t first_quad;
+  };
+  const Part& part_of(std::uint32_t quad) const;
+
+  std::vector<Part> parts_;
+  std::vector<Quad> quads_;
+  std::vector<Eigen::Vector3f> normals_;
+  std::unique_ptr<const RayScene> scene_;
+};
+
+}  // namespace crowdface

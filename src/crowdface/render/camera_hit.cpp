@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/camera_hit.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <Eigen/Geometry>
+
+namespace crowdface {
+namespace {
+
+using Vector = Eigen::Vector3f;
+
+/// The layer's texture on a quad, or kNone.
+std::uint32_t texture_of(const Stage& stage, const TextureLayer& layer, std::uint32_t primitive) {
+  if (stage.uvs.empty() || layer.of_face.empty()) return TextureLayer::kNone;
+  const TexturedQuad& quad = stage.uvs[primitive];
+  return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.of_face[quad.face];
+}
+
+/// The colour texture on a quad, or kNone.
+std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
+  return stage.texture_set == nullptr ? TextureLayer::kNone
+                                      : texture_of(stage, *stage.texture_set, primitive);
+}
+
+/// Samples a layer's texture at a point of a quad.
+Light texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
+               std::uint32_t primitive, const Eigen::Vector4f& weights) {
+  const TexturedQuad& quad = stage.uvs[primitive];
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
+  return colour_at(*layer.textures[texture], uv);
+}
+
+Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+                 const Vector& point) {
+  const std::uint32_t texture = texture_of(stage, primitive);
+  if (texture != TextureSet::kNone)
+    return texel_at(stage, *stage.texture_set, texture, primitive, weights);
+  if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
+  const SurfaceKind kind = stage.kinds[primitive];
+  if (kind != SurfaceKind::kEye) return albedo_of(kind);
+  const std::uint32_t eye = stage.eyeballs.of_vertex[stage.quads[primitive][0]];
+  return eye_albedo(stage.eyes[eye], stage.gaze, point);
+}
+
+/// Makes a unit normal face the viewer. Needed at the edge of a coarse ear, where interpolated
+/// normals may face away although the face is visible.
+Vector towards(const Vector& viewer, const Vector& normal) {
+  const float away = normal.dot(viewer);
+  return away < 0 ? Vector((normal - away * viewer).normalized()) : normal;
+}
+
+/// Tilts a unit normal by slopes along the texture axes (normal mapping).
+Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
+               const Light& slopes) {
+  const Quad& quad = stage.quads[primitive];
+  const TexturedQuad& textured = stage.uvs[primitive];
+  // Derive the texture axes from the triangle at the first corner; they hold for the whole quad.
+  const std::size_t last = quad[2] == quad[3] ? 2 : 3;
+  const Vector origin = stage.point(quad[0]);
+  const Vector one = stage.point(quad[1]) - origin;
+  const Vector other = stage.point(quad[last]) - origin;
+  const Eigen::Vector2f uv_one = textured.uvs[1] - textured.uvs[0];
+  const Eigen::Vector2f uv_other = textured.uvs[last] - textured.uvs[0];
+  const float area = uv_one.x() * uv_other.y() - uv_other.x() * uv_one.y();
+  if (area == 0) return normal;
+  const float sign = area > 0 ? 1.0F : -1.0F;
+  const auto along = [&](const Vector& axis) -> Vector {
+    const Vector flat = axis - axis.dot(normal) * normal;
+    const float length = flat.norm();
+    return length > 0 ? Vector(sign / length * flat) : Vector(Vector::Zero());
+  };
+  return (normal + slopes[0] * along(uv_other.y() * one - uv_one.y() * other) +
+          slopes[1] * along(uv_one.x() * other - uv_other.x() * one))
+      .normalized();
+}
+
+/// Applies the normal and roughness maps of the coat.
+void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+            Vector& normal, ShadePoint& surface) {
+  if (stage.texture_set == nullptr || surface.inside) return;
+  const TextureLayer& slopes = stage.texture_set->slopes;
+  const TextureLayer& roughness = stage.texture_set->roughness;
+  if (const auto at = texture_of(stage, slopes, primitive); at != TextureLayer::kNone) {
+    normal = leaning(stage, primitive, normal, texel_at(stage, slopes, at, primitive, weights));
+  }
+  if (const auto at = texture_of(stage, roughness, primitive); at != TextureLayer::kNone) {
+    surface.roughness = texel_at(stage, roughness, at, primitive, weights)[0];
+  }
+}
+
+}  // namespace
+
+CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
+  const Quad& quad = stage.quads[hit.primitive];
+  const Eigen::Vector4f weights = quad_shares(quad, hit.u, hit.v);
+  CameraHit meeting;
+  meeting.point = stage.viewer + hit.distance * direction;
+  meeting.surface.kind = stage.kinds[hit.primitive];
+  Vector normal = Vector::Zero();
+  Vector colour = Vector::Zero();
+  for (int c = 0; c < 4; ++c) {
+    const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
+    normal += weights[c] * stage.normals[vertex];
+    if (stage.colours != nullptr) colour += weights[c] * stage.colours->row(vertex).transpose();
+  }
+  meeting.surface.albedo = stage.colours != nullptr
+                               ? from_srgb(colour.array())
+                               : own_albedo(stage, hit.primitive, weights, meeting.point);
+  const std::uint32_t texture = texture_of(stage, hit.primitive);
+  if (texture != TextureSet::kNone && meeting.surface.kind == SurfaceKind::kSkin)
+    meeting.skin_lightness = stage.skin_lightness[texture];
+  const Vector geometric = stage.winding * hit.normal;
+  meeting.surface.inside = geometric.dot(direction) > 0;
+  const float side = meeting.surface.inside ? -1.0F : 1.0F;
+  meeting.surface.to_eye = -direction.normalized();
+  normal.normalize();
+  finish(stage, hit.primitive, weights, normal, meeting.surface);
+  meeting.surface.normal = towards(meeting.surface.to_eye, side * normal);
+  meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
+  // Start shadow rays on the smooth surface implied by the vertex normals, above the facets, so
+  // that facets do not show at grazing light (Hanika 2021, "Hacking the shadow terminator").
+  // Vertices at sharp edges whose normal faces away from the face are skipped: they would move the
+  // start below it.
+  Vector lift = Vector::Zero();
+  for (int c = 0; c < 4; ++c) {
+    const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
+    const Vector n = side * stage.normals[vertex];
+    if (n.dot(side * geometric) <= 0) continue;
+    lift -= weights[c] * std::min(0.0F, (meeting.point - stage.point(vertex)).dot(n)) * n;
+  }
+  meeting.start = meeting.point + lift + stage.clearance * side * geometric.normalized();
+  return meeting;
+}
+
+CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
+  const AttachmentStage::Place place = stage.attachments->at(hit);
+  CameraHit meeting;
+  meeting.point = stage.viewer + hit.distance * direction;
+  meeting.surface.kind = SurfaceKind::kAttachment;
+  meeting.surface.albedo = place.colour;
+  const Vector geometric = (hit.normal.dot(direction) > 0 ? -1.0F : 1.0F) * hit.normal.normalized();
+  const Vector normal = (place.normal.dot(geometric) < 0 ? -1.0F : 1.0F) * place.normal;
+  meeting.surface.inside = false;
+  meeting.surface.to_eye = -direction.normalized();
+  meeting.surface.normal =
+      towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
+  meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
+  meeting.start = meeting.point + kRayClearance * geometric;
+  return meeting;
+}
+
+void prefetch_hits(const Stage& stage, std::span<const std::optional<RayHit>> hits,
+                   std::size_t here) {
+  constexpr std::size_t kQuads = 24, kCorners = 12;
+  if (here + kQuads < hits.size() && hits[here + kQuads]) {
+    const std::uint32_t primitive = hits[here + kQuads]->primitive;
+    __builtin_prefetch(&stage.quads[primitive]);
+    __builtin_prefetch(&stage.kinds[primitive]);
+  }
+  if (here + kCorners < hits.size() && hits[here + kCorners]) {
+    for (const std::uint32_t vertex : stage.quads[hits[here + kCorners]->primitive]) {
+      __builtin_prefetch(&stage.normals[vertex]);
+      __builtin_prefetch(stage.points.data() + std::size_t{3} * vertex);
+    }
+  }
+}
+
+}  // namespace crowdface

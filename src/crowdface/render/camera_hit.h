@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "crowdface/render/stage.h"
+
+namespace crowdface {
+
+/// Shadow rays towards a light: how many reached the light, and how many were traced.
+struct Visibility {
+  float open = 0;   ///< rays that reached the light
+  float asked = 0;  ///< rays traced
+
+  void add(const Visibility& other, float weight) {
+    open += weight * other.open;
+    asked += weight * other.asked;
+  }
+};
+
+/// A surface point that a camera ray hits, with the data for shading it.
+struct CameraHit {
+  Eigen::Vector3f point;
+  Eigen::Vector3f start;  ///< origin of rays to the lights, slightly above the surface
+  ShadePoint surface;
+  float skin_lightness = 0;  ///< skin_lightness() of its texture, or 0
+  bool asks_key = false;     ///< whether the key light can contribute at all
+  Visibility key, sky;
+};
+
+/// Computes the surface data at a hit on the face. \param direction  of the camera ray.
+CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
+/// The same for a hit on an attachment, which looks the same from both sides.
+CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
+
+/// Prefetches the data that `meet` needs for the hits shortly after `here`; large meshes do not fit
+/// into the CPU caches.
+void prefetch_hits(const Stage& stage, std::span<const std::optional<RayHit>> hits,
+                   std::size_t here);
+
+}  // namespace crowdface

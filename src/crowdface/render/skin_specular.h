@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/render/texture.h"
+
+namespace crowdface {
+
+/// Brightness of a face's skin, estimated from its texture: 70th percentile over the texels of the
+/// mean of the channels.
+float skin_lightness(const Texture& texture);
+
+/// Factor for the specular reflection of skin with colour `albedo`, at most 1. Texels much darker
+/// than the skin are painted hair, which has almost no highlight.
+/// \param skin_lightness  from skin_lightness(); 0: unknown, factor 1.
+float skin_specular(const Light& albedo, float skin_lightness);
+
+}  // namespace crowdface

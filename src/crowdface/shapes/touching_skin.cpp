@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/shapes/touching_skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/point_grid.h"
+
+namespace crowdface {
+namespace {
+
+// Lengths are fractions of the skin's extent, about 430 mm.
+// largest distance of skin that may meet; other faces are narrower
+constexpr double kMeetingReach = 0.02;
+constexpr double kMeetingReachEdges = 1.6;  // the same, in edge lengths
+/// Skin may meet if its distance in the shape is at most kOfMove times the larger movement plus
+/// kOfDifference times the difference of both movements.
+constexpr double kOfMove = 4, kOfDifference = 10;
+// an edge folds if its ends move differently by more than this fraction of its length
+constexpr double kFolds = 0.5;
+// size of the cells in which one vertex represents the others
+constexpr double kMeetingCell = 0.003;
+
+/// Returns for each vertex of the skin a vertex in the same cell that faces the same way; for other
+/// vertices kNoIndex.
+std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Positions& shaped,
+                                           const Positions& normals, double cell) {
+  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;
+  std::vector<std::pair<Cell, std::uint32_t>> placed;
+  for (const std::uint32_t v : skin.vertices) {
+    const auto at = [&](Index c) {
+      return static_cast<std::int64_t>(std::floor(shaped(v, c) / cell));
+    };
+    Index axis = 0;
+    normals.row(v).cwiseAbs().maxCoeff(&axis);
+    placed.push_back({{at(0), at(1), at(2), axis, normals(v, axis) > 0}, v});
+  }
+  std::ranges::sort(placed);
+  std::vector<std::uint32_t> representative(static_cast<std::size_t>(shaped.rows()), kNoIndex);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const auto& [at, v] = placed[i];
+    const bool is_first = i == 0 || at != placed[i - 1].first;
+    representative[v] = is_first ? v : representative[placed[i - 1].second];
+  }
+  return representative;
+}
+
+}  // namespace
+
+std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions& neutral,
+                                      const Positions& shaped, double extent) {
+  const Positions normals = vertex_normals_or_zero(skin.triangles, shaped);
+  const std::vector<std::uint32_t> representative =
+      representatives(skin, shaped, normals, kMeetingCell * extent);
+  std::vector<std::uint32_t> asked;
+  for (const std::uint32_t v : skin.vertices) {
+    if (representative[v] == v) asked.push_back(v);
+  }
+  const auto move_of = [&](std::uint32_t v) -> Eigen::Vector3d {
+    return row3(shaped, v) - row3(neutral, v);
+  };
+  const PointGrid grid(shaped, asked);
+  std::vector<bool> meets(representative.size(), false), folds = meets;
+  for (const std::uint32_t v : skin.vertices) {
+    const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
+    if (move.squaredNorm() == 0) continue;
+    double reach = kMeetingReach * extent;
+    for (const std::uint32_t t : skin.around.of(v)) {
+      for (const std::uint32_t w : skin.triangles[t]) {
+        const double edge = (row3(shaped, w) - at).norm();
+        reach = std::max(reach, kMeetingReachEdges * edge);
+        const double shorter = std::min(edge, (row3(neutral, w) - row3(neutral, v)).norm());
+        if ((move_of(w) - move).norm() > kFolds * shorter) folds[v] = folds[w] = true;
+      }
+    }
+    if (representative[v] != v) continue;
+    for (const std::uint32_t w : grid.about(at, reach)) {
+      if ((meets[v] && meets[w]) || row3(normals, w).dot(row3(normals, v)) > 0) continue;
+      const double distance = (row3(shaped, w) - at).norm();
+      if (distance > reach) continue;
+      const Eigen::Vector3d other = move_of(w);
+      const double may_differ =
+          kOfMove * std::max(move.norm(), other.norm()) + kOfDifference * (move - other).norm();
+      if (may_differ >= distance) meets[v] = meets[w] = true;
+    }
+  }
+  for (const std::uint32_t v : skin.vertices) meets[v] = meets[representative[v]] || folds[v];
+  return meets;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/core/compressed_rows.h"
+#include "crowdface/mesh/displacements.h"
+#include "crowdface/mesh/triangles.h"
+
+namespace crowdface {
+
+/// The triangles of a mesh whose corners are all skin.
+struct SkinTriangles {
+  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<Triangle> triangles;
+  CompressedRows<std::uint32_t> around;  ///< #V: triangles at each vertex
+};
+
+/// Returns which skin a shape folds or brings near other skin, on the template or possibly on
+/// another face; #V.
+///
+/// \param neutral  Template at rest, #V by 3.
+/// \param shaped   Template in the shape, #V by 3.
+/// \param extent   Diagonal of the skin's bounding box.
+std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions& neutral,
+                                      const Positions& shaped, double extent);
+
+}  // namespace crowdface
