@@ -41,8 +41,10 @@ TEST(TellShortfall, NamesTheHeadsOfAGroupThatHasFew) {
   Config config;
   config.faces.names = {"ann", "bob", "cyd"};
   config.groups.resize(2);
-  config.groups[0] = {.name = "old_men", .sampling = {.sources = {1}}};
-  config.groups[1] = {.name = "women", .sampling = {.sources = {0, 1, 2}}};
+  config.groups[0].name = "old_men";
+  config.groups[0].sampling.sources = {1};
+  config.groups[1].name = "women";
+  config.groups[1].sampling.sources = {0, 1, 2};
   const auto told = [&](int group) {
     try {
       tell_shortfall(config, {}, {0, {}, group});
