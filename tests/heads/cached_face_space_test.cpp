@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/cached_face_space.h"
+
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -9,7 +11,6 @@
 #include "crowdface/cast/training_recipe.h"
 #include "crowdface/core/file.h"
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/heads/cached_face_space.h"
 
 #include "support/forged_entry.h"
 #include "support/temporary_folder.h"

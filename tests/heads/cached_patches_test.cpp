@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/cached_patches.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -7,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/heads/cached_patches.h"
 
 #include "support/smooth_fields.h"
 #include "support/temporary_folder.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/file_fingerprint.h"
+
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/heads/file_fingerprint.h"
 
 #include "support/temporary_folder.h"
 

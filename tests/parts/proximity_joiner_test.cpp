@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/parts/proximity_joiner.h"
+
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/random.h"
-#include "crowdface/parts/proximity_joiner.h"
 
 namespace crowdface {
 namespace {

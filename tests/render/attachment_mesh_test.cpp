@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "crowdface/render/attachment_mesh.h"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "crowdface/render/attachment_mesh.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 

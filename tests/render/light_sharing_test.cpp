@@ -72,7 +72,7 @@ class LightSharing : public ::testing::Test {
       return static_cast<double>(lists_[static_cast<std::size_t>(field)][point]);
     };
     double sums[4];
-    for (int f = 0; f < 4; ++f) sums[f] = 0.01 * of(PointLights::kKeyOpen + f);
+    for (int f = 0; f < 4; ++f) sums[f] = 0.01 * of(PointLights::kKeyVisible + f);
     for (int j = kRow - 1; j <= kRow + 1; ++j) {
       for (int i = x - 1; i <= x + 1; ++i) {
         const auto there = [&](int field) {
@@ -86,7 +86,7 @@ class LightSharing : public ::testing::Test {
         }
         const double likeness = std::clamp((cosine - 0.7) / 0.25, 0.0, 1.0) *
                                 std::clamp(2 - std::abs(height) / kPixel, 0.0, 1.0);
-        for (int f = 0; f < 4; ++f) sums[f] += likeness * there(PointLights::kKeyOpen + f);
+        for (int f = 0; f < 4; ++f) sums[f] += likeness * there(PointLights::kKeyVisible + f);
       }
     }
     return {sums[0] / sums[1], sums[2] / sums[3]};
@@ -132,12 +132,13 @@ TEST_F(LightSharing, IsTheSameWithAnyInstructionSet) {
 
 TEST_F(LightSharing, OfWhatNobodyElseShowsIsItsOwn) {
   pixels_.clear();
-  for (const int field : {PointLights::kKeyOpen, PointLights::kKeyAsked, PointLights::kSkyAsked}) {
+  for (const int field :
+       {PointLights::kKeyVisible, PointLights::kKeyTraced, PointLights::kSkyTraced}) {
     lists_[static_cast<std::size_t>(field)][3] = 0;
   }
   EXPECT_EQ(alone(3, 3), std::pair(0.0F, 1.0F)) << "no ray: a dark key, an open sky";
-  lists_[PointLights::kKeyAsked][3] = 4;
-  lists_[PointLights::kKeyOpen][3] = 3;
+  lists_[PointLights::kKeyTraced][3] = 4;
+  lists_[PointLights::kKeyVisible][3] = 3;
   EXPECT_FLOAT_EQ(alone(3, 3).first, 0.75F);
 }
 

@@ -121,7 +121,7 @@ TEST(Shade, OfTheKeyIsTheFormulaInDoublePrecision) {
     point.inside = false;
     point.sky = 0;
     point.roughness = -1;
-    // What is dark, or worn, gleams less: told of elsewhere.
+    // Dark skin and attachments reflect less; other tests check that.
     if (point.kind == SurfaceKind::kAttachment) point.kind = SurfaceKind::kTeeth;
     point.albedo = point.albedo.max(0.06F);
     const Eigen::Array3d exact = plain_key_light(point);

@@ -30,7 +30,7 @@ class ShapeBend {
   /// left out.
   ///
   /// \param face   #V by 3, at rest.
-  /// \param worn   #P by 3, the attachment on that face at rest.
+  /// \param placed #P by 3, the attachment on that face at rest.
   /// \param shape  Displacements of the face.
   /// \return       Displacements of the attachment's points.
   Displacements in_shape(const Positions& face, const Positions& placed,

@@ -44,7 +44,7 @@ class FaceSearch {
     FaceSpace::Point point;
     double nearest_mm = HUGE_VAL;  ///< distance to the nearest face, or an upper bound of it
     bool known = true;
-    bool judged = false;  ///< whether `closely` was called
+    bool judged = false;  ///< whether `check_skin` was called
     std::optional<Reason> broken = std::nullopt;
   };
 

@@ -82,7 +82,7 @@ Texture finish_of(const TextureMap& map, int max_px) {
   });
 }
 
-/// The layer of a coat for a rendered kind of texture.
+/// The layer of a texture set for a rendered kind of texture.
 TextureLayer& layer_of(TextureKind kind, TextureSet& texture_set) {
   if (kind == TextureKind::kColour) return texture_set;
   return kind == TextureKind::kNormal ? texture_set.slopes : texture_set.roughness;

@@ -58,13 +58,13 @@ class FaceTextureSet {
   FaceTextureSet(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
                  int max_px);
 
-  /// Adds an image. All images must be added before the coat is used. Thread-safe.
+  /// Adds an image. All images must be added before the set is used. Thread-safe.
   /// \param picture  index of the image: blended colour images come first, then the images of each
   ///                 other kind
   void add(std::size_t picture, const BlendedPicture& blended);
   const TextureSet& texture_set() const { return texture_set_; }
 
-  /// Memory of a coat made from these textures, in bytes.
+  /// Memory of a texture set made from these textures, in bytes.
   static std::uint64_t bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
                              int max_px);
 
@@ -78,11 +78,11 @@ class FaceTextureSet {
   int max_px_;
 };
 
-/// Adds a head's own normal and roughness maps to its coat.
+/// Adds a head's own normal and roughness maps to its texture set.
 void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head, int max_px,
                               TextureSet& texture_set);
 
-/// The coat of an input head; nothing if the head has no texture.
+/// The texture set of an input head; nothing if the head has no texture.
 std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Index head, int max_px);
 
 /// Loads textures to be rendered as the heads have them. Reads each file once. PNG, TIFF and JPEG

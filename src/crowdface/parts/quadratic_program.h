@@ -10,7 +10,7 @@ namespace crowdface {
 /// A convex quadratic program in a few unknowns with up to thousands of constraints. Used to find
 /// the pose of a part that is nearest to the wanted one and violates no constraint.
 ///
-///   minimise  Σ w/2 (a·x − wanted)² + Σ price·x_i   subject to  a·x ≥ least
+///   minimise  Σ w/2 (a·x − wanted)² + Σ penalty·x_i   subject to  a·x ≥ least
 ///
 /// Plain arithmetic in a fixed order: the result has the same bits on every machine.
 class QuadraticProgram {
@@ -26,7 +26,7 @@ class QuadraticProgram {
   /// Adds the constraint a·x ≥ least.
   void add_lower_bound(const Vector& a, double least);
   void add_bounds(std::size_t unknown, double least, double most);
-  /// Makes an unknown a slack variable: not negative, with a price per unit. Constraints that name
+  /// Makes an unknown a slack variable: not negative, with a penalty per unit. Constraints that name
   /// it may be violated by its value.
   void add_slack(std::size_t unknown, double penalty);
 

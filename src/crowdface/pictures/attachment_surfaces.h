@@ -24,7 +24,7 @@ class AttachmentSurfaces {
 
   /// \param item  attachment of the inputs.
   const AttachmentSurface& at(const Attachment& item) const;
-  /// The attachments of a face, for rendering. The result refers to `worn` and to this object.
+  /// The attachments of a face, for rendering. The result refers to `placed` and to this object.
   std::vector<AttachmentMesh> meshes(const std::vector<PlacedAttachment>& placed) const;
 
  private:

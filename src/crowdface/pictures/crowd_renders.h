@@ -58,7 +58,7 @@ class CrowdRenders {
   /// \param positions  in single precision, as in mesh files.
   /// \param moves      displacements of each shape, for the gallery.
   /// \param own        textures of the face itself, from face_texture_set, or null.
-  /// \param worn       its attachments.
+  /// \param placed     its attachments.
   /// \param colours    vertex colours, shown if there are no textures; may have no rows.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
                     std::span<const Displacements> moves, const FaceTextureSet* own,
@@ -82,7 +82,7 @@ class CrowdRenders {
   /// \param head  the head whose textures the face shows, if there are any.
   std::string render_png(const Positions& positions, Index head) const;
   /// \param colours  vertex colours, or null: those of the surfaces.
-  /// \param coat     textures, or null.
+  /// \param texture_set  textures, or null.
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureSet* texture_set = nullptr,
                          const std::vector<PlacedAttachment>& placed = {}) const;

@@ -31,9 +31,9 @@ class GalleryMeshes {
   std::string shared_script() const;
   /// The file data/faces/NAME.js or data/heads/NAME.js.
   /// \param moves    displacements of each shape of the face.
-  /// \param coat     textures of the face, or null: it has its vertex colours, or the colours shared by all faces.
+  /// \param texture_set  textures of the face, or null: it has its vertex colours, or the colours shared by all faces.
   /// \param colours  vertex colours of the face, or null.
-  /// \param worn     its attachments.
+  /// \param placed   its attachments.
   std::string face_script(const std::string& name, const Positions& positions,
                           std::span<const Displacements> moves, const TextureSet* texture_set,
                           const VertexColours* colours,
@@ -44,9 +44,9 @@ class GalleryMeshes {
  private:
   /// Three bytes (sRGB) per vertex, darkened where little of the sky is visible.
   std::string shades(const VertexColours& colours) const;
-  /// The textures of a coat, and which texture each look of the reduced mesh shows, as JSON.
+  /// The textures of a set, and which texture each look of the reduced mesh shows, as JSON.
   std::string skin(const TextureSet& texture_set) const;
-  /// One byte per vertex; empty if the coat has no roughness maps.
+  /// One byte per vertex; empty if the set has no roughness maps.
   std::string roughness(const TextureSet& texture_set) const;
   double min_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);

@@ -16,14 +16,14 @@ struct TexturePlace {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 
-/// The vertex normal, tilted by the coat's normal map. The map is averaged around the vertex,
+/// The vertex normal, tilted by the normal map of the texture set. The map is averaged around the vertex,
 /// because detail finer than the reduced mesh would appear as noise.
 /// \param positions  #V by 3 of the face
 Eigen::Vector3d leaning_normal(const TextureSet& texture_set, const HeadSet& faces,
                                const TexturePlace& place, const Positions& positions,
                                const Eigen::Vector3d& normal);
 
-/// The coat's roughness at a vertex, 0 … 1; nothing if there is no roughness map.
+/// The roughness map's value at a vertex, 0 … 1; nothing if there is no roughness map.
 std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place);
 
 }  // namespace crowdface

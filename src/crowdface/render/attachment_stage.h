@@ -14,7 +14,7 @@ namespace crowdface {
 /// All attachments of a face, in camera space.
 class AttachmentStage {
  public:
-  /// \param worn  at least one; their surfaces must outlive this object.
+  /// \param attachments  at least one; their surfaces must outlive this object.
   AttachmentStage(const RayDevice& device, std::span<const AttachmentMesh> attachments,
                   const Camera& camera);
   AttachmentStage(const AttachmentStage&) = delete;

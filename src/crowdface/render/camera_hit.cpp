@@ -77,7 +77,7 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
       .normalized();
 }
 
-/// Applies the normal and roughness maps of the coat.
+/// Applies the normal and roughness maps of the texture set.
 void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
             Vector& normal, ShadePoint& surface) {
   if (stage.texture_set == nullptr || surface.inside) return;
@@ -96,9 +96,9 @@ void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& 
 CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const Quad& quad = stage.quads[hit.primitive];
   const Eigen::Vector4f weights = quad_shares(quad, hit.u, hit.v);
-  CameraHit meeting;
-  meeting.point = stage.viewer + hit.distance * direction;
-  meeting.surface.kind = stage.kinds[hit.primitive];
+  CameraHit result;
+  result.point = stage.viewer + hit.distance * direction;
+  result.surface.kind = stage.kinds[hit.primitive];
   Vector normal = Vector::Zero();
   Vector colour = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
@@ -106,20 +106,20 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
     normal += weights[c] * stage.normals[vertex];
     if (stage.colours != nullptr) colour += weights[c] * stage.colours->row(vertex).transpose();
   }
-  meeting.surface.albedo = stage.colours != nullptr
-                               ? from_srgb(colour.array())
-                               : own_albedo(stage, hit.primitive, weights, meeting.point);
+  result.surface.albedo = stage.colours != nullptr
+                              ? from_srgb(colour.array())
+                              : own_albedo(stage, hit.primitive, weights, result.point);
   const std::uint32_t texture = texture_of(stage, hit.primitive);
-  if (texture != TextureSet::kNone && meeting.surface.kind == SurfaceKind::kSkin)
-    meeting.skin_lightness = stage.skin_lightness[texture];
+  if (texture != TextureSet::kNone && result.surface.kind == SurfaceKind::kSkin)
+    result.skin_lightness = stage.skin_lightness[texture];
   const Vector geometric = stage.winding * hit.normal;
-  meeting.surface.inside = geometric.dot(direction) > 0;
-  const float side = meeting.surface.inside ? -1.0F : 1.0F;
-  meeting.surface.to_eye = -direction.normalized();
+  result.surface.inside = geometric.dot(direction) > 0;
+  const float side = result.surface.inside ? -1.0F : 1.0F;
+  result.surface.to_eye = -direction.normalized();
   normal.normalize();
-  finish(stage, hit.primitive, weights, normal, meeting.surface);
-  meeting.surface.normal = towards(meeting.surface.to_eye, side * normal);
-  meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
+  finish(stage, hit.primitive, weights, normal, result.surface);
+  result.surface.normal = towards(result.surface.to_eye, side * normal);
+  result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface implied by the vertex normals, above the facets, so
   // that facets do not show at grazing light (Hanika 2021, "Hacking the shadow terminator").
   // Vertices at sharp edges whose normal faces away from the face are skipped: they would move the
@@ -129,27 +129,27 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
     const Vector n = side * stage.normals[vertex];
     if (n.dot(side * geometric) <= 0) continue;
-    lift -= weights[c] * std::min(0.0F, (meeting.point - stage.point(vertex)).dot(n)) * n;
+    lift -= weights[c] * std::min(0.0F, (result.point - stage.point(vertex)).dot(n)) * n;
   }
-  meeting.start = meeting.point + lift + stage.clearance * side * geometric.normalized();
-  return meeting;
+  result.start = result.point + lift + stage.clearance * side * geometric.normalized();
+  return result;
 }
 
 CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const AttachmentStage::Place place = stage.attachments->at(hit);
-  CameraHit meeting;
-  meeting.point = stage.viewer + hit.distance * direction;
-  meeting.surface.kind = SurfaceKind::kAttachment;
-  meeting.surface.albedo = place.colour;
+  CameraHit result;
+  result.point = stage.viewer + hit.distance * direction;
+  result.surface.kind = SurfaceKind::kAttachment;
+  result.surface.albedo = place.colour;
   const Vector geometric = (hit.normal.dot(direction) > 0 ? -1.0F : 1.0F) * hit.normal.normalized();
   const Vector normal = (place.normal.dot(geometric) < 0 ? -1.0F : 1.0F) * place.normal;
-  meeting.surface.inside = false;
-  meeting.surface.to_eye = -direction.normalized();
-  meeting.surface.normal =
-      towards(meeting.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
-  meeting.asks_key = faces_key(meeting.surface.normal, meeting.surface.kind);
-  meeting.start = meeting.point + kRayClearance * geometric;
-  return meeting;
+  result.surface.inside = false;
+  result.surface.to_eye = -direction.normalized();
+  result.surface.normal =
+      towards(result.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
+  result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
+  result.start = result.point + kRayClearance * geometric;
+  return result;
 }
 
 void prefetch_hits(const Stage& stage, std::span<const std::optional<RayHit>> hits,

@@ -11,12 +11,12 @@ namespace crowdface {
 
 /// Shadow rays towards a light: how many reached the light, and how many were traced.
 struct Visibility {
-  float open = 0;   ///< rays that reached the light
-  float asked = 0;  ///< rays traced
+  float visible = 0;  ///< rays that reached the light
+  float traced = 0;   ///< rays traced
 
   void add(const Visibility& other, float weight) {
-    open += weight * other.open;
-    asked += weight * other.asked;
+    visible += weight * other.visible;
+    traced += weight * other.traced;
   }
 };
 
@@ -26,7 +26,7 @@ struct CameraHit {
   Eigen::Vector3f start;  ///< origin of rays to the lights, slightly above the surface
   ShadePoint surface;
   float skin_lightness = 0;  ///< skin_lightness() of its texture, or 0
-  bool asks_key = false;     ///< whether the key light can contribute at all
+  bool may_see_key = false;  ///< whether the key light can contribute at all
   Visibility key, sky;
 };
 

@@ -46,8 +46,8 @@ class FaceRenderer {
   /// \param positions  #V by 3, in the unit of the camera. Without `typical`, normals are flipped
   ///                   if the whole mesh is inside out, as a mirrored mesh is.
   /// \param colours    #V by 3, override all other colours and textures; or nullptr.
-  /// \param coat       textures, for the faces that have one; or nullptr.
-  /// \param worn       attachments drawn with the face.
+  /// \param texture_set  textures, for the faces that have one; or nullptr.
+  /// \param attachmentsattachments drawn with the face.
   /// \throws BrokenPrecondition if a size does not match; InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
                    const VertexColours* colours = nullptr, const TextureSet* texture_set = nullptr,

@@ -21,15 +21,15 @@ HWY_INLINE Numbers number(float value) {
 
 /// Weighted numbers of rays towards a light.
 struct Rays {
-  Numbers open, asked;
+  Numbers visible, traced;
 
   void add(Numbers others_open, Numbers others_asked, Numbers weight) {
-    open = hn::Add(open, hn::Mul(weight, others_open));
-    asked = hn::Add(asked, hn::Mul(weight, others_asked));
+    visible = hn::Add(visible, hn::Mul(weight, others_open));
+    traced = hn::Add(traced, hn::Mul(weight, others_asked));
   }
   /// The fraction of rays that reached the light. \param unasked  the result if there are no rays.
   Numbers share(float unasked) const {
-    return hn::IfThenElse(hn::Gt(asked, number(0)), hn::Div(open, asked), number(unasked));
+    return hn::IfThenElse(hn::Gt(traced, number(0)), hn::Div(visible, traced), number(unasked));
   }
 };
 
@@ -49,8 +49,8 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
     const Numbers z = of_point(Field::kPoint + 2), u = of_point(Field::kNormal);
     const Numbers v = of_point(Field::kNormal + 1), w = of_point(Field::kNormal + 2);
     Rays key = {zero, zero}, sky = {zero, zero};
-    key.add(of_point(Field::kKeyOpen), of_point(Field::kKeyAsked), own);
-    sky.add(of_point(Field::kSkyOpen), of_point(Field::kSkyAsked), own);
+    key.add(of_point(Field::kKeyVisible), of_point(Field::kKeyTraced), own);
+    sky.add(of_point(Field::kSkyVisible), of_point(Field::kSkyTraced), own);
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t column = 0; column < 3; ++column) {
         const std::size_t at =
@@ -74,8 +74,8 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
         const Numbers pixels_away = hn::Div(hn::Abs(height), number(pixel_side));
         const Numbers beside = hn::Min(hn::Max(hn::Sub(number(2), pixels_away), zero), one);
         const Numbers likeness = hn::Mul(facing, beside);
-        key.add(there(Field::kKeyOpen), there(Field::kKeyAsked), likeness);
-        sky.add(there(Field::kSkyOpen), there(Field::kSkyAsked), likeness);
+        key.add(there(Field::kKeyVisible), there(Field::kKeyTraced), likeness);
+        sky.add(there(Field::kSkyVisible), there(Field::kSkyTraced), likeness);
       }
     }
     hn::StoreU(key.share(0), Lanes(), key_shares + i);

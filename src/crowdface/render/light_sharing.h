@@ -15,10 +15,10 @@ struct PointLights {
   enum Field {
     kPoint,
     kNormal = kPoint + 3,
-    kKeyOpen = kNormal + 3,  ///< rays that reached the key light
-    kKeyAsked,               ///< rays traced towards the key light
-    kSkyOpen,
-    kSkyAsked,
+    kKeyVisible = kNormal + 3,  ///< rays that reached the key light
+    kKeyTraced,                 ///< rays traced towards the key light
+    kSkyVisible,
+    kSkyTraced,
     kFields
   };
   std::array<const float*, kFields> lists;

@@ -54,7 +54,7 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
     packet.tfar[r] = ray.furthest;
     packet.time[r] = 0;
     packet.mask[r] = ~0U;
-    packet.id[r] = ray.lot;
+    packet.id[r] = ray.opacity_seed;
     packet.flags[r] = 0;
   }
 }
@@ -81,8 +81,9 @@ void pass_holes(const RTCFilterFunctionNArguments* met) {
     const std::uint32_t primitive = RTCHitN_primID(met->hit, met->N, i);
     const float there =
         opacity(primitive, RTCHitN_u(met->hit, met->N, i), RTCHitN_v(met->hit, met->N, i));
-    const std::uint32_t lot = (RTCRayN_id(met->ray, met->N, i) + primitive * 40503U) & 0xffffU;
-    if ((static_cast<float>(lot) + 0.5F) / 65536.0F >= there) met->valid[i] = 0;
+    const std::uint32_t opacity_seed =
+        (RTCRayN_id(met->ray, met->N, i) + primitive * 40503U) & 0xffffU;
+    if ((static_cast<float>(opacity_seed) + 0.5F) / 65536.0F >= there) met->valid[i] = 0;
   }
 }
 

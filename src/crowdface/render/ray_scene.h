@@ -35,7 +35,7 @@ struct Ray {
   /// Number in 0 … 65535 for stochastic transparency: a surface with opacity α lets the fraction
   /// 1−α of the numbers through, always the same numbers. The rays of a pixel have evenly spread
   /// numbers.
-  std::uint32_t lot = 0;
+  std::uint32_t opacity_seed = 0;
 };
 
 struct RayHit {

@@ -24,7 +24,7 @@ struct ShadePoint {
 
 /// Radiance from a point in the studio. Diffuse light is wrapped: skin scatters light past the edge
 /// of shadows, red furthest. Highlights use a microfacet model (Walter et al. 2007).
-/// \param gleam  factor of the specular reflection.
+/// \param specular  factor of the specular reflection.
 Light shade(const ShadePoint& point, float specular = 1);
 
 /// Shades many points with SIMD, like `shade`. The result of a point is the same with every

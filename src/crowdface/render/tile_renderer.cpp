@@ -63,28 +63,28 @@ class PointLists {
 
 /// \param lists  PointLists or PixelLights
 template <class Lists>
-void put(const CameraHit& meeting, std::size_t at, Lists& lists) {
+void put(const CameraHit& hit, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
-    lists.list(PointLights::kPoint + c)[at] = meeting.point[c];
-    lists.list(PointLights::kNormal + c)[at] = meeting.surface.normal[c];
+    lists.list(PointLights::kPoint + c)[at] = hit.point[c];
+    lists.list(PointLights::kNormal + c)[at] = hit.surface.normal[c];
   }
-  lists.list(PointLights::kKeyOpen)[at] = meeting.key.open;
-  lists.list(PointLights::kKeyAsked)[at] = meeting.key.asked;
-  lists.list(PointLights::kSkyOpen)[at] = meeting.sky.open;
-  lists.list(PointLights::kSkyAsked)[at] = meeting.sky.asked;
+  lists.list(PointLights::kKeyVisible)[at] = hit.key.visible;
+  lists.list(PointLights::kKeyTraced)[at] = hit.key.traced;
+  lists.list(PointLights::kSkyVisible)[at] = hit.sky.visible;
+  lists.list(PointLights::kSkyTraced)[at] = hit.sky.traced;
 }
 
 /// Mean of positions, normals (shorter than 1 where they differ) and albedos; sums of rays.
-CameraHit mean_of(std::span<const CameraHit> meetings) {
-  CameraHit mean = meetings.front();
-  for (const CameraHit& other : meetings.subspan(1)) {
+CameraHit mean_of(std::span<const CameraHit> camera_hits) {
+  CameraHit mean = camera_hits.front();
+  for (const CameraHit& other : camera_hits.subspan(1)) {
     mean.point += other.point;
     mean.surface.normal += other.surface.normal;
     mean.surface.albedo += other.surface.albedo;
     mean.key.add(other.key, 1);
     mean.sky.add(other.sky, 1);
   }
-  const auto count = static_cast<float>(meetings.size());
+  const auto count = static_cast<float>(camera_hits.size());
   mean.point /= count;
   mean.surface.normal /= count;
   mean.surface.albedo /= count;
@@ -100,7 +100,7 @@ struct Shares {
 struct TileMemory {
   std::vector<Ray> rays;
   std::vector<std::optional<RayHit>> hits;
-  std::vector<CameraHit> meetings;
+  std::vector<CameraHit> camera_hits;
   std::vector<CameraHit*> asking;
   PixelLights pixels;
   PointLists points;
@@ -196,7 +196,7 @@ class Tile {
       for (const Eigen::Vector2f& place : places.back()->list()) {
         const Eigen::Vector2f at = on_image(x, y, place);
         rays.push_back({stage_.viewer, Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer});
-        rays.back().lot = (2 * number++ + 1) * 32768U / places.back()->count();
+        rays.back().opacity_seed = (2 * number++ + 1) * 32768U / places.back()->count();
       }
     });
     std::vector<std::optional<RayHit>>& hits = memory_.hits;
@@ -233,23 +233,24 @@ class Tile {
     });
   }
 
-  std::span<CameraHit> meetings_of(const Pixel& pixel) {
+  std::span<CameraHit> hits_of(const Pixel& pixel) {
     return std::span(meetings_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
   /// Whether a pixel and its four neighbours differ in surface or colour.
   Change change_at(int x, int y) {
     const Pixel& at = pixel(x, y);
-    const std::span<const CameraHit> meetings = meetings_of(at);
-    if (!meetings.empty() && at.missed > 0) return Change::kEdge;
+    const std::span<const CameraHit> camera_hits = hits_of(at);
+    if (!camera_hits.empty() && at.missed > 0) return Change::kEdge;
     Change most = Change::kNone;
-    for (const CameraHit& other : meetings) most = std::max(most, change(meetings.front(), other));
+    for (const CameraHit& other : camera_hits)
+      most = std::max(most, change(camera_hits.front(), other));
     if (stage_.attachments != nullptr) return most;  // the pixel's own samples suffice
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
       if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
-      const std::span<const CameraHit> beside = meetings_of(pixel(i, j));
-      if (beside.empty() != meetings.empty()) return Change::kEdge;
-      if (!beside.empty()) most = std::max(most, change(meetings.front(), beside.front()));
+      const std::span<const CameraHit> beside = hits_of(pixel(i, j));
+      if (beside.empty() != camera_hits.empty()) return Change::kEdge;
+      if (!beside.empty()) most = std::max(most, change(camera_hits.front(), beside.front()));
     }
     return most;
   }
@@ -268,12 +269,13 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(meeting, disc, lot)` for each shadow ray to trace, direction by direction, so that
+  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, direction by direction, so that
   /// consecutive rays are similar. A pixel without change traces `directions.rays()` rays, spread
   /// over its samples; a pixel with a change traces at least one per sample.
   template <class Body>
-  void for_each_ask(const InterleavedDisc& directions, const Body& body) {
-    constexpr std::uint32_t kGoldenLot = 40503;  // spreads the numbers of consecutive rays evenly
+  void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
+    constexpr std::uint32_t kGoldenRatio16 =
+        40503;  // spreads the numbers of consecutive rays evenly
     const std::size_t rays = directions.rays();
     std::uint32_t number = 0;
     for (int shift_y = 0; shift_y < kInterleave; ++shift_y) {
@@ -281,15 +283,16 @@ class Tile {
         for (std::size_t k = 0; k < rays; ++k) {
           const Eigen::Vector2f& disc =
               directions.point(rim_left_ + shift_x, rim_top_ + shift_y, static_cast<int>(k));
-          const auto lot = static_cast<std::uint32_t>(number++ * kGoldenLot) & 0xffffU;
+          const auto opacity_seed = static_cast<std::uint32_t>(number++ * kGoldenRatio16) & 0xffffU;
           for (int y = rim_top_ + shift_y; y < rim_bottom_; y += kInterleave) {
             for (int x = rim_left_ + shift_x; x < rim_right_; x += kInterleave) {
               const Pixel& at = pixel(x, y);
-              const std::span<CameraHit> meetings = meetings_of(at);
-              if (meetings.empty()) continue;
-              const std::size_t first = k % meetings.size();
-              const std::size_t end = at.change != Change::kNone ? meetings.size() : first + 1;
-              for (std::size_t m = first; m < end; m += rays) body(meetings[m], disc, lot);
+              const std::span<CameraHit> camera_hits = hits_of(at);
+              if (camera_hits.empty()) continue;
+              const std::size_t first = k % camera_hits.size();
+              const std::size_t end = at.change != Change::kNone ? camera_hits.size() : first + 1;
+              for (std::size_t m = first; m < end; m += rays)
+                body(camera_hits[m], disc, opacity_seed);
             }
           }
         }
@@ -297,24 +300,24 @@ class Tile {
     }
   }
 
-  /// Traces the shadow rays towards a light and counts the results in `light` of each meeting.
-  /// \param ray_of  ray of a meeting in a direction; nothing if the light cannot reach it
+  /// Traces the shadow rays towards a light and counts the results in `light` of each hit.
+  /// \param ray_of  ray of a hit in a direction; nothing if the light cannot reach it
   /// \return whether each of `memory_.rays` is blocked
   template <class RayOf>
-  std::vector<bool> ask(const InterleavedDisc& directions, Visibility CameraHit::*light,
-                        const RayOf& ray_of) {
+  std::vector<bool> trace_shadow_rays(const InterleavedDisc& directions,
+                                      Visibility CameraHit::*light, const RayOf& ray_of) {
     std::vector<Ray>& rays = memory_.rays;
     std::vector<CameraHit*>& asking = memory_.asking;
     rays.clear();
     asking.clear();
-    for_each_ask(directions,
-                 [&](CameraHit& meeting, const Eigen::Vector2f& disc, std::uint32_t lot) {
-                   const std::optional<Ray> ray = ray_of(meeting, disc);
-                   if (!ray) return;
-                   rays.push_back(*ray);
-                   rays.back().lot = lot;
-                   asking.push_back(&meeting);
-                 });
+    for_each_shadow_ray(
+        directions, [&](CameraHit& hit, const Eigen::Vector2f& disc, std::uint32_t opacity_seed) {
+          const std::optional<Ray> ray = ray_of(hit, disc);
+          if (!ray) return;
+          rays.push_back(*ray);
+          rays.back().opacity_seed = opacity_seed;
+          asking.push_back(&hit);
+        });
     std::vector<bool> blocked = are_blocked(rays);
     for (std::size_t r = 0; r < rays.size(); ++r) {
       (asking[r]->*light).add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
@@ -324,23 +327,23 @@ class Tile {
 
   void ask_key() {
     const Vector key = key_direction();
-    ask(sampling_.key, &CameraHit::key,
-        [&](const CameraHit& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
-          if (!meeting.asks_key) return std::nullopt;
-          const Vector start = meeting.start + kThickness * meeting.surface.normal;
-          return Ray{start, key + kKeyRadius * around(key, disc)};
-        });
+    trace_shadow_rays(sampling_.key, &CameraHit::key,
+                      [&](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
+                        if (!hit.may_see_key) return std::nullopt;
+                        const Vector start = hit.start + kThickness * hit.surface.normal;
+                        return Ray{start, key + kKeyRadius * around(key, disc)};
+                      });
   }
 
   /// Rays are cosine-weighted.
   void ask_sky() {
-    const std::vector<bool> blocked =
-        ask(sampling_.sky, &CameraHit::sky,
-            [](const CameraHit& meeting, const Eigen::Vector2f& disc) -> std::optional<Ray> {
-              const Vector& normal = meeting.surface.normal;
-              const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
-              return Ray{meeting.start, around(normal, disc) + height * normal, 0, kSkyReach};
-            });
+    const std::vector<bool> blocked = trace_shadow_rays(
+        sampling_.sky, &CameraHit::sky,
+        [](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
+          const Vector& normal = hit.surface.normal;
+          const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
+          return Ray{hit.start, around(normal, disc) + height * normal, 0, kSkyReach};
+        });
     add_light_through(memory_.rays, memory_.asking, blocked);
   }
 
@@ -352,17 +355,17 @@ class Tile {
     std::vector<Ray> behind;
     std::vector<CameraHit*> thin;
     for (std::size_t r = 0; r < rays.size(); ++r) {
-      const CameraHit& meeting = *asking[r];
-      if (!blocked[r] || meeting.surface.kind != SurfaceKind::kAttachment) continue;
-      const Vector across = (meeting.start - meeting.point).normalized();
+      const CameraHit& hit = *asking[r];
+      if (!blocked[r] || hit.surface.kind != SurfaceKind::kAttachment) continue;
+      const Vector across = (hit.start - hit.point).normalized();
       behind.push_back(rays[r]);
-      behind.back().origin = 2 * meeting.point - meeting.start;
+      behind.back().origin = 2 * hit.point - hit.start;
       behind.back().direction -= 2 * rays[r].direction.dot(across) * across;
       thin.push_back(asking[r]);
     }
     const std::vector<bool> dark = are_blocked(behind);
     for (std::size_t r = 0; r < behind.size(); ++r) {
-      if (!dark[r]) thin[r]->sky.open += kThrough;
+      if (!dark[r]) thin[r]->sky.visible += kThrough;
     }
   }
 
@@ -391,8 +394,8 @@ class Tile {
     memory_.pixels.clear();
     for (int y = rim_top_; y < rim_bottom_; ++y) {
       for (int x = rim_left_; x < rim_right_; ++x) {
-        const std::span<const CameraHit> meetings = meetings_of(pixel(x, y));
-        if (!meetings.empty()) put(mean_of(meetings), light_index(x, y), memory_.pixels);
+        const std::span<const CameraHit> camera_hits = hits_of(pixel(x, y));
+        if (!camera_hits.empty()) put(mean_of(camera_hits), light_index(x, y), memory_.pixels);
       }
     }
   }
@@ -406,20 +409,21 @@ class Tile {
                  shares.key.data(), shares.sky.data());
   }
 
-  void add_to_batch(const CameraHit& meeting, const Shares& shares, std::size_t i) {
-    ShadePoint surface = meeting.surface;
+  void add_to_batch(const CameraHit& hit, const Shares& shares, std::size_t i) {
+    ShadePoint surface = hit.surface;
     surface.key = shares.key[i];
     surface.sky = shares.sky[i];
     if (surface.kind == SurfaceKind::kAttachment) surface.sky = std::max(surface.sky, kScattered);
-    memory_.batch.add(surface, skin_specular(surface.albedo, meeting.skin_lightness));
+    memory_.batch.add(surface, skin_specular(surface.albedo, hit.skin_lightness));
   }
 
   /// Adds each sample of a pixel with changes.
-  void add_each(std::span<const CameraHit> meetings, int x, int y) {
-    memory_.points.resize(meetings.size());
-    for (std::size_t m = 0; m < meetings.size(); ++m) put(meetings[m], m, memory_.points);
-    share(memory_.points, meetings.size(), x, y, false, memory_.shares);
-    for (std::size_t m = 0; m < meetings.size(); ++m) add_to_batch(meetings[m], memory_.shares, m);
+  void add_each(std::span<const CameraHit> camera_hits, int x, int y) {
+    memory_.points.resize(camera_hits.size());
+    for (std::size_t m = 0; m < camera_hits.size(); ++m) put(camera_hits[m], m, memory_.points);
+    share(memory_.points, camera_hits.size(), x, y, false, memory_.shares);
+    for (std::size_t m = 0; m < camera_hits.size(); ++m)
+      add_to_batch(camera_hits[m], memory_.shares, m);
   }
 
   void shade_row(int y, Rgb8Image& image) {
@@ -430,7 +434,7 @@ class Tile {
     for (std::size_t i = 0; i < width; ++i) {
       const Pixel& at = pixel(left_ + static_cast<int>(i), y);
       if (!shows_one(at)) continue;
-      middles[i] = mean_of(meetings_of(at));
+      middles[i] = mean_of(hits_of(at));
       middles[i].surface.normal.normalize();
       put(middles[i], i, memory_.points);
     }
@@ -442,7 +446,7 @@ class Tile {
       if (shows_one(at)) {
         add_to_batch(middles[i], memory_.row_shares, i);
       } else {
-        add_each(meetings_of(at), x, y);
+        add_each(hits_of(at), x, y);
       }
     }
     memory_.batch.shade();
@@ -469,7 +473,7 @@ class Tile {
   PixelRectangle outer_;
   std::vector<Pixel> pixels_;
   TileMemory& memory_;
-  std::vector<CameraHit>& meetings_ = memory_.meetings;
+  std::vector<CameraHit>& meetings_ = memory_.camera_hits;
 };
 
 }  // namespace

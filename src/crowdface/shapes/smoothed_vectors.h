@@ -34,7 +34,7 @@ class SmoothedVectors {
   };
   /// Returns the changes of the samples nearer than `none` to a centre.
   ///
-  /// \param samples  Only samples at positions for which `hears` is true.
+  /// \param samples  Only samples at positions for which `affects` is true.
   std::vector<Change> changes(std::span<const Sample> samples) const;
 
  private:
