@@ -11,6 +11,7 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
+#include "crowdface/heads/alignment_check.h"
 #include "crowdface/heads/load_inputs.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/mesh_as_obj.h"
@@ -96,7 +97,8 @@ struct Seen {
   std::optional<Bearing> bearing;  ///< up and front axes
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
-  double face = 0;  ///< distance from eyes to mouth, in mesh units; 0: not found
+  bool stands_apart = false;  ///< some head is rotated or shifted relative to the others
+  double face = 0;            ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 
 /// Analyses a sample of the heads. If no regions can be proposed, logs a warning and does not fail,
@@ -120,6 +122,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     seen.face = marks->face();
   }
   seen.has_uvs = set->uvs.rows() > 0;
+  seen.stands_apart = needs_rigid_alignment(*set);
   if (!with_masks) return seen;
   try {
     const Bearing bearing = seen.bearing.value_or(Bearing{{1, 1}, {2, 1}});
@@ -224,6 +227,7 @@ void init(const InitOptions& options) {
     facts.up = seen.bearing->up;
     facts.front = seen.bearing->front;
   }
+  facts.align_rigidly = seen.stands_apart;
   for (const fs::path& head : files) facts.names.push_back(head.stem().string());
   const auto up = seen.first.col(facts.up.index);
   facts.head_height = up.maxCoeff() - up.minCoeff();
@@ -248,6 +252,11 @@ void init(const InitOptions& options) {
                   " heads; assumed unit: ", name_of(facts.units), ", because ", facts.units_reason,
                   "; the heads look along ", name_of(facts.front), " with ", name_of(facts.up),
                   " up. Check these, then run: crowdface check ", out.string()));
+  if (facts.align_rigidly) {
+    log_info(
+        "some heads are turned or moved relative to the others: the config aligns all heads with "
+        "the first (faces.align: rigid)");
+  }
   if (!facts.attachments.empty()) {
     log_info(
         "the faces get the attachments beside the heads; heads tagged female and male form "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands that read a config: check, init, plan, generate, blend, sheet, cache.
 #include <chrono>
+#include <cstdio>
+#include <sstream>
 #include <thread>
 
 #include <signal.h>
@@ -155,6 +157,27 @@ TEST(Init, WritesAConfigThatPasses) {
   crowdface(0, {"check", config}, {"is fine"});
   crowdface(64, {"init", heads, "-o", config}, {"--force"});
   EXPECT_EQ(read_text(config), text);
+}
+
+TEST(Init, AlignsHeadsThatStandDifferently) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string(), config = (folder / "my.yaml").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "4", "--vertices", "5000"});
+  crowdface(0, {"init", heads, "-o", config});
+  EXPECT_THAT(read_text(config), ::testing::HasSubstr("align: check"));
+  // Moves one head by 10 cm to the side.
+  std::istringstream before(read_text(folder / "heads/synth_02.obj"));
+  std::string moved;
+  for (std::string line; std::getline(before, line);) {
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3)
+      line = concat("v ", x + 10, ' ', y, ' ', z);
+    moved += line + '\n';
+  }
+  folder.write("heads/synth_02.obj", moved);
+  crowdface(0, {"init", heads, "-o", config, "--force"}, {"turned or moved", "align: rigid"});
+  const Outcome checked = crowdface(0, {"check", config}, {"is fine"});
+  EXPECT_THAT(checked.err, ::testing::Not(::testing::HasSubstr("does not stand")));
 }
 
 TEST(Init, TakesTheMaskAndTheTagsBesideTheHeads) {

@@ -235,9 +235,15 @@ const Keys<Faces>& faces_keys() {
       key("front", &Faces::front, axis()).in_starter([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.front), "the axis along which the faces look"};
       }),
-      word_key("align", &Faces::align)
-          .in_starter({std::string(word_of(Align::kCheck)),
-                       "warn about heads that do not stand like the others; rigid moves them"}),
+      word_key("align", &Faces::align).in_starter([](const StarterFacts& facts) {
+        if (!facts.align_rigidly)
+          return StarterLines{
+              std::string(word_of(Align::kCheck)),
+              "warn about heads that do not stand like the others; rigid moves them"};
+        return StarterLines{
+            std::string(word_of(Align::kRigid)),
+            "some heads stand differently; each is turned and moved onto the first"};
+      }),
       Key<Faces>{"tags", read_head_tags, write_tags, {}, starter_tags}.taking(
           "`{head: [tag, …]}`")};
   return keys;

@@ -24,6 +24,7 @@ struct StarterFacts {
   Eigen::Index vertices = 0;                   ///< number of vertices of each head
   Axis up = {1, 1};
   Axis front = {2, 1};
+  bool align_rigidly = false;  ///< some heads are rotated or shifted relative to the others
   std::string crowd_name = "crowd";
   std::string mask;  ///< region mask, relative to the folder of the config; empty: none
   std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels

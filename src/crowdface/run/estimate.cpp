@@ -156,7 +156,12 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   write_file(folder / "estimate.csv", format_csv(rows));
   write_file(folder / "estimate.svg", plot_estimate(rows, asked, asked_mm));
   log_info(concat("plot: ", (folder / "estimate.svg").string()));
-  return format_estimate(rows, asked, asked_mm);
+  std::string table = format_estimate(rows, asked, asked_mm);
+  if (!job.config.groups.empty() || !job.config.families.empty()) {
+    table +=
+        "The estimate draws all faces with the section sampling. It ignores groups and families.\n";
+  }
+  return table;
 }
 
 }  // namespace crowdface
