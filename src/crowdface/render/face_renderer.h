@@ -47,7 +47,7 @@ class FaceRenderer {
   ///                   if the whole mesh is inside out, as a mirrored mesh is.
   /// \param colours    #V by 3, override all other colours and textures; or nullptr.
   /// \param texture_set  textures, for the faces that have one; or nullptr.
-  /// \param attachmentsattachments drawn with the face.
+  /// \param attachments  attachments drawn with the face.
   /// \throws BrokenPrecondition if a size does not match; InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
                    const VertexColours* colours = nullptr, const TextureSet* texture_set = nullptr,
