@@ -122,10 +122,9 @@ TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
     EXPECT_THAT(told(), HasSubstr(phrase)) << group;
   };
   refused("without: [purple]", "no head has the tag \"purple\"");
-  refused("tags: [old], without: [old]", "every head that the group could have");
-  refused("sources: [ann], without: [female]", "every head that the group could have");
-  refused("bands: {skin: {sources: [ann]}}, without: [old]",
-          "every head that could lend to the band skin");
+  refused("tags: [old], without: [old]", "the group has no head left");
+  refused("sources: [ann], without: [female]", "the group has no head left");
+  refused("bands: {skin: {sources: [ann]}}, without: [old]", "the band skin has no source left");
   refused("without: old", "a list of tags");
   refused("without: [not old]", "name");
 }
@@ -139,7 +138,7 @@ TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
   refused("groups: [{name: a}, {name: a}]\n", "two groups are called \"a\"");
   refused("groups: [{name: a, share: 0.7}, {name: b, share: 0.7}]\n", "more than 1");
   refused("groups: [{name: a, share: 0.7, count: 1}]\n", "not both");
-  refused("groups: [{name: a, count: 1000}]\n", "counts of 1000 faces");
+  refused("groups: [{name: a, count: 1000}]\n", "the counts sum to 1000");
   refused("groups: [{name: a, tags: [purple]}]\n", "no head has all of these tags");
   refused("families: [{name: k, members: 1, group: nobody}]\n", "no group is called \"nobody\"");
 }
@@ -262,14 +261,15 @@ TEST_F(ConfigTest, BandsThatCannotBeMeantAreRefused) {
     EXPECT_THAT(told(), HasSubstr(phrase)) << more;
   };
   refused("sampling: {bands: 3}\n", "a mapping from bands to sizes");
-  refused("sampling: {bands: {top: 8 mm}}\n", "\"top\" means something else");
-  refused("sampling: {bands: {a/b: 8 mm}}\n", "is no name");
+  refused("sampling: {bands: {top: 8 mm}}\n", "\"top\" is a reserved word or the name of a region");
+  refused("sampling: {bands: {a/b: 8 mm}}\n", "is not a valid name");
   refused("sampling: {bands: {build: {}, skin: {sources: all}}}\n", "smoothness: missing");
   refused("sampling: {bands: {skin: {smoothness: 900 mm}}}\n", "up to smoothing.max_size");
   refused("sampling: {bands: {skin: {smoothnes: 8 mm}}}\n", "did you mean \"smoothness\"");
-  refused("sampling: {bands: {a: 0.9, b: 0.5, c: 0.3, d: 0.2, e: 0.1}}\n", "at most 4 bands");
+  refused("sampling: {bands: {a: 0.9, b: 0.5, c: 0.3, d: 0.2, e: 0.1}}\n",
+          "beyond the limit of 4 bands");
   refused("groups: [{name: g, bands: {skin: 8 mm}}]\n", "no band of sampling.bands is called");
-  refused("recipes: [{id: a, regions: {all: {bands: {skin: {}}}}}]\n", "there are no bands");
+  refused("recipes: [{id: a, regions: {all: {bands: {skin: {}}}}}]\n", "the config has no bands");
   refused(kDetail + "recipes: [{id: a, regions: {all: {bands: {skinn: {}}}}}]\n", "\"skin\"");
   refused(kDetail +
               "recipes: [{id: a, regions: {all: {bands: {skin: {weights: {ann: 1}, position: "
@@ -288,19 +288,19 @@ TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
   refused("diversity: {min_distance: 2}\n", "expected a length with its unit");
   refused("diversity: {mode: best}\n", "first_fit or spread");
   refused("diversity: {max_weight: 0}\n", "above 0");
-  refused("diversity: {candidates: 40}\n", "no such key any more");
-  refused("diversity: {max_attempts: 50}\n", "no such key any more");
-  refused("diversity: {quotas: {eve: 0.5}}\n", "groups take the place of quotas");
+  refused("diversity: {candidates: 40}\n", "no longer has this key");
+  refused("diversity: {max_attempts: 50}\n", "no longer has this key");
+  refused("diversity: {quotas: {eve: 0.5}}\n", "groups have replaced quotas");
   refused("families: [{name: smith, members: 0, max_distance: 2 mm}]\n", "from 1 to 1000");
-  refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "needs a letter");
+  refused("families: [{name: 7, members: 2, max_distance: 2 mm}]\n", "a family name with a letter");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, min_distance: 3 mm}]\n",
-          "twice that apart");
+          "at most twice max_distance");
   refused(
       "families: [{name: a, members: 2, max_distance: 1 mm, parents: {mother: a_01, father: "
       "bob}}]\n",
       "expected drawn, a head, a recipe's id or a member");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, inherit: {all: mother}}]\n",
-          "only a family with parents");
+          "only in a family with parents");
   refused("sampling: {age: 0.5}\n", "no head is tagged old");
   refused("believability: {max_flipped: 2}\n", "from 0 to 1");
   refused("review: nowhere.yaml\n", "missing");

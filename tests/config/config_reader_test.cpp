@@ -178,8 +178,8 @@ TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
       "not starting with '.', found \"../x\"\n"
       "c.yaml:2:28: crowd.count: expected a whole number from 0 to 1000000, found \"-1\"\n"
       "c.yaml:2:32: unknown key \"sede\" in crowd; did you mean \"seed\"?\n"
-      "c.yaml:3:8: faces.units: missing; what is one unit of the files: mm, cm, m, in, or a "
-      "length?\n"
+      "c.yaml:3:8: faces.units: missing; write the unit of the files: mm, cm, m, in, or a "
+      "length\n"
       "c.yaml:3:27: unknown key \"unit\" in faces; did you mean \"units\"?\n"
       "c.yaml:4:23: smoothing.operator: expected umbrella or lazy, found \"lasy\"; did you mean "
       "\"lazy\"?\n"
@@ -187,7 +187,7 @@ TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
       "mean "
       "\"basis\"?\n"
       "c.yaml:6:15: sampling.smoothness: expected a number from 0 to 1, found \"1.5\"\n"
-      "c.yaml:7:3: the key \"smoothness\" stands here a second time; first in line 6\n"
+      "c.yaml:7:3: the key \"smoothness\" is used twice; first in line 6\n"
       "c.yaml:8:1: unknown key \"outptu\"; did you mean \"output\"?");
   EXPECT_EQ(problems_.code(), ExitCode::kUsage);
 }
@@ -226,7 +226,7 @@ TEST_F(ReadConfig, HeadNamesMustBeUsable) {
   touch("heads/ann.OBJ");
   EXPECT_FALSE(read(kPlain));
   EXPECT_THAT(told(), HasSubstr("the head's name, \"a b\""));
-  EXPECT_THAT(told(), HasSubstr("no head can be called \"target\""));
+  EXPECT_THAT(told(), HasSubstr("a head cannot have the name \"target\""));
   EXPECT_THAT(told(), HasSubstr("two heads are called \"ann\""));
 }
 

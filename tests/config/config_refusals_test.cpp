@@ -54,15 +54,15 @@ INSTANTIATE_TEST_SUITE_P(
     Colours, WrongConfig,
     testing::Values(
         Wrong{"textures: {colours: apart}", "5:21", "recipe or drawn"},
-        Wrong{"points: rig.yaml/", "5:9", "does not end in '/'"},
-        Wrong{"textures: {blend: target, colours: drawn}", "5:36", "blend must be auto"},
-        Wrong{"textures: {alike: []}", "5:19", "goes with colours: drawn"},
+        Wrong{"points: rig.yaml/", "5:9", "without '/' at its end"},
+        Wrong{"textures: {blend: target, colours: drawn}", "5:36", "requires textures.blend: auto"},
+        Wrong{"textures: {alike: []}", "5:19", "requires colours: drawn"},
         Wrong{"textures: {colours: drawn, alike: [amn]}", "5:35", "no head has the tag \"amn\""},
         Wrong{"textures: {colours: drawn, alike: all}", "5:35", "a list of tags, [female, male]"},
         Wrong{"recipes: [{id: r, target: ann, colours: {zed: 1}}]", "5:42", "no head is called"},
         Wrong{"recipes: [{id: r, target: ann, colours: {bob: 0}}]", "5:41", "sum to zero"},
         Wrong{"textures: {blend: none}\nrecipes: [{id: r, target: ann, colours: {bob: 1}}]", "6:41",
-              "go with textures.blend: auto"},
+              "requires textures.blend: auto"},
         Wrong{"recipes: [{id: r, target: ann, colours: bob}]", "5:41", "{head: weight}"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, tags: [green]}]}",
               "5:72", "no head has all of these tags"},
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, excludes: [hat]}]}",
-              "5:77", "no attachment is called \"hat\""},
+              "5:77", "no attachment has the name or kind \"hat\""},
         Wrong{"attachments: {items: [{name: LOD1, kind: hair, file: heads/ann.obj}]}", "5:23",
               "choose another name"},
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj}, "
@@ -149,10 +149,10 @@ INSTANTIATE_TEST_SUITE_P(
               "5:95", "did you mean \"red\"?"},
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, colour: red}], "
               "quotas: {hair: 0.5, red: 0.1}}",
-              "5:106", "not both: hair"},
+              "5:106", "found both: hair"},
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj}], "
               "none: {hair: 0.5}, quotas: {hair: 0.5}}",
-              "5:102", "give one of them"},
+              "5:102", "keep only one of the two"},
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.obj, colour: red}, "
               "{name: b, kind: hair, file: heads/ann.obj}], quotas: {red: 0.7, b: 0.7}}",
               "5:147", "add up to more than 1"},
@@ -162,10 +162,10 @@ INSTANTIATE_TEST_SUITE_P(
               "expected obj or ply or glb or points or usd, found \"fbx\""},
         Wrong{"output: {directory: ''}", "5:21", "expected a folder"},
         Wrong{"output: {directory: \"a\\0b\"}", "5:21", "expected a folder"},
-        Wrong{"output: {lods: [50 %, 0.2]}", "5:23", "a list of up to 8 levels"},
-        Wrong{"output: {lods: [20 %, 20 %]}", "5:23", "each smaller"},
-        Wrong{"output: {lods: [100 %]}", "5:17", "a list of up to 8 levels"},
-        Wrong{"output: {lods: 50 %}", "5:16", "a list of up to 8 levels"},
+        Wrong{"output: {lods: [50 %, 0.2]}", "5:23", "a decreasing list of up to 8 percentages"},
+        Wrong{"output: {lods: [20 %, 20 %]}", "5:23", "a decreasing list"},
+        Wrong{"output: {lods: [100 %]}", "5:17", "a decreasing list of up to 8 percentages"},
+        Wrong{"output: {lods: 50 %}", "5:16", "a decreasing list of up to 8 percentages"},
         Wrong{"output: {contact_sheet: off}", "5:25", "none or a mapping"},
         Wrong{"output: {contact_sheet: {labels: [id, id]}}", "5:39", "named twice"},
         Wrong{"output: {contact_sheet: {labels: []}}", "5:34", "a list of labels"},
@@ -236,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"recipes: [{id: a/b}]", "5:16", "expected a name"},
         Wrong{"recipes: [{id: .a}]", "5:16", "not starting with '.'"},
         Wrong{"recipes: [{id: mob_0004}]", "5:16", "belong to the sampled faces"},
-        Wrong{"recipes: [{id: a}, {id: a}]", "5:25", "second time; first at"},
+        Wrong{"recipes: [{id: a}, {id: a}]", "5:25", "twice; first at"},
         Wrong{"recipes: [{id: a, target: dan}]", "5:27", "no head is called \"dan\""},
         Wrong{"recipes: [{id: a, regions: {topp: {}}}]", "5:29", "did you mean \"top\"?"},
         Wrong{"recipes: [{id: a, regions: {top: 3}}]", "5:34", "found \"3\""},
@@ -253,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(
               "found a mapping"},
         Wrong{"blending: {normalization: printed}\n"
               "recipes: [{id: a, regions: {all: {weights: {ann: 1}}}}]",
-              "6:44", "takes positions, no weights"}));
+              "6:44", "position instead of weights"}));
 
 // Every key that takes a plain value, with every kind of wrong value in place of it.
 TEST_F(ConfigTest, NoKeyTakesAValueOfAnotherKind) {
@@ -350,7 +350,7 @@ TEST_F(WrongHead, SectionsAreCheckedToo) {
   EXPECT_THAT(with_faces("{units: cm, directory: heads, tags: {ann: [x, x]}}"),
               HasSubstr("3:54: faces.tags.ann #2: the tag \"x\" is named twice"));
   EXPECT_THAT(with_faces("{units: cm, directory: heads, tags: {ann: [all]}}"),
-              HasSubstr("no tag can be called"));
+              HasSubstr("a tag cannot have the reserved name"));
   EXPECT_THAT(with_faces("{units: cm, directory: heads, tags: {ann: old}}"),
               HasSubstr("a list of tags"));
   const auto with_regions = [&](const std::string& regions) {
@@ -361,12 +361,12 @@ TEST_F(WrongHead, SectionsAreCheckedToo) {
   EXPECT_THAT(with_regions("{mask: mask.png}"), HasSubstr("regions.names: missing"));
   EXPECT_THAT(with_regions("{names: a, mask: mask.png}"), HasSubstr("a list of 1 to 16 names"));
   EXPECT_THAT(with_regions("{names: [default], mask: mask.png}"),
-              HasSubstr("no region can be called \"default\""));
+              HasSubstr("a region cannot have the name \"default\""));
   EXPECT_THAT(with_regions("{names: [a, a], mask: mask.png}"),
               HasSubstr("4:22: regions.names #2: the region \"a\" is named twice"));
   EXPECT_THAT(with_regions("{names: [a], mask: []}"), HasSubstr("an image file or a list"));
   EXPECT_THAT(with_regions("{names: [a], mask: \"<UDIM>/a.png\"}"),
-              HasSubstr("<UDIM> can stand once"));
+              HasSubstr("expected <UDIM> only once"));
   EXPECT_THAT(with_regions("{names: [a], mask: no.<UDIM>.png}"), HasSubstr("no tile of the mask"));
 }
 

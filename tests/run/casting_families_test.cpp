@@ -239,11 +239,11 @@ TEST(CastingFamilies, ChildrenResembleBothParentsThroughGenerations) {
   const std::string few = testing::read_text(folder.out() / "plan.jsonl");
   EXPECT_EQ(testing::read_text(folder / "more/plan.jsonl").substr(0, few.size()), few);
 
-  // A parent has children who take after it.
+  // A parent cannot be rejected, because its children take after it.
   ConfigOverrides review;
   review.review = {
       folder.folder().write("r.yaml", "schema: 1\nfaces: {mob_smith_mother: reject}\n").string()};
-  testing::expect_error(ExitCode::kUsage, {"children who take after it"}, [&] {
+  testing::expect_error(ExitCode::kUsage, {"is a parent and cannot be rejected"}, [&] {
     plan(folder.config(), review, {folder.cache(), Replace::kRefuse, false});
   });
 }

@@ -8,7 +8,7 @@ namespace {
 
 using Advice = std::string_view;
 
-constexpr Advice kRoom[] = {"more heads, or regions blended apart",
+constexpr Advice kRoom[] = {"more heads, or regions that are blended separately",
                             "a wider range of smoothness, or a smaller pull"};
 constexpr Advice kMixture[] = {
     "a larger pull or distribution: uniform, which mix more heads into a face",
@@ -77,10 +77,10 @@ const Constraint& constraint_of(Reason reason) {
 
 std::string describe(Reason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability) {
-  if (reason == Reason::kFamily) return "what keeps families together";
+  if (reason == Reason::kFamily) return "the distances within the family";
   const Constraint& constraint = constraint_of(reason);
   if (reason == Reason::kRejected) {
-    return concat("a distance from the faces that reviews rejected (", full_key(constraint), ")");
+    return concat("the distance to faces that reviews rejected (", full_key(constraint), ")");
   }
   return concat(full_key(constraint), ", ", limit_of(constraint, diversity, believability));
 }

@@ -86,7 +86,7 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
     if (found == faces.end()) {
       if (!parent.drawn) {
         throw InvalidInput(
-            concat("family ", family.name, ": no face before it is called ", quoted(parent.id)));
+            concat("family ", family.name, ": no earlier face is called ", quoted(parent.id)));
       }
       to_draw_.push_back(p);
       continue;

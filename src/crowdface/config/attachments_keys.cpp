@@ -44,7 +44,7 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   const bool any = !heads_with(*tags, draft.config.faces).empty();
   if (!any && draft.heads_known && draft.tags_known) {
     draft.complaints.about(node,
-                           "no head has all of these tags, so that no face would ever get it");
+                           "no head has all of these tags, so no face would get this attachment");
   }
 }
 
@@ -87,8 +87,8 @@ void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft
   if (std::ranges::find(items, item.name, &Attachment::name) != items.end()) {
     draft.complaints.about(node, concat("two attachments are called ", quoted(item.name)));
   } else if (is_taken(item.name, draft.config)) {
-    draft.complaints.about(node, concat("faces have other files that are called ",
-                                        quoted(item.name), ": choose another name"));
+    draft.complaints.about(node, concat("other files of a face already have the name ",
+                                        quoted(item.name), "; choose another name"));
   }
 }
 
@@ -172,13 +172,14 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
     // items and colours; a sum of at most 1.
     const bool is_first = !totals.contains(item->kind);
     if (attachments.none.contains(item->kind) && entry.key == item->kind) {
-      draft.complaints.about(
-          entry.value, concat("attachments.none speaks of ", entry.key, " too: give one of them"));
+      draft.complaints.about(entry.value, concat("attachments.none also sets ", entry.key,
+                                                 "; keep only one of the two"));
     } else if (!is_first && (entry.key == item->kind || alone.contains(item->kind))) {
-      draft.complaints.about(entry.value,
-                             concat("a kind has a quota of its own, or its names and colours have "
-                                    "some, not both: ",
-                                    item->kind));
+      draft.complaints.about(
+          entry.value,
+          concat(
+              "expected one quota for the kind, or quotas for its names and colours, found both: ",
+              item->kind));
     } else if ((totals[item->kind] += *share) > 1 + kRounding) {
       draft.complaints.about(
           entry.value, concat("the quotas of the kind ", item->kind, " add up to more than 1"));
@@ -223,8 +224,8 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
     if (excludes == nullptr) continue;
     for (const YamlNode& name : excludes->value.items) {
       if (contains(known, name.text)) continue;
-      draft.complaints.about(name, concat("no attachment is called ", quoted(name.text),
-                                          " or of that kind", suggestion(name.text, known)));
+      draft.complaints.about(name, concat("no attachment has the name or kind ", quoted(name.text),
+                                          suggestion(name.text, known)));
     }
   }
 }
@@ -243,8 +244,9 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
 
 std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
   if (facts.attachments.empty()) return std::nullopt;
-  return StarterLines{facts.attachments, "",
-                      "What faces wear, as it lies beside the heads (docs/attachments.md)."};
+  return StarterLines{
+      facts.attachments, "",
+      "Attachments (hair, beards, glasses, …) that lie beside the heads (docs/attachments.md)."};
 }
 
 std::string write_attachments(const Config& config, const ConfigWriting& writing) {

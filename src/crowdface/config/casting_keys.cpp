@@ -107,10 +107,10 @@ void refuse_quotas(const YamlNode& node, DiversityOptions& /*diversity*/, Config
     quotas.push_back(*quota);
     total += quota->share;
   }
-  std::string message = "groups take the place of quotas";
+  std::string message = "groups have replaced quotas";
   if (quotas.size() == node.entries.size()) {
     const ConfigWriting writing{draft.config, draft.folder};
-    message += "; leave quotas out and add to the config:\ngroups:";
+    message += "; remove quotas and add to the config:\ngroups:";
     for (const Quota& quota : quotas) {
       message += concat("\n  - ", group_text(quotas, &quota, writing));
     }
@@ -133,7 +133,7 @@ const Keys<BelievabilityOptions>& believability_keys() {
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertices > kMaxJudged) return std::nullopt;
             return StarterLines{"0.5",
-                                "mm² of skin that shows its back: specks at nostrils and lips"};
+                                "skin that shows its back, in mm²: specks at nostrils and lips"};
           }),
       word_key("meshes", &Believability::meshes)
           .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
@@ -150,7 +150,7 @@ Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
   return {name,
           [=](const YamlNode& node, auto&, ConfigDraft& draft) {
             if (node.text != value) {
-              draft.complaints.about(node, "there is no such key any more; leave it out");
+              draft.complaints.about(node, "crowdface no longer has this key; remove it");
             }
           },
           [](const auto&...) { return ""; }};
@@ -172,8 +172,8 @@ const Keys<DiversityOptions>& diversity_keys() {
       key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance)),
       key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance))
           .in_starter({"0.8 mm", "",
-                       "No face comes nearer to one of the heads: below half a millimetre it is "
-                       "that person."}),
+                       "No face comes nearer than this to a head: below half a millimetre it looks "
+                       "like that person."}),
       key("min_distance_to_rejected", &Diversity::min_distance_to_rejected_mm,
           length(kMaxDistance)),
       key("max_weight", &Diversity::max_weight,

@@ -81,7 +81,8 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
     const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
     const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
     if (weight == 0.0) {
-      draft.complaints.expected(entry.value, "a weight above 0 (leave the head out for none)");
+      draft.complaints.expected(entry.value,
+                                "a weight above 0 (to exclude the head, remove its entry)");
     }
     for (const Eigen::Index head : heads) {
       const bool named = draft.config.faces.names[static_cast<std::size_t>(head)] == entry.key;

@@ -41,7 +41,8 @@ std::optional<std::string> config_difference(const std::string& old_text, const 
   Complaints complaints;
   auto old = parse_yaml(old_text, "", complaints);
   auto root = parse_yaml(text, "", complaints);
-  if (!old || !root || !complaints.empty()) return "all of it, as it is no config that can be read";
+  if (!old || !root || !complaints.empty())
+    return "every key, because one of the two is not a valid config";
   forget_reviews(*old);
   forget_reviews(*root);
   const auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);

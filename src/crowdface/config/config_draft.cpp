@@ -17,7 +17,7 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what) {
   if (node.text.ends_with('/')) {
-    draft.complaints.expected(node, "the name of a file, which does not end in '/'");
+    draft.complaints.expected(node, "a file name without '/' at its end");
     return false;
   }
   if (path_exists(file)) return true;

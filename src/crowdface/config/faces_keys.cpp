@@ -25,12 +25,12 @@ void add_head(const fs::path& file, const std::string& name, const YamlNode& nod
   const std::string shown = quoted(file.string());
   expect_file(node, file, draft);
   if (!is_name(name)) {
-    draft.complaints.about(
-        node, concat("the head's name, ", quoted(name), ", is that of its file and may hold ",
-                     "letters (a-z), digits, '_', '-' and '.', 64 at most; rename ", shown));
+    draft.complaints.about(node, concat("the head's name, ", quoted(name),
+                                        ", comes from its file name; expected at most 64 ",
+                                        "letters (a-z), digits, '_', '-' and '.'; rename ", shown));
   } else if (name == "all" || name == "target") {
-    draft.complaints.about(node, concat("no head can be called ", quoted(name),
-                                        ", the word has its own meaning; rename ", shown));
+    draft.complaints.about(node, concat("a head cannot have the name ", quoted(name),
+                                        ", because the word is reserved; rename ", shown));
   } else if (contains(faces.names, name)) {
     draft.complaints.about(
         node, concat("two heads are called ", quoted(name), "; the second is ", shown));
@@ -64,7 +64,8 @@ std::string pattern_below(const fs::path& folder) {
     if (heads.empty()) continue;
     const std::string pattern = concat("*/", heads.front().filename().string());
     if (files_like(folder / pattern).size() < kMinHeads) continue;
-    return concat("; for a head a folder: files: \"", (folder.filename() / pattern).string(), "\"");
+    return concat("; if each head has its own folder, write files: \"",
+                  (folder.filename() / pattern).string(), "\"");
   }
   return {};
 }
@@ -92,7 +93,7 @@ void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   std::vector<fs::path> files = files_like(*pattern);
   std::erase_if(files, [](const fs::path& file) { return !is_head_file(file); });
   draft.heads_known = expect_head_count(
-      node, files.size(), concat(" that are like ", quoted(node.text)), draft.complaints);
+      node, files.size(), concat(" that match ", quoted(node.text)), draft.complaints);
   add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
 }
 
@@ -134,7 +135,7 @@ void check_tag(const YamlNode& node, const Faces& faces, Complaints& out) {
   if (contains(faces.names, tag)) {
     out.about(node, concat("the tag ", quoted(tag), " is also the name of a head"));
   } else if (tag == "all" || tag == "target") {
-    out.about(node, concat("no tag can be called ", quoted(tag)));
+    out.about(node, concat("a tag cannot have the reserved name ", quoted(tag)));
   }
 }
 
@@ -200,22 +201,21 @@ std::string name_some(std::vector<std::string> names) {
 
 StarterLines starter_units(const StarterFacts& facts) {
   const double height_cm = facts.head_height * mm_per(facts.units) / 10;
-  return {name_of(facts.units), "",
-          concat("What one unit of the files is: mm, cm, m, in, or a length (243.84 cm). Guessed, "
-                 "because ",
-                 facts.units_reason, ",\nwhich makes the first mesh ", format_fixed(height_cm, 1),
-                 " cm high. PLEASE CHECK: every size below rests on it.")};
+  return {
+      name_of(facts.units), "",
+      concat("The unit of the files: mm, cm, m, in, or a length (243.84 cm). Guessed, because ",
+             facts.units_reason, ".\nWith this unit the first mesh is ", format_fixed(height_cm, 1),
+             " cm high. PLEASE CHECK: all sizes below depend on it.")};
 }
 
 StarterLines starter_tags(const StarterFacts& facts) {
   if (facts.tags.empty()) {
-    return {
-        "", "",
-        "tags: {head_a: [old], head_b: [young]}   # groups of heads, to be named under sampling"};
+    return {"", "",
+            "tags: {head_a: [old], head_b: [young]}   # groups of heads, for use under sampling"};
   }
   std::vector<std::string> heads;
   for (const auto& [head, tags] : facts.tags) heads.push_back(entry(head, flow_list(tags)));
-  return {block_map(heads), "", "Groups of heads, to be named under sampling."};
+  return {block_map(heads), "", "Groups of heads, for use under sampling."};
 }
 
 const Keys<Faces>& faces_keys() {
@@ -227,7 +227,7 @@ const Keys<Faces>& faces_keys() {
           }),
       Key<Faces>{"files", read_files, write_files}.taking("list of meshes, or a pattern"),
       key("units", &Faces::units, length_unit(),
-          "what is one unit of the files: mm, cm, m, in, or a length?")
+          "write the unit of the files: mm, cm, m, in, or a length")
           .in_starter(starter_units),
       key("up", &Faces::up, axis()).in_starter([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.up), "the axis that points to the top of the head"};
@@ -239,10 +239,10 @@ const Keys<Faces>& faces_keys() {
         if (!facts.align_rigidly)
           return StarterLines{
               std::string(word_of(Align::kCheck)),
-              "warn about heads that do not stand like the others; rigid moves them"};
+              "warn about heads in another pose than the others; rigid aligns them"};
         return StarterLines{
             std::string(word_of(Align::kRigid)),
-            "some heads stand differently; each is turned and moved onto the first"};
+            "some heads are in another pose; each is turned and moved onto the first"};
       }),
       Key<Faces>{"tags", read_head_tags, write_tags, {}, starter_tags}.taking(
           "`{head: [tag, …]}`")};

@@ -42,7 +42,8 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
                                   const FamilyOptions& family, ConfigDraft& draft) {
   Parent drawn{std::nullopt, concat(family.name, '_', role), true};
   if (node.kind == YamlNode::Kind::kMap) {
-    static const Keys<Parent> keys = {key("group", &Parent::group, group(), "of whom to draw")};
+    static const Keys<Parent> keys = {
+        key("group", &Parent::group, group(), "write the group from which the parent is drawn")};
     read_keys(node, keys, drawn, draft);
     return drawn;
   }
@@ -60,9 +61,8 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const bool known = std::ranges::find(recipes, *name, &HandRecipe::id) != recipes.end() ||
                      is_of_a_family(*name, draft.config);
   if (!known && draft.heads_known) {
-    draft.complaints.about(node,
-                           concat("expected drawn, a head, a recipe's id or a member of ",
-                                  "a family before this one (smith_01), found ", quoted(*name)));
+    draft.complaints.about(node, concat("expected drawn, a head, a recipe's id or a member of ",
+                                        "an earlier family (smith_01), found ", quoted(*name)));
   }
   return Parent{std::nullopt, *name};
 }
@@ -91,7 +91,7 @@ std::string write_parents(const FamilyOptions& family, const ConfigWriting& writ
 
 void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kMap && family.parents.empty()) {
-    draft.complaints.about(node, "only a family with parents inherits");
+    draft.complaints.about(node, "expected inherit only in a family with parents; add parents");
   }
   if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
   // Later names override earlier ones: bands override regions, "top/skin" overrides both.
@@ -126,8 +126,8 @@ void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& 
   }
   if (family.name.find_first_not_of("0123456789") == std::string::npos) {
     draft.complaints.about(node,
-                           "a family's name needs a letter, or its members would be called "
-                           "like sampled faces");
+                           "expected a family name with a letter; with digits only, the members "
+                           "would have the ids of sampled faces");
   }
 }
 
@@ -135,7 +135,9 @@ void refuse_taken_ids(const YamlNode& node, const FamilyOptions& family, ConfigD
   const auto& recipes = draft.config.recipes;
   for (const std::string& id : ids_of(family, draft.config.crowd.name)) {
     if (std::ranges::find(recipes, id, &HandRecipe::id) == recipes.end()) continue;
-    draft.complaints.about(node, concat("the recipe ", quoted(id), " is called like a member"));
+    draft.complaints.about(
+        node, concat("the recipe ", quoted(id),
+                     " has the id of a member of this family; rename the recipe or the family"));
   }
 }
 
@@ -143,7 +145,7 @@ const Keys<FamilyOptions>& family_keys() {
   using Family = FamilyOptions;
   static const Keys<Family> keys = {
       key("name", &Family::name, name(), "such as smith"),
-      key("members", &Family::members, whole(1, kMaxMembers), "how many faces"),
+      key("members", &Family::members, whole(1, kMaxMembers), "write the number of faces"),
       key("group", &Family::group, group()),
       key("target", &Family::target, head()),
       Key<Family>{"parents", read_parents, write_parents}.taking("`{mother: …, father: …}`"),
@@ -172,8 +174,8 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
     }
     if (family.max_distance_mm > 0 && family.min_distance_mm > 2 * family.max_distance_mm) {
       draft.complaints.about(item.find("min_distance")->value,
-                             "members that are all within max_distance of one founder cannot be "
-                             "more than twice that apart");
+                             "expected at most twice max_distance, because all members are within "
+                             "max_distance of one founder");
     }
     refuse_taken_ids(item, family, draft);
     config.families.push_back(std::move(family));

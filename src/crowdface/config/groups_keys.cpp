@@ -49,12 +49,14 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
     }
   }
   if (known && had_some && (sampling.targets.empty() || sampling.sources.empty())) {
-    draft.complaints.about(node, "every head that the group could have has one of these tags");
+    draft.complaints.about(
+        node, "the group has no head left, because each of its heads has one of these tags");
   }
   for (const std::string& band : emptied) {
-    draft.complaints.about(node, concat("every head that could lend to the band ", band,
-                                        " has one of these tags; give the group's bands.", band,
-                                        " sources of its own"));
+    draft.complaints.about(
+        node,
+        concat("the band ", band, " has no source left, because each of its ",
+               "sources has one of these tags; set sources under bands.", band, " of the group"));
   }
 }
 
@@ -112,8 +114,8 @@ void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
     draft.complaints.about(node, concat("the shares sum to ", shared, ", more than 1"));
   }
   if (counted > draft.config.crowd.count) {
-    draft.complaints.about(
-        node, concat("counts of ", counted, " faces in a crowd of ", draft.config.crowd.count));
+    draft.complaints.about(node, concat("the counts sum to ", counted, ", more than crowd.count, ",
+                                        draft.config.crowd.count));
   }
   for (Group& group : groups) {
     if (group.share == kOpenShare) group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
@@ -144,8 +146,8 @@ std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
   return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
                                   "{name: men, share: 0.5, tags: [male]}"}),
                       "",
-                      "Hair and beards go by the tags of the head that a face is built on, its "
-                      "features by all\nheads that lend to it: women and men apart."};
+                      "Hair and beards depend on the tags of the target head, features on all "
+                      "source heads:\nseparate groups keep women and men apart."};
 }
 
 std::string write_groups(const Config& config, const ConfigWriting& writing) {

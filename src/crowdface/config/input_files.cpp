@@ -111,10 +111,10 @@ std::string left_out_of_heads(const fs::path& folder) {
   }
   return concat(
       quoted(folder.string()), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
-      count, "): the heads of a folder are its OBJ files, or those of the kind that most are of; ",
-      "files: \"", (folder.filename() / "*").string(),
-      "\" takes OBJ, PLY, GLB, glTF, FBX, USD and NumPy alike, and crowdface convert writes one as "
-      "another");
+      count,
+      "): the heads of a folder are its OBJ files, or the files of the most frequent format; ",
+      "to read other formats too, write files: \"", (folder.filename() / "*").string(),
+      "\", or convert the files with crowdface convert");
 }
 
 std::vector<fs::path> files_like(const fs::path& pattern) {
@@ -191,9 +191,9 @@ std::vector<fs::path> input_files(const Config& config) {
 
 void refuse_path_no_config_can_hold(const fs::path& path) {
   if (is_utf8(path.native()) && !has_control_character(path.native())) return;
-  throw UsageError(concat(quoted(path.native()),
-                          ": expected a path of UTF-8 text without control characters, which a "
-                          "config can name"));
+  throw UsageError(concat(
+      quoted(path.native()),
+      ": expected a path of UTF-8 text without control characters, because a config must name it"));
 }
 
 void check_paths(const Config& config, Problems& problems) {

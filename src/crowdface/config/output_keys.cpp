@@ -27,10 +27,10 @@ void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
     sheet.compare.with = word->value;
   } else {
     sheet.compare = {With::kFile, *file, sheet.compare.scale_mm};
-    expect_file(node, *file, draft, "expected none, target, nearest, or a file that is there; ");
+    expect_file(node, *file, draft, "expected none, target, nearest, or an existing file; ");
   }
   if (sheet.compare.with != With::kNothing && draft.config.output.meshes.empty()) {
-    draft.complaints.about(node, "comparing needs meshes, and output.meshes asks for none");
+    draft.complaints.about(node, "a comparison needs meshes, but output.meshes is empty");
   }
 }
 
@@ -86,7 +86,7 @@ bool is_level_name(std::string_view name) {
 
 void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
   constexpr std::size_t kMaxLevels = 8;
-  constexpr const char* kExpected = "a list of up to 8 levels, each smaller, [50 %, 20 %, 5 %]";
+  constexpr const char* kExpected = "a decreasing list of up to 8 percentages, [50 %, 20 %, 5 %]";
   draft.complaints.expect_list(node, kExpected);
   for (const YamlNode& child : node.items) {
     const auto percent =
@@ -102,7 +102,9 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
   const auto& names = draft.config.shapes.names;
   const auto name = std::ranges::find_if(names, is_level_name);
   if (name != names.end()) {
-    draft.complaints.about(node, concat("a shape is called ", *name, ", like a level of detail"));
+    draft.complaints.about(node,
+                           concat("a shape is called ", *name,
+                                  ", which is the name of a level of detail; rename the shape"));
   }
 }
 
@@ -123,10 +125,10 @@ std::string write_surfaces(const Output& output, const ConfigWriting&) {
 /// \param faces  number of faces whose shapes are shown.
 bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
   if (faces > 0 && draft.config.shapes.names.empty()) {
-    draft.complaints.about(node, "there are no shapes: the key shapes is missing, or none");
+    draft.complaints.about(node, "the config has no shapes; add the key shapes");
   }
   if (faces > 0 && draft.config.output.meshes.empty()) {
-    draft.complaints.about(node, "shapes are shown on meshes, and output.meshes asks for none");
+    draft.complaints.about(node, "shapes are rendered from meshes, but output.meshes is empty");
   }
   return true;
 }
@@ -183,8 +185,8 @@ void read_contact_sheet(const YamlNode& node, Output& output, ConfigDraft& draft
   read_keys(node, contact_sheet_keys(), *output.contact_sheet, draft);
   if (!fits_on_a_page(*output.contact_sheet)) {
     draft.complaints.about(node,
-                           "one page of so many cells, rows and columns is too large (at most "
-                           "65500 pixels a side and 5e8 in all)");
+                           "a page with this cell size, rows and columns is too large (at most "
+                           "65500 pixels per side and 5e8 in total)");
   }
 }
 
@@ -220,8 +222,7 @@ const Keys<Output>& output_keys() {
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
           .in_starter({"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),
-      Key<Output>{"lods", read_lods, write_lods}.taking(
-          "list of up to 8 percentages, each smaller"),
+      Key<Output>{"lods", read_lods, write_lods}.taking("decreasing list of up to 8 percentages"),
       word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
       key("faces_per_folder", &Output::faces_per_folder, whole(0, kMaxFacesPerFolder)),

@@ -37,7 +37,8 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
 
 void read_band_weights(const YamlNode& node, HandBand& band, ConfigDraft& draft) {
   if (draft.config.blending.normalization == Normalization::kPrinted) {
-    draft.complaints.about(node, "blending.normalization: printed takes positions, no weights");
+    draft.complaints.about(
+        node, "with blending.normalization: printed, expected position instead of weights");
   }
   read_head_weights(node, band.weights, draft);
 }
@@ -74,7 +75,7 @@ void read_part(const YamlNode& node, const Keys<Part>& keys, Part& part, ConfigD
 void read_recipe_bands(const YamlNode& node, HandRegion& region, ConfigDraft& draft) {
   const std::vector<std::string> names = draft.config.plan_names().bands;
   if (names.empty()) {
-    draft.complaints.about(node, "there are no bands; sampling.bands names them");
+    draft.complaints.about(node, "the config has no bands; define them under sampling.bands");
     return;
   }
   const MapReader map(node, names, draft.complaints);
@@ -161,8 +162,8 @@ void check_id(const YamlNode& node, const std::string& id, std::map<std::string,
   }
   const auto [first, is_new] = places.emplace(id, node.place);
   if (!is_new) {
-    draft.complaints.about(node, concat("the id ", quoted(id), " stands here a second time; first ",
-                                        "at ", first->second.text()));
+    draft.complaints.about(
+        node, concat("the id ", quoted(id), " is used twice; first ", "at ", first->second.text()));
   }
 }
 
@@ -176,7 +177,7 @@ const Keys<HandRecipe>& recipe_keys() {
       Key<HandRecipe>{"colours",
                       [](const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
                         if (draft.config.textures.blend != TextureBlend::kAuto) {
-                          draft.complaints.about(node, "go with textures.blend: auto");
+                          draft.complaints.about(node, "requires textures.blend: auto");
                         }
                         read_head_weights(node, recipe.colours, draft);
                       },

@@ -24,10 +24,12 @@ void read_mask_image(const YamlNode& node, Regions& regions, ConfigDraft& draft)
     expect_file(node, *mask, draft, "the mask ");
   } else if (mask->filename().string().find(kTileWord) == std::string::npos ||
              text.find(kTileWord, tiles + 1) != std::string::npos) {
-    draft.complaints.about(node, "<UDIM> can stand once, in the name of the file");
+    draft.complaints.about(node, "expected <UDIM> only once, in the file name");
   } else if (find_tiles(*mask).empty()) {
     draft.complaints.about(
-        node, concat("no tile of the mask ", quoted(text), " is there, such as 1001 for <UDIM>"),
+        node,
+        concat("no tile of the mask ", quoted(text),
+               " exists; expected a file such as the one with 1001 in place of <UDIM>"),
         ExitCode::kMissingInput);
   }
   regions.mask.push_back(text);
@@ -52,8 +54,8 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   const auto name = read_name(node, out);
   if (!name) return;
   if (reserved.contains(*name)) {
-    out.about(node,
-              concat("no region can be called ", quoted(*name), ", the word has its own meaning"));
+    out.about(node, concat("a region cannot have the name ", quoted(*name),
+                           ", because the word is reserved"));
   } else if (contains(names, *name)) {
     out.about(node, concat("the region ", quoted(*name), " is named twice"));
   }
@@ -93,17 +95,15 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
   if (facts.mask.empty()) {
     return StarterLines{
         "none", "",
-        "Parts of the face that are blended on their own need an image that tells them apart: one\n"
-        "colour channel a region, read at the meshes' UVs (crowdface mask proposes one). Until "
-        "then\n"
-        "the head is one piece.\nregions: {names: [top, middle, bottom], mask: bands.png}"};
+        "Regions of the face that are blended separately need a mask image: one colour channel "
+        "per\nregion, in the layout of the meshes' UVs (crowdface mask proposes one). Without it, "
+        "the\nhead is a single region.\nregions: {names: [top, middle, bottom], mask: bands.png}"};
   }
-  return StarterLines{
-      block_map(
-          {concat("names: [", join(facts.regions), ']'), entry("mask", write_scalar(facts.mask))}),
-      "",
-      "Parts of the face that are blended on their own: the image tells them apart, one colour\n"
-      "channel a region. \"regions: none\" makes the head one piece."};
+  return StarterLines{block_map({concat("names: [", join(facts.regions), ']'),
+                                 entry("mask", write_scalar(facts.mask))}),
+                      "",
+                      "Regions of the face that are blended separately: each colour channel of the "
+                      "image masks one\nregion. \"regions: none\" makes the head a single region."};
 }
 
 std::string write_regions(const Config& config, const ConfigWriting& writing) {

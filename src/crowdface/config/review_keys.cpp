@@ -47,7 +47,7 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   for (const std::string& band : draft.config.plan_names().bands) names.push_back(band);
   const bool banded = names.size() > draft.config.regions.names.size();
   if (node.kind != YamlNode::Kind::kList || node.items.empty()) {
-    draft.complaints.expected(node, "a list of regions or bands that stay, [top]");
+    draft.complaints.expected(node, "a list of regions or bands to keep, [top]");
     return;
   }
   for (const YamlNode& item : node.items) {
@@ -60,7 +60,7 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
     if (found.empty() && draft.regions_known) {
       draft.complaints.about(
           item, names.empty()
-                    ? "there are no regions: nothing can be locked apart from the rest"
+                    ? "the config has no regions, so nothing can be locked"
                     : concat(banded ? "no region or band is called " : "no region is called ",
                              quoted(*name), suggestion(*name, names)));
     }
@@ -69,7 +69,8 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   std::ranges::sort(mark.locked);
   mark.locked.erase(std::unique(mark.locked.begin(), mark.locked.end()), mark.locked.end());
   if (!names.empty() && mark.locked.size() == draft.config.part_names().size()) {
-    draft.complaints.about(node, "with every region locked nothing is left to draw anew");
+    draft.complaints.about(
+        node, "every region is locked, so nothing is left to redraw; unlock at least one");
   }
   mark.verdict = Verdict::kReject;
 }
@@ -77,7 +78,8 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 void read_verdict(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   mark.verdict = word<Verdict>().read(node, draft).value_or(mark.verdict);
   if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
-    draft.complaints.about(node, "a face that is kept has nothing to lock");
+    draft.complaints.about(
+        node, "expected mark: reject with lock, found keep; a kept face is not redrawn");
   }
 }
 
@@ -120,16 +122,17 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
     }
     read_mark(entry.value, mark, draft);
     if (mark.verdict == Verdict::kReject && is_drawn_parent(entry.key, draft.config)) {
-      draft.complaints.add(entry.key_place,
-                           concat(quoted(entry.key), " has children who take after it; give the ",
-                                  "family another name in place of rejecting it"));
+      draft.complaints.add(
+          entry.key_place,
+          concat(quoted(entry.key), " is a parent and cannot be rejected; to redraw ",
+                 "the family, give it another name"));
     }
     const auto& recipes = draft.config.recipes;
     if (mark.verdict == Verdict::kReject &&
         std::ranges::find(recipes, entry.key, &HandRecipe::id) != recipes.end()) {
       draft.complaints.add(entry.key_place,
-                           concat(quoted(entry.key), " is written by hand; change ",
-                                  "its recipe in place of rejecting it"));
+                           concat(quoted(entry.key), " is written by hand and cannot be rejected; ",
+                                  "change its recipe"));
     }
     review.push_back(std::move(mark));
   }

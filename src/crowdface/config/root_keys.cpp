@@ -15,12 +15,12 @@ const Keys<Config::Crowd>& crowd_keys() {
   using Crowd = Config::Crowd;
   constexpr std::uint64_t kMaxCount = 1'000'000;
   static const Keys<Crowd> keys = {
-      key("name", &Crowd::name, name(), "what the faces' ids start with")
+      key("name", &Crowd::name, name(), "write the prefix of the faces' ids")
           .in_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(facts.crowd_name),
                                 concat("ids start with it: ", facts.crowd_name, "_0001, …")};
           }),
-      key("count", &Crowd::count, whole(0, kMaxCount), "how many faces are sampled")
+      key("count", &Crowd::count, whole(0, kMaxCount), "write the number of faces to sample")
           .in_starter({"24", "how many faces; a larger crowd starts with the same ones"}),
       key("seed", &Crowd::seed, whole(0, UINT64_MAX))
           .in_starter({"1", "another number, another crowd"})};
@@ -34,7 +34,7 @@ const Keys<Config::Smoothing>& smoothing_keys() {
   const auto is_held = [](double tolerance_mm, const YamlNode& node, ConfigDraft& draft) {
     if (tolerance_mm >= kMinToleranceMm) return true;
     draft.complaints.expected(node, concat("a length of at least ", kMinToleranceMm,
-                                           " mm, what single precision can hold"));
+                                           " mm, the resolution of single precision"));
     return false;
   };
   static const Keys<Smoothing> keys = {
@@ -80,10 +80,10 @@ void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
     draft.complaints.about(entry != nullptr ? entry->value : node, text);
   };
   if (textures.colours == ColourWeights::kDrawn && textures.blend != TextureBlend::kAuto) {
-    complain("colours", "drawn colours are blended; blend must be auto");
+    complain("colours", "drawn requires textures.blend: auto");
   }
   if (textures.alike && textures.colours != ColourWeights::kDrawn) {
-    complain("alike", "goes with colours: drawn");
+    complain("alike", "requires colours: drawn");
   }
   if (!textures.alike || !draft.heads_known) return;
   for (const std::string& tag : *textures.alike) {
@@ -184,7 +184,7 @@ void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
   if (!sound || !contains(config.output.meshes, MeshFormat::kGlb) || !only_exr) return;
   const YamlEntry* entry = node.find("meshes");
   draft.complaints.about(entry != nullptr ? entry->value : node,
-                         "glb files hold no EXR; add png or jpeg to textures.formats");
+                         "GLB files cannot hold EXR textures; add png or jpeg to textures.formats");
 }
 
 void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {

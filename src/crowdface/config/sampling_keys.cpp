@@ -132,7 +132,7 @@ const std::vector<KindKeys> kKindKeys = {
     {Kind::kUniform, {"distribution"}},
     {Kind::kAround,
      {"distribution", "face", "radius"},
-     "how far from the face, in the plane's unit"},
+     "write the distance from the face, in units of the plane"},
     {Kind::kFixed, {"distribution", "position"}, "a point of the plane, [x, y]"}};
 
 const KindKeys& keys_of(Kind kind) {
@@ -210,11 +210,11 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
   const Names regions = draft.config.region_names();
   std::string why;
   if (!is_name(entry.key)) {
-    why = "is no name: letters (a-z), digits, '_', '-' or '.' are";
+    why = "is not a valid name; expected letters (a-z), digits, '_', '-' or '.'";
   } else if (reserved.contains(entry.key) || contains(regions, entry.key)) {
-    why = "means something else; give the band another name";
+    why = "is a reserved word or the name of a region; rename the band";
   } else if (sampling.bands.size() == kMaxBands) {
-    why = concat("is one too many: at most ", kMaxBands, " bands");
+    why = concat("is beyond the limit of ", kMaxBands, " bands");
   }
   if (!why.empty()) draft.complaints.add(entry.key_place, concat(quoted(entry.key), ' ', why));
 }
@@ -239,7 +239,8 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       band->regions.resize(sampling.regions.size());
       const YamlNode& value = entry.value;
       if (!first && value.kind == YamlNode::Kind::kMap && value.find("smoothness") == nullptr) {
-        draft.complaints.about(value, "smoothness: missing; where the band begins, such as 8 mm");
+        draft.complaints.about(
+            value, "smoothness: missing; write the size at which the band begins, such as 8 mm");
       }
     }
     read_band(entry.value, *band, draft);
@@ -271,8 +272,8 @@ const Keys<SamplingOptions>& sampling_keys() {
       per_region_key<Sampling>("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
                                {"iterations"})
           .in_starter({"[0.15, 0.7]", "",
-                       "How much of the target's own relief gives way to that of the others: 0 "
-                       "nothing, 1 all of\nit up to 240 mm. Or a size: [4 mm, 30 mm]."}),
+                       "How much of the target's relief is replaced by that of the sources: 0 "
+                       "nothing, 1 all of it\nup to 240 mm. Or a size: [4 mm, 30 mm]."}),
       per_region_key<Sampling>("extrapolation", &RegionSampling::extrapolation, extrapolation())
           .in_starter(
               {"[0.9, 1.2]", "", "Above 1 features are stronger than scanned, below 1 weaker."}),

@@ -33,8 +33,9 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
     const std::string name = file.stem().string();
     if (!is_name(name)) {
       draft.complaints.about(
-          node, concat("a shape is called like its file, and ", quoted(name),
-                       " is no name: letters (a-z), digits, '_', '-' and '.', 64 at most"));
+          node, concat("the name of a shape is its file name; expected at most 64 letters (a-z), "
+                       "digits, '_', '-' and '.', found ",
+                       quoted(name)));
     } else if (std::ranges::any_of(shapes, [&](const auto& one) { return one.first == name; })) {
       draft.complaints.about(node, concat("two shapes are called ", quoted(name)));
     }
@@ -70,13 +71,14 @@ void add_name(const std::string& name, Shapes& shapes) {
 /// Reads the shapes of each head from the subfolder with the head's name. The subfolder may also
 /// contain the head's neutral mesh.
 void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
-  const auto folder = path("a folder with one of OBJ files for each head").read(node, draft);
+  const auto folder =
+      path("a folder that has a subfolder of OBJ files for each head").read(node, draft);
   if (!folder) return;
   shapes.heads = *folder;
   if (!is_folder(*folder)) {
-    return draft.complaints.about(node,
-                                  concat("the folder ", quoted(folder->string()), " is not there"),
-                                  ExitCode::kMissingInput);
+    return draft.complaints.about(
+        node, concat("the folder ", quoted(folder->string()), " does not exist"),
+        ExitCode::kMissingInput);
   }
   if (!draft.heads_known) return;
   const Config::Faces& faces = draft.config.faces;
@@ -128,22 +130,23 @@ void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draf
     }
     if (lacking.empty()) continue;
     const std::string& head = draft.config.faces.names[h];
-    draft.complaints.add(node.place,
-                         concat(node.path, ": the head ", head, " lacks what others have: ",
-                                (shapes.heads / head).string(), " has no ", join(lacking),
-                                "; with neutral and directory too, a template's would be carried "
-                                "to it"),
-                         ExitCode::kMissingInput);
+    draft.complaints.add(
+        node.place,
+        concat(node.path, ": the head ", head, " lacks shapes that other heads have: ",
+               (shapes.heads / head).string(), " has no ", join(lacking),
+               "; add these files, or set neutral and directory, so that the template's shapes are "
+               "transferred"),
+        ExitCode::kMissingInput);
   }
 }
 
 void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
   if (shapes.neutral.empty() != shapes.directory.empty() ||
       (shapes.neutral.empty() && shapes.heads.empty())) {
-    return draft.complaints.about(
-        node,
-        "expected neutral (the template's mesh at rest, an OBJ file) and directory (the "
-        "folder of its shapes), or heads (a folder with one of shapes for each head), or all");
+    return draft.complaints.about(node,
+                                  "expected neutral (the template's mesh at rest, an OBJ file) and "
+                                  "directory (the folder of its shapes), or heads (a folder that "
+                                  "has a subfolder of shapes for each head), or all three");
   }
   if (shapes.heads.empty() ? shapes.names.empty() : !draft.heads_known) return;
   if (shapes.names.empty() || shapes.names.size() > kMaxShapes) {

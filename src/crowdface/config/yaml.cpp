@@ -193,8 +193,8 @@ class TreeBuilder : public YAML::EventHandler {
     }
     const auto [seen, is_new] = frame.lines.emplace(node.text, node.place.line);
     if (!is_new) {
-      complain(node.place, concat("the key ", quoted(node.text),
-                                  " stands here a second time; first ", "in line ", seen->second));
+      complain(node.place, concat("the key ", quoted(node.text), " is used twice; first ",
+                                  "in line ", seen->second));
       return;
     }
     frame.key_refused = false;
@@ -224,14 +224,15 @@ std::string explain(const std::string& message) {
       Entry{"illegal map value",
             "a ':' does not fit here; check the indentation, and the lines above for a missing "
             "':', or put text that holds ': ' between quotes"},
-      Entry{"end of map not found",
-            "this line is indented like no line above it, or is no "
-            "'key: value'"},
-      Entry{"end of sequence not found", "this line is indented like no item of the list above it"},
+      Entry{
+          "end of map not found",
+          "the indentation of this line matches no line above it, or the line is not 'key: value'"},
+      Entry{"end of sequence not found",
+            "the indentation of this line matches no item of the list above it"},
       Entry{"illegal block entry", "a list item '-' does not fit here; check the indentation"},
       Entry{"end of sequence flow not found", "a '[' is not closed"},
       Entry{"end of map flow not found", "a '{' is not closed"},
-      Entry{"illegal flow end", "a ']' or '}' stands here without its opening bracket"},
+      Entry{"illegal flow end", "a ']' or '}' has no opening bracket"},
       Entry{"unknown token", "a value cannot start with this character; put it between quotes"},
       Entry{"the referenced anchor is not defined",
             "aliases (*) are not supported; put text that starts with '*' between quotes"},

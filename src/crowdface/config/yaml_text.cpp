@@ -63,9 +63,10 @@ YamlPlace YamlText::place(int line, int byte_column) const {
 std::optional<YamlText::Problem> YamlText::find_problem() const {
   if (const std::uint64_t most = input_limits().yaml_bytes; text_.size() > most) {
     constexpr std::uint64_t kMiB = 1U << 20U;
-    return Problem{place_of(0), concat("more than ", most % kMiB == 0 ? most / kMiB : most,
-                                       most % kMiB == 0 ? " MiB" : " bytes",
-                                       " (--limit); this is no config file")};
+    return Problem{place_of(0),
+                   concat("more than ", most % kMiB == 0 ? most / kMiB : most,
+                          most % kMiB == 0 ? " MiB" : " bytes",
+                          " (--limit yaml_bytes=NUMBER allows more); is this a config file?")};
   }
   if (is_utf16(text_)) {
     return Problem{place_of(0), "expected UTF-8 text, found UTF-16; save the file as UTF-8"};
@@ -76,12 +77,11 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
     const std::size_t length = utf8_length(rest);
     if (length == 0) {
       return Problem{place_of(at),
-                     "expected UTF-8 text, found a byte that is not; save the file "
-                     "as UTF-8"};
+                     "expected UTF-8 text, found a byte that is not UTF-8; save the file as UTF-8"};
     }
     if (is_control(rest)) {
       return Problem{place_of(at), concat("a control character, ", quoted(rest.substr(0, 1)),
-                                          ", cannot stand in a config")};
+                                          ", is not allowed in a config")};
     }
     at += length;
   }
