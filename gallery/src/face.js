@@ -48,7 +48,7 @@ export class FacePage {
       try {
         await loadFace(this.crowd, face);
       } catch (error) {
-        if (this.face === face) this.say(`Nothing is known of it: ${error.message}.`);
+        if (this.face === face) this.say(`Its data cannot be read: ${error.message}.`);
         return;
       }
       if (this.face !== face) return;
@@ -101,7 +101,7 @@ export class FacePage {
       await table.show(`${folder}${file}.js`, name);
       if (this.face === face) this.say(null);
     } catch (error) {
-      if (this.face === face) this.say(`No mesh to turn: ${error.message}.`);
+      if (this.face === face) this.say(`Its mesh cannot be shown: ${error.message}.`);
     }
   }
 
@@ -133,7 +133,7 @@ export class FacePage {
       }, text);
       const locked = mark?.lock ?? [];
       const locks = this.crowd.locks.length > 0 && !face.byHand
-        ? el('div', { class: 'locks' }, el('span', { class: 'muted' }, 'Draw anew, but lock'),
+        ? el('div', { class: 'locks' }, el('span', { class: 'muted' }, 'Redraw, but lock'),
           this.crowd.locks.map((part, at) => el('button', {
             class: `lock ${locked.includes(part) ? 'on' : ''}`, title: `Lock ${part} (${at + 1})`,
             disabled: !locked.includes(part) && locksAll(this.crowd, new Set([...locked, part])),
@@ -144,7 +144,7 @@ export class FacePage {
         el('div', { class: 'verdicts' }, button('keep', 'Keep', 'K'), button('reject', 'Reject', 'R')),
         ...(locks ? [locks] : []),
         ...(face.byHand ? [el('small', { class: 'muted' },
-          'Written by hand, or children take after it: change the config in place of rejecting it.')] : []));
+          'It is written by hand or has children: change the config instead of rejecting it.')] : []));
     };
     const verdicts = el('div', {});
     const note = el('textarea', {
@@ -204,8 +204,8 @@ export class FacePage {
       face.asymmetry === undefined ? null : ['Asymmetry', short(face.asymmetry)],
       face.mirrored ? ['Mirrored', 'yes'] : null,
       face.nearest ? ['Nearest head', `${face.nearest.face}, ${short(face.nearest.face_mm)} mm`] : null,
-      face.attempt > 0 ? ['Draws before it', String(face.attempt)] : null,
-      face.note ? ['Noted before', face.note] : null,
+      face.attempt > 0 ? ['Candidates rejected before it', String(face.attempt)] : null,
+      face.note ? ['Earlier note', face.note] : null,
     ].filter(Boolean);
     return el('section', {}, el('dl', {}, rows.map(([name, value]) =>
       [el('dt', {}, name), el('dd', {}, value)])));

@@ -25,7 +25,7 @@ export class Grid {
     this.grid = el('div', { class: 'grid', role: 'list' });
     this.place = el('span', {});
     const turn = (by, text, title) => el('button', { onclick: () => this.turn(this.page + by), title }, text);
-    this.before = turn(-1, '‹ Earlier', 'The page before');
+    this.before = turn(-1, '‹ Earlier', 'The previous page');
     this.after = turn(1, 'Later ›', 'The next page');
     this.pages = el('nav', { class: 'pages', hidden: true }, this.before, this.place, this.after);
     this.node = el('div', {}, this.pages, this.grid);

@@ -199,9 +199,9 @@ class Page {
 
   help() {
     const keys = [['← → ↑ ↓', 'walk through the faces'], ['Enter', 'open'], ['Esc', 'back'],
-      ['K, R', 'keep, reject; again: take the mark back'], ['1 2 3 …', 'lock a region or band and draw the rest anew'],
+      ['K, R', 'keep, reject; again: remove the mark'], ['1 2 3 …', 'lock a region or band and redraw the rest'],
       ['N', 'note'], ['/', 'search'], ['G, M', 'faces, plane'], ['F, Q, P', 'front, three-quarter, profile'],
-      [', .', 'turn'], ['T, C', 'change to the target, to the nearest face, and back'], ['E', 'export review.yaml']];
+      [', .', 'turn'], ['T, C', 'switch to the target, to the nearest face, and back'], ['E', 'export review.yaml']];
     const dialog = el('dialog', { onclick: () => dialog.close(), onclose: () => dialog.remove() },
       el('h2', {}, 'Keys'), el('dl', {}, keys.map(([key, does]) =>
         [el('dt', {}, el('kbd', {}, key)), el('dd', {}, does)])));

@@ -71,7 +71,7 @@ export class Review {
   /// \return why not, or null.
   verdict(face, verdict) {
     if (verdict === 'reject' && face.byHand) {
-      return 'This face is written by hand, or children take after it: change the config.';
+      return 'This face is written by hand or has children: change the config.';
     }
     this.change(face, { verdict: this.of(face)?.verdict === verdict ? undefined : verdict });
     return null;
@@ -79,11 +79,11 @@ export class Review {
 
   /// Locks a region or band, or lets it go: the face is drawn anew but for what is locked.
   lock(face, part) {
-    if (face.byHand) return 'This face is written by hand, or children take after it: change the config.';
+    if (face.byHand) return 'This face is written by hand or has children: change the config.';
     const lock = new Set(this.of(face)?.lock ?? []);
     if (!lock.delete(part)) lock.add(part);
     if (locksAll(this.crowd, lock)) {
-      return `With every ${this.crowd.bands.includes(part) ? 'band' : 'region'} locked nothing is left to draw anew.`;
+      return `Every ${this.crowd.bands.includes(part) ? 'band' : 'region'} is locked, so nothing is left to redraw.`;
     }
     this.change(face, { verdict: 'reject', lock: [...lock] });
     return null;

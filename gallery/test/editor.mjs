@@ -378,11 +378,11 @@ const download = page.waitForEvent('download');
 await page.getByRole('button', { name: 'Picture', exact: true }).click();
 assert.match((await download).suggestedFilename(), /^made_by_hand_.*\.png$/);
 
-// Put it under the config's recipes, and say about a face of the crowd what a review says.
+// Save it under the config's recipes, and say about a face of the crowd what a review says.
 const said = (pattern) => page.waitForFunction(
   (text) => new RegExp(text).test(document.querySelector('.message').textContent), pattern, { timeout: 120000 });
 await page.getByRole('button', { name: 'Put back' }).click();
-await page.getByRole('button', { name: 'Put it under recipes' }).click();
+await page.getByRole('button', { name: 'Save it under recipes' }).click();
 await said('made_by_hand stands under recipes');
 for (let i = 0; i < 2; i += 1) await page.keyboard.press(']'); // the first is written by hand
 await settled();
@@ -392,7 +392,7 @@ await page.locator(`.regioncard[data-region="${region}"] button.lock`).click();
 await page.getByRole('button', { name: 'Put back' }).click();
 await take('put_back');
 await page.getByLabel('Note').fill('the chin: é "so"');
-await page.getByRole('button', { name: 'Draw anew but for' }).click();
+await page.getByRole('button', { name: 'Redraw except' }).click();
 await said(`${opened} is marked`);
 for (let i = 0; i < 2; i += 1) await page.keyboard.press('Control+z');
 assert.deepEqual(await recipe(), last);

@@ -23,9 +23,9 @@ export function showPutBack(editor) {
         class: 'export', onclick: () => editor.attempt(async () => {
           const { file } = await post('recipes', { recipe: editor.wire() });
           dialog.close();
-          editor.say(`${editor.document.recipe.id} stands under recipes in ${file}`);
+          editor.say(`${editor.document.recipe.id} is saved under recipes in ${file}`);
         }),
-      }, 'Put it under recipes')),
+      }, 'Save it under recipes')),
     editor.job.crowd ? el('section', {}, el('h3', {}, 'As a review'),
       face ? [el('p', { class: 'muted' }, `What the next run does with ${face}.`), note,
         el('div', { class: 'choices' },
@@ -34,7 +34,7 @@ export function showPutBack(editor) {
           el('button', {
             disabled: locked.length === 0, title: 'Lock the regions that are good first',
             onclick: () => review(null, locked),
-          }, locked.length > 0 ? `Draw anew but for ${locked.join(', ')}` : 'Draw anew but for locked regions'))]
+          }, locked.length > 0 ? `Redraw except ${locked.join(', ')}` : 'Redraw except locked regions'))]
         : el('p', { class: 'muted' }, 'Open a face of the crowd first.')) : null);
 }
 
@@ -43,7 +43,7 @@ export function showAddRegion(painting) {
   const name = el('input', { type: 'text', 'aria-label': 'Name of the region', placeholder: 'cheeks', spellcheck: 'false', maxlength: 64 });
   const dialog = openDialog('Another region',
     el('form', { method: 'dialog', onsubmit: () => painting.editor.attempt(() => painting.use({ add: name.value.trim() })) },
-      el('p', { class: 'muted' }, 'It is nowhere until it is painted. The config gets it at once.'),
+      el('p', { class: 'muted' }, 'It is empty until it is painted. It is added to the config at once.'),
       el('div', { class: 'choices' }, name, el('button', { class: 'export' }, 'Add'))));
   name.focus();
   return dialog;
@@ -56,7 +56,7 @@ export function showProposeRegions(painting) {
   const names = () => ['brow', 'nose', 'mouth', ...boxes.filter((box) => box.checked).map((box) => box.value)];
   return openDialog('Regions from the heads’ shape',
     el('form', { method: 'dialog', onsubmit: () => painting.editor.attempt(() => painting.use({ propose: names() })) },
-      el('p', { class: 'muted' }, 'Brow, nose and mouth in place of the regions that there are; the config gets them at once.'),
+      el('p', { class: 'muted' }, 'Brow, nose and mouth replace the current regions. The config is changed at once.'),
       el('div', { class: 'choices' }, boxes.map((box) => el('label', {}, box, ` ${box.value}`)),
         el('button', { class: 'export' }, 'Propose'))));
 }
@@ -97,7 +97,7 @@ export function showGenerate(editor) {
     if (running) timer = setTimeout(() => editor.attempt(look), 700);
   }
   const dialog = openDialog('The whole crowd',
-    el('p', { class: 'muted' }, 'Runs crowdface generate with the config as it stands on disk.'),
+    el('p', { class: 'muted' }, 'Runs crowdface generate with the config as saved on disk.'),
     bar, text, el('div', { class: 'choices' }, begin, stop, open));
   dialog.addEventListener('close', () => clearTimeout(timer));
   editor.attempt(look);

@@ -185,7 +185,7 @@ export class HeadView extends Stage {
     try {
       card = new CardBlend(this.renderer, this.mesh, this.job.regions.length, this.loaded);
       card.blend(...change(1));
-      if (this.renderer.getContext().getError() !== 0) throw new Error('the card holds less than this');
+      if (this.renderer.getContext().getError() !== 0) throw new Error('the graphics card has too little memory');
     } catch {
       card?.dispose();
       return; // the processor goes on

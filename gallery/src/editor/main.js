@@ -86,7 +86,7 @@ class Editor extends ProgramPage {
     this.stage = el('div', { class: 'stage' }, this.view.node);
     this.view.node.tabIndex = 0;
     this.view.node.setAttribute('role', 'img');
-    this.view.node.setAttribute('aria-label', 'The face. Arrows turn it, Shift and arrows move it, + and − come near and go far.');
+    this.view.node.setAttribute('aria-label', 'The face. Arrows turn it, Shift and arrows move it, + and − zoom in and out.');
     this.board = new PlaneBoard(this);
     this.panel = new RegionPanel(this);
     this.shelf = new Shelf(this);
@@ -133,7 +133,7 @@ class Editor extends ProgramPage {
   redo() {
     this.comparing = null;
     this.passing = null;
-    if (!this.history.redo()) this.say('Nothing to do again.');
+    if (!this.history.redo()) this.say('Nothing to redo.');
   }
 
   stepped() {
@@ -353,7 +353,7 @@ class Editor extends ProgramPage {
 
   rename(id) {
     if (!namePattern.test(id)) {
-      this.say('A name has 1 to 64 letters, digits, _, - and ., and begins with no point.', true);
+      this.say('A name has 1 to 64 letters, digits, _, - and ., and does not begin with a dot.', true);
       this.tools.show();
       return;
     }
@@ -489,11 +489,11 @@ class Editor extends ProgramPage {
   // -- keys --
 
   help() {
-    showKeys([['Tab', 'from control to control'], ['arrows', 'move the controller, head or slider that has the focus; with Shift finer; on the face: turn it'],
+    showKeys([['Tab', 'next control'], ['arrows', 'move the controller, head or slider that has the focus; with Shift finer; on the face: turn it'],
       ['Enter', 'on a head: make it the target'], ['1 2 3 …', 'the controller of that region'],
       ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['K, B', 'keep, compare with what was kept'],
       ['R, L, N', 'draw a face; six like this one; between two'], ['[ ]', 'faces of the crowd'],
-      ['F, Q, P', 'front, three-quarter, profile'], [', . + −', 'turn, come near, go far'],
+      ['F, Q, P', 'front, three-quarter, profile'], [', . + −', 'turn, zoom in, zoom out'],
       ['W, C', 'wireframe; what the face shows'],
       ...(this.painting ? [['M, Space', 'paint masks; paint in the middle of the view']] : []), ['Ctrl+S', 'save the mesh'], ['Esc', 'leave a field, close a list']]);
   }

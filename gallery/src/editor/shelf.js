@@ -118,7 +118,7 @@ export class Shelf {
     this.from = el('select', { 'aria-label': 'Between this', onchange: () => this.travel() });
     this.to = el('select', { 'aria-label': 'and that', onchange: () => this.travel() });
     this.way = el('input', {
-      type: 'range', min: 0, max: 1, step: 0.01, value: 0.5, 'aria-label': 'How far on the way', oninput: () => this.travel(),
+      type: 'range', min: 0, max: 1, step: 0.01, value: 0.5, 'aria-label': 'Position between the two', oninput: () => this.travel(),
     });
     return el('section', { class: 'path', hidden: true },
       el('header', {}, el('h2', {}, 'Between two'), el('span', { class: 'grow' }),

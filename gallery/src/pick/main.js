@@ -47,7 +47,7 @@ class Picker extends ProgramPage {
       el('button', { title, onclick: () => this.attempt(act), ...properties }, text);
     this.undoButton = button('Undo', 'Undo (Ctrl+Z)', () => this.undo());
     this.redoButton = button('Redo', 'Redo (Ctrl+Shift+Z)', () => this.redo());
-    this.linkButton = button('Link views', 'Turn both together; with three pairs they stand alike (L)', () => this.link(!this.linked));
+    this.linkButton = button('Link views', 'Turn both views together; three pairs align them (L)', () => this.link(!this.linked));
     this.count = el('span', { class: 'muted count' });
     this.saveButton = button('Save', 'Save the landmarks (Ctrl+S)', () => this.save(), { class: 'export' });
     this.list = new NameList(this);
@@ -68,8 +68,8 @@ class Picker extends ProgramPage {
     const { scans, number } = this.job;
     const walk = (way, text, title) => button(text, title, () => this.open(number + way), { disabled: !scans[number + way] });
     this.folder = scans.length < 2 ? null : el('span', { class: 'group', role: 'group', 'aria-label': 'Scans' },
-      walk(-1, '‹', 'Save, and the scan before'), el('span', { class: 'muted' }, `Scan ${number + 1} of ${scans.length}`),
-      walk(1, 'Next scan', 'Save, and the next scan (])'));
+      walk(-1, '‹', 'Save, and go to the previous scan'), el('span', { class: 'muted' }, `Scan ${number + 1} of ${scans.length}`),
+      walk(1, 'Next scan', 'Save, and go to the next scan (])'));
     this.node = el('div', { class: 'picker' },
       el('header', { class: 'toolbar', role: 'toolbar', 'aria-label': 'Commands' },
         el('h1', { title: this.job.file }, this.job.file.split('/').pop()),
@@ -139,7 +139,7 @@ class Picker extends ProgramPage {
   }
 
   undo() { this.step(() => this.history.undo(), 'Nothing to undo.'); }
-  redo() { this.step(() => this.history.redo(), 'Nothing to do again.'); }
+  redo() { this.step(() => this.history.redo(), 'Nothing to redo.'); }
 
   async ask(ray) {
     return (await post('pick', ray)).place;
@@ -150,7 +150,7 @@ class Picker extends ProgramPage {
     const { active: name } = this;
     const place = await this.ask(ray);
     if (!place) {
-      this.say(side === 'template' ? 'There is no skin to pick there.' : 'There is nothing of the scan there.');
+      this.say(side === 'template' ? 'The template has no skin there.' : 'The scan has no surface there.');
       return;
     }
     const places = { [side]: place };
@@ -185,7 +185,7 @@ class Picker extends ProgramPage {
   remove(name = this.active) {
     const { template, scan } = this.landmark(name);
     if (template || scan) {
-      this.commit(this.withPlaces(name, { template: null, scan: null }), `${name} taken off`);
+      this.commit(this.withPlaces(name, { template: null, scan: null }), `${name} removed`);
     } else if (!this.where.has(name)) {
       this.commit({ landmarks: this.history.now.landmarks.filter((one) => one.name !== name) }, `${name} removed`);
       if (this.active === name) this.choose(this.history.now.landmarks[0].name);
@@ -350,10 +350,10 @@ class Picker extends ProgramPage {
     const ghost = { template: !template && this.suggested.template[name], scan: !scan && this.suggested.scan[name] };
     const outlier = template && scan && this.suggested.residuals[name]?.outlier;
     let act = 'Picked on both. Drag a mark or click again to move it.';
-    if (outlier) act = 'Far from where the others put it: left and right swapped?';
+    if (outlier) act = 'Far from the place that the others suggest: left and right swapped?';
     else if (!template && !scan && ghost.scan && ghost.template) act = 'Enter takes the rings; or click the places.';
     else if (!scan && ghost.scan) act = 'Enter takes the ring on the scan; or click the place.';
-    else if (!scan && ghost.template) act = 'Click it on the scan: the ring on the template is taken along.';
+    else if (!scan && ghost.template) act = 'Click it on the scan: this also takes the ring on the template.';
     else if (!template && ghost.template) act = 'Enter takes the ring on the template; or click the place.';
     else if (!template) act = 'Click it on the template.';
     else if (!scan) act = 'Click it on the scan.';
@@ -364,10 +364,10 @@ class Picker extends ProgramPage {
   // -- keys --
 
   help() {
-    showKeys([['↑ ↓', 'the name before, the next; on a view: turn it'], ['Enter', 'take what is suggested for the name'],
-      ['Delete', 'take the name’s places off both'], ['Space', 'on a view: pick what is in its middle'], ['N', 'another name'],
+    showKeys([['↑ ↓', 'previous name, next name; on a view: turn it'], ['Enter', 'accept the suggestion for the name'],
+      ['Delete', 'remove the landmark from both'], ['Space', 'on a view: pick what is in its middle'], ['N', 'another name'],
       ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['Ctrl+S', 'save'], ['F, Q, P', 'front, three-quarter, profile'],
-      [', . + −', 'turn, come near, go far'], ['L', 'link the views'], ['[ ]', 'of a folder: the scan before, the next'], ['Tab', 'from control to control'], ['Esc', 'leave a field']]);
+      [', . + −', 'turn, zoom in, zoom out'], ['L', 'link the views'], ['[ ]', 'in a folder: previous scan, next scan'], ['Tab', 'next control'], ['Esc', 'leave a field']]);
   }
 
   key(event) {
@@ -420,7 +420,7 @@ async function start() {
     window.crowdface = { picker };
     place.replaceWith(picker.node);
     for (const side of sides) picker.views[side].fit();
-    if (job.loses_comments) picker.say(`Saving keeps the comments that ${job.file} begins with, and no others.`);
+    if (job.loses_comments) picker.say(`Saving keeps only the comments at the beginning of ${job.file}.`);
   } catch (error) {
     place.replaceChildren(el('p', { class: 'waiting' }, error.message));
   }

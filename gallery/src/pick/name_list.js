@@ -28,7 +28,7 @@ export class NameList {
       onclick: () => this.picker.choose(name), onpointerenter: () => this.picker.hover(name), onpointerleave: () => this.picker.hover(null),
     }, state, el('span', { class: 'label' }, name), mm,
     el('button', {
-      class: 'plain remove', title: 'Take it off both (Delete)', 'aria-label': `Take ${name} off both`, tabindex: -1,
+      class: 'plain remove', title: 'Remove it from both (Delete)', 'aria-label': `Remove ${name} from both`, tabindex: -1,
       onclick: (event) => { event.stopPropagation(); this.picker.remove(name); },
     }, '✕'));
     return { node, state, mm };
