@@ -63,7 +63,7 @@ TEST(Usage, LibrariesOfImagesAreLoadedWithTheFirstThatIsNoPng) {
   EXPECT_THAT(without.err,
               ::testing::AllOf(::testing::HasSubstr("images can be neither read nor written"),
                                ::testing::HasSubstr("libcrowdface_images.so"),
-                               ::testing::HasSubstr("is the installation whole?")));
+                               ::testing::HasSubstr("is the installation complete?")));
 }
 
 TEST(Usage, WrongCommandLinesAre64) {

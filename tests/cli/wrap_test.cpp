@@ -69,7 +69,7 @@ TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {
   crowdface(0, dry, {"person_2.obj", "7 landmarks", "would be wrapped to"});
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   folder_.write("scans/broken.ply", "ply\n");
-  crowdface(65, batch, {"broken.ply", "header does not end"});
+  crowdface(65, batch, {"broken.ply", "header has no end"});
   const std::string first = read_file(folder_ / "out/person_2.obj");
   EXPECT_TRUE(fs::exists(folder_ / "out/reports/person_3.wrap.json"));
   fs::remove(scans_ / "broken.ply");
@@ -152,7 +152,7 @@ TEST_F(Wrap, AScanThatShowsNothingOfTheSkinIsRefused) {
   crowdface(65,
             {"wrap", head(1).string(), scan.string(), "-o", folder_ / "head.obj", "--scan-up", "+Y",
              "--scan-front", "+Z"},
-            {"one.obj", "shows nothing of the skin"});
+            {"one.obj", "has no data for the skin"});
   EXPECT_FALSE(fs::exists(folder_ / "head.obj"));
 }
 
@@ -173,7 +173,7 @@ TEST_F(Wrap, WhatCannotBePickedOnIsRefusedBeforeThePageOpens) {
   crowdface(64, pick(head(2), {"--landmarks", file, "--port", "99999"}), {"--port", "99999"});
   crowdface(66, pick(folder_ / "none.ply", {"--landmarks", file}), {"none.ply"});
   crowdface(65, pick(folder_.write("broken.ply", "ply\n"), {"--landmarks", file}),
-            {"broken.ply", "header does not end"});
+            {"broken.ply", "header has no end"});
   const fs::path beyond = folder_.write("beyond.yaml", "template: {a: 1}\nscan: {b: 99999999}\n");
   crowdface(64, pick(head(2), {"--landmarks", beyond.string()}),
             {"beyond.yaml:2", "vertex of the scan"});

@@ -121,7 +121,7 @@ TEST(MappedFile, UnwatchedRefusesAFileThatEndsTooSoon) {
   const char* short_one =
       "/sys/kernel/mm/transparent_hugepage/enabled";  // its size is said to be a page
   if (!is_file(short_one)) GTEST_SKIP() << "this system has no such file";
-  expect_error(ExitCode::kIoError, {short_one, "was cut while it was being read"},
+  expect_error(ExitCode::kIoError, {short_one, "was truncated while it was being read"},
                [&] { MappedFile file(short_one); });
 }
 
@@ -159,7 +159,7 @@ TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {
     [[maybe_unused]] const int cut = ::truncate(path.c_str(), 5000);
     std::_Exit(mapped.bytes()[19'999] == 'x' ? 1 : 2);
   };
-  EXPECT_EXIT(cut_and_read(), ::testing::ExitedWithCode(74), "mapped: was cut while");
+  EXPECT_EXIT(cut_and_read(), ::testing::ExitedWithCode(74), "mapped: was truncated while");
 }
 
 }  // namespace

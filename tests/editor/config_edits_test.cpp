@@ -59,8 +59,8 @@ using Recipes = std::vector<std::string>;
 TEST_F(ConfigEdits, RecipesStandInAFileThatTheConfigNames) {
   const std::string before = read_file(folder_.config());
   const auto file = put_recipe(recipe("eva", 1), config());
-  EXPECT_EQ(read_file(folder_.config()), concat(before, "\nedits: ", file.filename().string(),
-                                                "  # what crowdface edit saved\n"));
+  EXPECT_EQ(read_file(folder_.config()),
+            concat(before, "\nedits: ", file.filename().string(), "  # saved by crowdface edit\n"));
   EXPECT_EQ(recipes(), (Recipes{"ada0", "eva1"}));
   const std::string named = read_file(folder_.config());
   EXPECT_EQ(put_recipe(recipe("zoe", 2), config()), file);

@@ -452,7 +452,7 @@ TEST(RegionPainting, RefusesWhatItCannotRead) {
     bad[key] = value;
     testing::expect_error(ExitCode::kUsage, {key}, [&] { painting.stroke(bad); });
   }
-  testing::expect_error(ExitCode::kUsage, {"nothing is painted"}, [&] { painting.undo(); });
+  testing::expect_error(ExitCode::kUsage, {"no stroke to undo"}, [&] { painting.undo(); });
 }
 
 }  // namespace

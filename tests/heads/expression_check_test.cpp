@@ -38,8 +38,8 @@ TEST(ExpressionCheck, TellsOneHeadThatGrimacesAmongNeutralOnes) {
   ASSERT_TRUE(marks);
   open_mouth(*marks, faces.heads[5].positions);
   EXPECT_THAT(warnings_of(faces),
-              ::testing::AllOf(::testing::StartsWith("head_5: the form of its mouth"),
-                               ::testing::HasSubstr("grimace"),
+              ::testing::AllOf(::testing::StartsWith("head_5: the shape of its mouth"),
+                               ::testing::HasSubstr("is its expression neutral?"),
                                ::testing::Not(::testing::HasSubstr("eyes"))));
   faces.heads.resize(3);
   EXPECT_EQ(warnings_of(faces), "");

@@ -158,7 +158,7 @@ TEST(HeadCache, FolderThatCannotBeWrittenOnlyWarns) {
     fs::remove_all(folder.out());
     generate(folder.config(), {}, {cache, Replace::kRefuse, false});
     EXPECT_THAT(differing_files(crowd_files(folder.out()), first), ::testing::IsEmpty());
-    EXPECT_THAT(log_of(folder), ::testing::HasSubstr("cannot be kept"));
+    EXPECT_THAT(log_of(folder), ::testing::HasSubstr("cannot be stored in the cache"));
   }
   // A folder in the place of an entry.
   for (const fs::path& entry : list_cache(folder.cache()).entries) {

@@ -68,8 +68,8 @@ TEST(Inputs, HeadsFarFromTheOriginAreWarnedOf) {
   };
   EXPECT_EQ(warnings_at(0).find("origin"), std::string::npos);
   EXPECT_NE(
-      warnings_at(1e6).find("10000 m from the origin, where meshes, in single precision, lose "
-                            "up to 0.60 mm"),
+      warnings_at(1e6).find(
+          "10000 m from the origin, where single precision rounds positions by up to 0.60 mm"),
       std::string::npos);
 }
 
@@ -97,7 +97,7 @@ TEST(Inputs, SurfacesThatNoFaceIsMadeOfAreTold) {
     return join(load_job(folder.config(), overrides).inputs.warnings);
   };
   const std::string known = load_job(folder.config(), {}).inputs.materials.names.back();
-  const std::string told = "which no face of";
+  const std::string told = "but no polygon of";
   EXPECT_NE(warnings_of("nobody").find(told), std::string::npos);
   EXPECT_EQ(warnings_of(known).find(told), std::string::npos) << known;
 }

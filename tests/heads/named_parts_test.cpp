@@ -124,7 +124,7 @@ TEST(PartsOfAJob, AreRefusedUnderNamesThatNothingBears) {
                          "found \"eyes\"; did you mean \"eye\"?", "found \"component 9\""},
                         [&] { load_job(folder.config(), {}); });
   folder.configure(crowd_with("{rigid: [eye], bound: [component 2]}"));
-  testing::expect_error(ExitCode::kUsage, {"another list names too"},
+  testing::expect_error(ExitCode::kUsage, {"another list also names"},
                         [&] { load_job(folder.config(), {}); });
   folder.configure(crowd_with("{rigid: [component 1]}"));
   testing::expect_error(ExitCode::kUsage, {"the largest component"},

@@ -80,11 +80,11 @@ class KeptHeads : public ::testing::Test {
   std::map<std::string, std::string> first_;
 };
 
-constexpr const char* kBoth = "2 of 2 heads came from the cache as they were read";
+constexpr const char* kBoth = "2 of 2 heads were read from the cache";
 
 TEST_F(KeptHeads, AreReadOnceAndGiveTheSameCrowd) {
   ASSERT_GE(fs::file_size(folder_.head("ann")), kMinKeptBytes);
-  EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("as they were read")));
+  EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("heads were read from the cache")));
   const CacheContents contents = list_cache(folder_.cache());
   EXPECT_EQ(contents.read, 2U);
   EXPECT_EQ(contents.prepared, 2U);
@@ -103,7 +103,7 @@ TEST_F(KeptHeads, ChangeOnDiskIsSeenWhateverTheClockSays) {
   folder_.folder().write("heads/ann.obj", text);
   fs::last_write_time(head, time);
   run();
-  EXPECT_THAT(log(), ::testing::HasSubstr("1 of 2 heads came from the cache"));
+  EXPECT_THAT(log(), ::testing::HasSubstr("1 of 2 heads were read from the cache"));
   const auto changed = crowd_files(folder_.out());
   EXPECT_THAT(differing_files(changed, first_), ::testing::Not(::testing::IsEmpty()));
   fs::remove_all(folder_.cache());
@@ -151,7 +151,7 @@ TEST_F(KeptHeads, DamagedForgedAndForeignEntriesAreReadPast) {
     folder_.folder().write("cache/" + path.filename().string(), bytes);
     run();
     EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr(kBoth)));
-    EXPECT_THAT(log(), ::testing::HasSubstr("it is made anew"));
+    EXPECT_THAT(log(), ::testing::HasSubstr("it is created again"));
     EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
     EXPECT_TRUE(read_text(path) == (path == entry ? head_bytes : mesh_bytes)) << "made anew";
   }
@@ -200,7 +200,7 @@ TEST_F(KeptHeads, CacheThatCannotBeWrittenToOnlyWarns) {
   folder_.folder().write("taken", "a file in the place of the folder");
   fs::remove_all(folder_.out());
   generate(folder_.config(), {}, {folder_ / "taken", Replace::kRefuse, false});
-  EXPECT_THAT(log(), ::testing::HasSubstr("heads that were read cannot be kept"));
+  EXPECT_THAT(log(), ::testing::HasSubstr("heads cannot be stored in the cache"));
   EXPECT_THAT(differing_files(crowd_files(folder_.out()), first_), ::testing::IsEmpty());
 }
 

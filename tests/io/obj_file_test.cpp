@@ -141,7 +141,7 @@ const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const std::vector<Malformed> kMalformed = {
     {"nan",
      "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-     {":1:", "finite number", "\"nan\"", "without a place"}},
+     {":1:", "finite number", "\"nan\"", "has no position"}},
     {"inf", "v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n", {":2:", "finite number", "\"inf\""}},
     {"word", "v 0 0 0\nv 1 0 0\nv abc 1 0\nf 1 2 3\n", {":3:", "finite number", "\"abc\""}},
     {"overflow", "v 1e400 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {":1:", "\"1e400\""}},

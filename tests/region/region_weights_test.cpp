@@ -187,7 +187,7 @@ TEST(RegionWeights, ChannelsThatAreCalledLikeRegionsAreThese) {
     FAIL();
   } catch (const InvalidInput& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("m.exr"), HasSubstr("bottom1"),
-                                    HasSubstr("name channels like regions")));
+                                    HasSubstr("name the channels like the regions")));
   }
   try {
     weights(named(image, {"top", "bottom", "other"}));
@@ -272,7 +272,7 @@ TEST(RegionWeights, ChannelCountsAreChecked) {
               AllOf(HasSubstr("3 regions, found 1"), HasSubstr("grey.png (1)")));
   EXPECT_THAT(message_of_masks(three(), {}, 2), HasSubstr("no image"));
   EXPECT_THAT(message_of_masks(three(), {grey, MaskSource("extra.png", image_of(1, 1, 1, {1}))}, 1),
-              AllOf(HasSubstr("extra.png"), HasSubstr("left over")));
+              AllOf(HasSubstr("extra.png"), HasSubstr("remove this image")));
   EXPECT_THROW(message_of_masks(three(), {grey}, 0), BrokenPrecondition);
 }
 

@@ -45,7 +45,7 @@ class DamagedCache : public DisturbedCrowd {
         if (!differences().empty()) throw std::runtime_error("other files");
         if (read_text(entries_[0]) != bytes_) throw std::runtime_error("not mended");
         const std::string log = read_text(folder_.out() / "crowdface.log");
-        if (log.find("cache entry is") == log.npos || log.find("made anew") == log.npos) {
+        if (log.find("cache entry is") == log.npos || log.find("created again") == log.npos) {
           throw std::runtime_error("no warning");
         }
       }
@@ -111,7 +111,7 @@ TEST_F(DamagedCache, CutWhileItIsInUseItIsMadeAnewAndTheRunGoesOn) {
     ASSERT_TRUE(outcome.struck);
     EXPECT_EQ(outcome.code, 0) << call << ": " << outcome.message;
     EXPECT_THAT(differences(), ::testing::IsEmpty()) << call;
-    if (read_text(folder_.out() / "crowdface.log").find("cut while it was in use") !=
+    if (read_text(folder_.out() / "crowdface.log").find("truncated while it was in use") !=
         std::string::npos) {
       ++in_use;
     }
@@ -139,7 +139,7 @@ TEST_F(DamagedCache, NumbersThatNoHeadHasAreNotUsed) {
     EXPECT_EQ(run({}).code, 0);
     EXPECT_THAT(differences(), ::testing::IsEmpty());
     EXPECT_THAT(read_text(folder_.out() / "crowdface.log"),
-                ::testing::HasSubstr("numbers that no head has"));
+                ::testing::HasSubstr("numbers out of range"));
   }
 }
 

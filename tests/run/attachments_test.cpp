@@ -363,7 +363,8 @@ TEST_F(AttachmentsOfACrowd, AreTheSameInALargerCrowdAndWithAnyThreads) {
 
 TEST_F(AttachmentsOfACrowd, AreRefusedWhereTheyAreNoHeads) {
   folder_.folder().write("wear/rod.obj", "v 0 0 900\nv 1 0 900\nv 0 1 900\nf 1 2 3\n");
-  testing::expect_error(ExitCode::kBadData, {"rod.obj", "beside the head"}, [&] { run(); });
+  testing::expect_error(ExitCode::kBadData, {"rod.obj", "in the place and unit of the head"},
+                        [&] { run(); });
   fs::remove(folder_ / "wear/rod.obj");
   testing::expect_error(ExitCode::kMissingInput, {"rod.obj", "is missing"}, [&] { run(); });
 }

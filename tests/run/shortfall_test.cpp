@@ -32,7 +32,7 @@ TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
   warning.face_joined(many);
   close_log_file();
   const std::string log = read_text(path);
-  const auto first = log.find("faces are getting scarce: number 2 of 10 took 200 candidates");
+  const auto first = log.find("candidates are getting scarce: face 2 of 10 took 200 candidates");
   EXPECT_NE(first, std::string::npos) << log;
   EXPECT_EQ(log.find("getting scarce", first + 20), std::string::npos) << log;
 }
@@ -52,8 +52,8 @@ TEST(TellShortfall, NamesTheHeadsOfAGroupThatHasFew) {
       return std::string(error.what());
     }
   };
-  EXPECT_THAT(told(0), ::testing::HasSubstr("more heads in the group old_men: its faces are "
-                                            "mixtures of bob only"));
+  EXPECT_THAT(told(0), ::testing::HasSubstr("more heads in the group old_men: its only heads are "
+                                            "bob (the keys"));
   EXPECT_THAT(told(1), ::testing::Not(::testing::HasSubstr("more heads in the group")));
 }
 

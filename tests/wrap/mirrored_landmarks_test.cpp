@@ -38,7 +38,7 @@ TEST(MirroredLandmarks, AMirroredScanIsToldFromExchangedNames) {
   Face exchanged;
   std::swap(exchanged.landmarks[0].place, exchanged.landmarks[1].place);
   std::swap(exchanged.landmarks[2].place, exchanged.landmarks[3].place);
-  expect_error(ExitCode::kBadData, {"left and right are exchanged in the names"},
+  expect_error(ExitCode::kBadData, {"left and right are swapped in the names"},
                [&] { refuse_mirrored_landmarks(exchanged.positions, exchanged.landmarks); });
 }
 

@@ -127,8 +127,7 @@ TEST(ReadScan, TurnsAScanThatIsInsideOut) {
   for (const auto& [name, bytes] : {std::pair("in.stl", binary_stl(inside_out)),
                                     std::pair("in.ply", encode_scan(inside_out))}) {
     const Scan scan = read_scan(folder.write(name, bytes));
-    EXPECT_EQ(join(scan.notes), "its faces looked inward (inside out) and are turned round")
-        << name;
+    EXPECT_EQ(join(scan.notes), "its faces pointed inward (inside out) and are flipped") << name;
     double volume = 0;
     for (const Triangle& t : scan.triangles) {
       volume += row3(scan.positions, t[0]).dot(area_vector(scan.positions, t));
@@ -242,16 +241,16 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   const std::string ply = encode_scan(cube()), stl = binary_stl(cube()),
                     whole = glb(cube(), R"({"children":[1]})");
   refuse("cut.ply", ply.substr(0, ply.size() - 1), "ends too soon");
-  refuse("none.ply", "ply\n", "header does not end");
+  refuse("none.ply", "ply\n", "header has no end");
   refuse("other.ply", "hello\n", "does not begin with ply");
   std::string far = ply;
   far[far.size() - 1] = 1;  // the last corner becomes 16,777,2xx
-  refuse("far.ply", far, "names vertex");
+  refuse("far.ply", far, "refers to vertex");
   refuse("many.ply", "ply\nformat ascii 1.0\nelement vertex 99999999\nend_header\n", "claims");
   refuse("cut.stl", stl.substr(0, stl.size() - 1), "claims 12 triangles");
   refuse("word.stl", "solid x\nvertex 1 2 three\n", "three");
   refuse("cut.glb", whole.substr(0, whole.size() - 4), "cut off");
-  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "in a circle");
+  refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "form a cycle");
   refuse("short.glb", glb(cube(), R"({"children":[1],"rotation":[0,0,1]})"), "does not have");
   refuse("other_end.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n", "middle");
   const std::string nan("\0\0\xc0\x7f", 4);

@@ -285,7 +285,7 @@ TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {
     const auto& other = landmarks[(i + 5) % landmarks.size()];
     landmarks[i].place = shape.positions.row(other.vertex).transpose();
   }
-  expect_error(ExitCode::kBadData, {"do not belong together", "swapped"}, [&] {
+  expect_error(ExitCode::kBadData, {"do not match", "swapped"}, [&] {
     refuse_bad_wrap(shape, wrap(shape, nullptr, scan, landmarks, std::nullopt), {});
   });
 }

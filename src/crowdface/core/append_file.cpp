@@ -14,7 +14,8 @@ AppendFile::AppendFile(const std::filesystem::path& path)
                    O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666)) {
   if (!file_.valid()) throw_with_reason<CannotCreate>(path, "cannot be opened to append");
   struct stat status {};
-  if (::fstat(file_.get(), &status) != 0) throw_with_reason<IoError>(path, "cannot be looked at");
+  if (::fstat(file_.get(), &status) != 0)
+    throw_with_reason<IoError>(path, "its file status cannot be read");
   if (!S_ISREG(status.st_mode)) {
     throw CannotCreate(concat(path.string(), ": expected a regular file, or none yet"));
   }

@@ -87,9 +87,9 @@ DirectoryHandle::DirectoryHandle(const fs::path& folder)
 
 void DirectoryHandle::require_same() const {
   if (path_leads_to(path_.empty() ? "." : path_, opened_)) return;
-  throw IoError(concat(path_.string(),
-                       ": was removed, moved or replaced while the run was at work there; run the "
-                       "same command again"));
+  throw IoError(
+      concat(path_.string(),
+             ": was removed, moved or replaced during the run; run the same command again"));
 }
 
 }  // namespace crowdface

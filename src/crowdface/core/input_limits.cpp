@@ -37,8 +37,8 @@ void set_input_limit(std::string_view assignment) {
     if (known.name != name || equals == assignment.npos) continue;
     const auto number = parse_unsigned(assignment.substr(equals + 1));
     if (!number || *number < 1 || *number > known.most) {
-      throw UsageError(concat("--limit: expected for ", name, " a whole number from 1 to ",
-                              known.most, ", found ", quoted(assignment)));
+      throw UsageError(concat("--limit ", name, ": expected a whole number from 1 to ", known.most,
+                              ", found ", quoted(assignment)));
     }
     in_force.*known.limit = *number;
     return;

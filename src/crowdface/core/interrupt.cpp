@@ -39,7 +39,7 @@ bool interrupted() {
 
 void throw_if_interrupted() {
   if (interrupted()) {
-    throw Interrupted("interrupted by a signal; run the same command again to go on");
+    throw Interrupted("interrupted by a signal; run the same command again to continue");
   }
 }
 

@@ -64,7 +64,7 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   std::signal(signal, SIG_DFL);
 }
 
-constexpr std::string_view kWasTruncated = ": was cut while it was being read";
+constexpr std::string_view kWasTruncated = ": was truncated while it was being read";
 
 int begin_watch(char* begin, std::size_t size, OnTruncation when_cut, const fs::path& path) {
   for (std::size_t i = 0; i < watches.size(); ++i) {
@@ -90,7 +90,7 @@ Descriptor nameless_file(const fs::path& folder) {
   // Some file systems do not support O_TMPFILE.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
   file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
-  if (!file.valid()) throw_with_reason<CannotCreate>(folder, "no file can be made there");
+  if (!file.valid()) throw_with_reason<CannotCreate>(folder, "no file can be created there");
   ::unlink(name.c_str());
   return file;
 }

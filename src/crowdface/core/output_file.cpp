@@ -54,7 +54,7 @@ fs::path output_file(const fs::path& path) {
     refuse(concat("cannot be created: there is no folder ", folder.string()));
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    refuse(concat("cannot be created: the folder ", folder.string(), " may not be written to"));
+    refuse(concat("cannot be created: the folder ", folder.string(), " is not writable"));
   }
   return file;
 }
@@ -70,7 +70,7 @@ void refuse_to_write_over(const std::vector<fs::path>& inputs,
     const auto input = id ? known.find(*id) : known.end();
     if (input == known.end()) continue;
     throw UsageError(concat(output.string(), ": is an input (", input->second.string(),
-                            ") and is not written over; choose another name"));
+                            ") and must not be overwritten; choose another name"));
   }
 }
 

@@ -43,7 +43,7 @@ bool is_system_error(int error) {
 
 void require_stat(const fs::path& path, const std::error_code& error) {
   if (!is_system_error(error.value())) return;
-  throw IoError(concat(path.string(), ": cannot be looked at: ", error.message()));
+  throw IoError(concat(path.string(), ": its file status cannot be read: ", error.message()));
 }
 
 bool path_leads_to(const fs::path& path, const Descriptor& file) {
@@ -85,7 +85,7 @@ OpenedFile open_for_reading(const fs::path& path) {
   }
   struct stat status {};
   Descriptor descriptor(fd);
-  if (::fstat(fd, &status) != 0) throw_with_reason<IoError>(path, "cannot be looked at");
+  if (::fstat(fd, &status) != 0) throw_with_reason<IoError>(path, "its file status cannot be read");
   if (!S_ISREG(status.st_mode)) {
     throw MissingInput(concat(path.string(), ": expected a regular file"));
   }

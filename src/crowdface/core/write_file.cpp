@@ -62,7 +62,8 @@ class TemporaryFile {
       if (!file_.valid()) throw_with_reason<CannotCreate>(target, "cannot be created");
       if (still_there()) return;
     }
-    throw CannotCreate(concat(target.string(), ": cannot be created: no name is free"));
+    throw CannotCreate(
+        concat(target.string(), ": cannot be created: every temporary file name is taken"));
   }
   ~TemporaryFile() {
     if (!path_.empty()) ::unlink(path_.c_str());
@@ -110,7 +111,7 @@ class TemporaryFile {
     if (::fstat(file_.get(), &status) == 0) return status.st_nlink > 0;
     const std::string why = reason();
     ::unlink(path_.c_str());
-    throw IoError(concat(target_.string(), ": cannot be looked at: ", why));
+    throw IoError(concat(target_.string(), ": its file status cannot be read: ", why));
   }
 
   [[noreturn]] void fail(std::string_view what) const {
@@ -202,7 +203,7 @@ void make_directories(const fs::path& path) {
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error)) {
     throw CannotCreate(concat(path.string(), ": folder cannot be created: ",
-                              error ? error.message() : "something else has that name"));
+                              error ? error.message() : "a file has the same name"));
   }
 }
 

@@ -150,7 +150,7 @@ void refuse_obstacles(const CrowdDirectory& directory) {
       throw CannotCreate(concat(folder.string(), ": expected a folder, or nothing"));
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0 && errno != ENOENT) {
-      throw CannotCreate(concat(folder.string(), ": may not be written to"));
+      throw CannotCreate(concat(folder.string(), ": is not writable"));
     }
   }
   std::vector<fs::path> files = record_files(directory);
@@ -229,7 +229,7 @@ void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& fo
   }
   if (is_inside_folder(real, root)) return;
   throw CannotCreate(concat(folder.string(), ": is a link that leads out of ", root.string(),
-                            ", where nothing is written"));
+                            "; crowdface writes only inside this folder"));
 }
 
 std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
@@ -314,7 +314,8 @@ fs::path CrowdDirectory::mesh(const std::string& id, MeshFormat format,
 
 void require_crowd(const CrowdDirectory& directory) {
   if (path_exists(directory.config())) return;
-  throw MissingInput(concat(directory.config().string(), ": not there; expected a crowd's folder"));
+  throw MissingInput(
+      concat(directory.config().string(), ": does not exist; expected the folder of a crowd"));
 }
 
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
@@ -331,7 +332,7 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
   fs::path existing = fs::absolute(directory.root);
   std::error_code error;
   if (!fs::status_known(fs::status(existing, error))) {  // name too long, or a cycle of links
-    throw CannotCreate(concat(directory.root.string(), ": cannot be made: ", error.message()));
+    throw CannotCreate(concat(directory.root.string(), ": cannot be created: ", error.message()));
   }
   while (!path_exists(existing) && existing.has_relative_path()) {
     existing = existing.parent_path();
@@ -339,14 +340,15 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
   refuse_links(directory);
   refuse_obstacles(directory);
   if (replace == Replace::kRefuse && holds_other_files(directory, config.text)) {
-    throw UsageError(concat(directory.root.string(),
-                            ": holds files that this crowd would replace, and no config.yaml that "
-                            "says they are its own; choose another folder with --out, or replace "
-                            "them with --force"));
+    throw UsageError(concat(
+        directory.root.string(),
+        ": contains files that this crowd would overwrite, but no config.yaml that identifies them "
+        "as files of this crowd; choose another folder with --out, or replace them with --force"));
   }
   if (!is_folder(existing) || ::access(existing.c_str(), W_OK | X_OK) != 0) {
-    throw CannotCreate(
-        concat(directory.root.string(), ": cannot be written to, because of ", existing.string()));
+    throw CannotCreate(concat(directory.root.string(),
+                              ": cannot be written: expected a writable folder, found ",
+                              existing.string()));
   }
 }
 

@@ -11,7 +11,7 @@ CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
   make_directories(directory.root);
   root_ = std::make_unique<DirectoryHandle>(directory.root);
   const auto tell = [&](std::string_view who) {
-    log_info(concat(directory.root.string(), ": ", who, " is at work there; waiting for it"));
+    log_info(concat(directory.root.string(), ": ", who, " is using this folder; waiting for it"));
   };
   crowd_ = std::make_unique<FileLock>(directory.lock(),
                                       shard.whole() ? LockKind::kExclusive : LockKind::kShared,
@@ -22,7 +22,7 @@ CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
   }
   std::size_t removed = 0;
   for (const auto& folder : folders_from(directory.root)) removed += remove_leftovers(folder);
-  if (removed > 0) log_debug(concat(removed, " files that a killed run left half written removed"));
+  if (removed > 0) log_debug(concat("removed ", removed, " incomplete files of a killed run"));
 }
 
 }  // namespace crowdface

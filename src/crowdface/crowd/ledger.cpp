@@ -186,7 +186,7 @@ Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& 
   if (lines.damaged > 0) {
     log_warning(concat(own.string(), ": ", lines.damaged,
                        lines.damaged == 1 ? " line is" : " lines are",
-                       " not whole; what they stand for is done again"));
+                       " damaged; the work that was recorded there is done again"));
   }
   if (lines.damaged > 0 || !path_exists(own)) {
     write_file(own, text_of_items(lines.entries.size(),
@@ -370,8 +370,8 @@ void Ledger::settle() {
 void Ledger::require_files() const {
   const auto require = [&](const fs::path& path) {
     if (path_exists(path)) return;
-    throw IoError(concat(path.string(),
-                         ": was removed while the run was at work; run the same command again"));
+    throw IoError(
+        concat(path.string(), ": was removed during the run; run the same command again"));
   };
   require(own_);
   for (const auto& [name, item] : items_) {

@@ -137,8 +137,9 @@ CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& 
       return result;
     }
   }
-  throw InvalidInput(concat(path.string(), ": expected the likeness of the faces in plan.jsonl, ",
-                            "found something else; crowdface generate writes it anew"));
+  throw InvalidInput(
+      concat(path.string(), ": expected the likeness of the faces in plan.jsonl, ",
+             "found other contents; run crowdface generate to write the file again"));
 }
 
 }  // namespace crowdface

@@ -156,7 +156,7 @@ class LineReader {
       const auto& known = names_.attachments;
       if (std::find(known.begin(), known.end(), name) == known.end() ||
           std::find(placed.begin(), placed.end(), name) != placed.end()) {
-        fail("attachments", "names of attachments, each once", value.dump());
+        fail("attachments", "distinct names of attachments", value.dump());
       }
       placed.push_back(name);
     }
@@ -199,8 +199,8 @@ class LineReader {
       const std::uint64_t before = band_of(result, b - 1).iterations;
       const std::uint64_t begins = result.finer.back().iterations;
       if (begins > before) {
-        fail(concat(own, ".iterations"), concat("at most those of the band before it, ", before),
-             concat(begins));
+        fail(concat(own, ".iterations"),
+             concat("at most the iterations of the previous band, ", before), concat(begins));
       }
     }
     return result;

@@ -27,11 +27,11 @@ std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
     if (lines.damaged > 0) {
       check.remarks.push_back(
           concat(path.filename().string(), ": ", lines.damaged,
-                 lines.damaged == 1 ? " line is not whole" : " lines are not whole"));
+                 lines.damaged == 1 ? " line is damaged" : " lines are damaged"));
     }
     if (path == directory.ledger() && !lines.complete) {
-      check.remarks.push_back(concat(path.filename().string(),
-                                     ": lines are missing, or no run has come to its end yet"));
+      check.remarks.push_back(
+          concat(path.filename().string(), ": lines are missing, or no run has finished yet"));
     }
     for (LedgerEntry& entry : lines.entries) all[entry.item].push_back(std::move(entry));
   }

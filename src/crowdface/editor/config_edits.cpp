@@ -72,13 +72,13 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   if (named != nullptr) return file;
 
   const std::string line = entry("edits", write_scalar(name));
-  config_text += concat(config_text.ends_with('\n') ? "" : "\n", "\n", line,
-                        "  # what crowdface edit saved\n");
+  config_text +=
+      concat(config_text.ends_with('\n') ? "" : "\n", "\n", line, "  # saved by crowdface edit\n");
   Complaints complaints;
   const auto longer = parse_yaml(config_text, config.string(), complaints);
   if (!longer || !complaints.empty() || longer->find("edits") == nullptr) {
     throw UsageError(concat(config.string(), ": add \"", line,
-                            "\" to it: what was saved stands in ", file.string()));
+                            "\" to this file; the edits are saved in ", file.string()));
   }
   write_file(config, config_text);
   return file;

@@ -89,8 +89,8 @@ std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge&
   if (!faces.empty() || request.count == 0) return faces;
   const auto main = std::ranges::max_element(
       reasons, [](const auto& a, const auto& b) { return a.second < b.second; });
-  throw Unsatisfiable(concat("none of ", most, " faces that were drawn keeps the config's limits; ",
-                             main->second, " of them fail by ", name_of(main->first)));
+  throw Unsatisfiable(concat("none of ", most, " drawn faces meets the limits of the config; ",
+                             main->second, " of them violate ", name_of(main->first)));
 }
 
 }  // namespace crowdface

@@ -19,13 +19,14 @@ namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& folder,
                          const std::filesystem::path& address) {
-  std::string where = "it has not said yet at which address";
+  std::string where = "its address is not known yet";
   try {
     where = read_file(address);
     // The address belongs to another user, or the other editor has just started.
   } catch (const RecoverableError&) {
   }
-  throw UsageError(concat(folder.parent_path().string(), ": is edited already: ", where));
+  throw UsageError(concat(folder.parent_path().string(),
+                          ": another crowdface edit is already running here: ", where));
 }
 
 /// The exclusive right to edit a crowd, during the lifetime of this object. Applies to all machines

@@ -98,8 +98,8 @@ HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
 void EditApi::require_own_config() const {
   if (may_edit_config_) return;
   throw UsageError(
-      "a crowd's own config.yaml tells what its faces were made of and is not changed: open the "
-      "config it was made from");
+      "the config.yaml in a crowd's folder records how its faces were made and cannot be edited; "
+      "open the config that the crowd was made from");
 }
 
 HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
@@ -177,9 +177,8 @@ HttpAnswer EditApi::painted_masks() const {
 void EditApi::require_masks_of_config() const {
   if (!painting_.painted()) return;
   throw UsageError(
-      "masks were painted that the config does not name yet: press \"Use masks\"; then what is "
-      "saved "
-      "is what the config makes");
+      "the config does not use the painted masks yet; press \"Use masks\" first, so that the saved "
+      "face matches the config");
 }
 
 HttpAnswer EditApi::paint_masks(const HttpRequest& request, const std::string&) {

@@ -68,8 +68,9 @@ std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& fa
         (is_word || std::find(known[kind].begin(), known[kind].end(), name) != known[kind].end())) {
       continue;
     }
-    throw UsageError(concat("wears: expected kinds with draw, none or a name, found ",
-                            quoted(concat(kind, ": ", name))));
+    throw UsageError(
+        concat("wears: expected draw, none or the name of an attachment for each kind, found ",
+               quoted(concat(kind, ": ", name))));
   }
   FacePlan dressed = face;
   dressed.attachments.clear();

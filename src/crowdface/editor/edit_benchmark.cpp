@@ -86,7 +86,8 @@ std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverr
       "the full face, parts placed, with normals, after\n", line("one region was moved", one),
       line("all regions were moved", all), line("one region's smoothness was changed", levels),
       line("the target was changed", target),
-      "(a frame of the paper's, 15 heads of 1.2 million vertices on a graphics card: 25 ms)\n");
+      "(the paper reports 25 ms per frame, for 15 heads of 1.2 million vertices on a graphics "
+      "card)\n");
 }
 
 }  // namespace crowdface

@@ -42,7 +42,7 @@ std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
     std::vector<FacePlan> faces;
     for (PlanLine& line : read_plan(directory.plan(), job.names)) {
       if (line.settings != job.settings.hex()) {
-        return refuse("they were cast under other settings");
+        return refuse("they were planned with other settings");
       }
       faces.push_back(std::move(line.face));
     }

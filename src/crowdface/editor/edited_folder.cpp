@@ -126,7 +126,7 @@ void EditedFolder::finish_saves(const Job& job, const WriteMesh& write) {
       }
       remove_if_exists(saving);
     } catch (const RecoverableError& error) {
-      log_warning(concat(saving.string(), ": a face was not saved to the end: ", error.what()));
+      log_warning(concat(saving.string(), ": a face was not saved completely: ", error.what()));
     }
   }
 }

@@ -96,7 +96,8 @@ void GenerateRun::start() {
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&files);
   if (error != 0) {
-    throw IoError(concat("a run cannot be started: ", std::generic_category().message(error)));
+    throw IoError(
+        concat("crowdface generate cannot be started: ", std::generic_category().message(error)));
   }
   state_ = State::kRunning;
   stopped_ = false;

@@ -71,7 +71,8 @@ void RegionPainting::replay() {
       }
     }
   } catch (const UsageError& error) {  // a user may have edited the file
-    log_warning(concat(strokes_.file().string(), ": ", error.what(), "; what follows is left out"));
+    log_warning(concat(strokes_.file().string(), ": ", error.what(),
+                       "; the remaining strokes are ignored"));
   }
 }
 
@@ -145,7 +146,7 @@ void RegionPainting::stroke(const Json& body) {
 }
 
 void RegionPainting::undo() {
-  if (!painted()) throw UsageError("nothing is painted that could be taken back");
+  if (!painted()) throw UsageError("there is no stroke to undo");
   painter().undo();
   painted_ = true;
   keep({{kUndo, true}});
@@ -177,7 +178,7 @@ PaintedRegions RegionPainting::regions(const Json& change) {
     regions.alpha.rightCols(1).setZero();
   } else if (change.contains("remove")) {
     const Index region = region_in(change, "remove");
-    if (regions.names.size() == 1) throw UsageError("remove: there is no other region");
+    if (regions.names.size() == 1) throw UsageError("remove: the only region cannot be removed");
     regions.names.erase(regions.names.begin() + region);
     regions.alpha = painter().alpha_without(region);
   } else if (change.contains("propose")) {

@@ -34,11 +34,10 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
     if (!known) break;
   }
   if (!known) {
-    log_info(concat(file_.string(), ": was painted on other masks and is left out"));
+    log_info(concat(file_.string(), ": its strokes were painted on other masks and are discarded"));
     remove_if_exists(file_);
   } else {
-    log_info(concat(file_.string(),
-                    ": strokes that were not saved are painted again: ", strokes_.size()));
+    log_info(concat(file_.string(), ": unsaved strokes painted again: ", strokes_.size()));
   }
 }
 

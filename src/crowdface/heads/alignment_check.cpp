@@ -116,22 +116,22 @@ std::vector<std::string> align_heads(HeadSet& faces, const Components& component
   for (std::size_t h = 0; h < poses.size(); ++h) {
     if (!is_off(poses[h])) continue;
     if (poses[h].scale > kOtherUnit || poses[h].scale < 1 / kOtherUnit) {
-      throw InvalidInput(concat("head ", faces.heads[h].name,
-                                ": expected heads in one unit, found ",
-                                format_fixed(poses[h].scale, 2),
-                                " times the size of the others (faces.align: none takes it)"));
+      throw InvalidInput(
+          concat("head ", faces.heads[h].name, ": expected heads in one unit, found ",
+                 format_fixed(poses[h].scale, 2),
+                 " times the size of the others (faces.align: none skips this check)"));
     }
     if (align == Align::kCheck && poses[h].angle_degrees > kMaxTurn) {
       throw InvalidInput(concat("head ", faces.heads[h].name, " is turned by ",
                                 format_fixed(poses[h].angle_degrees, 1),
-                                " degrees against the others: faces.align: rigid turns it back "
-                                "(none takes it as it is)"));
+                                " degrees relative to the others; faces.align: rigid turns it "
+                                "back, faces.align: none skips this check"));
     }
     warnings.push_back(concat(
-        "head ", faces.heads[h].name, " does not stand in one frame with the others: turned by ",
+        "head ", faces.heads[h].name, " is not aligned with the others: turned by ",
         format_fixed(poses[h].angle_degrees, 1), " degrees, moved by ",
         format_fixed(100 * poses[h].shift, 1), " % of its size, ", format_fixed(poses[h].scale, 2),
-        " times as large; this would enter as detail",
+        " times as large; blending treats this difference as detail",
         is_of_other_size(poses[h]) ? " (a different size is not corrected; check its units)"
         : align == Align::kCheck   ? " (faces.align: rigid turns and moves it back)"
                                    : ""));

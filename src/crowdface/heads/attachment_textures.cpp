@@ -165,8 +165,7 @@ std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
           named == of_head[h]->of_kind.end() ? std::map<std::string, fs::path>() : named->second,
           tile, files[h].materials, missing));
       for (const fs::path& path : missing) {
-        heads_of_warning[concat("texture ", quoted(path.string()),
-                                " is missing; pictures do without")]
+        heads_of_warning[concat("texture ", quoted(path.string()), " is missing; renders omit it")]
             .push_back(head);
       }
     }

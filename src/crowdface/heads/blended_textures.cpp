@@ -345,7 +345,7 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
           concat(faces.heads[h].name, ": has no ", statement_of(found.kind).name, " texture",
                  name.part.empty() ? "" : concat(" for all of ", name.part),
                  name.tile == 0 ? "" : concat(" in tile ", name.tile),
-                 "; where faces would have what it shows they have what their other heads have"));
+                 "; in its place, faces use the textures of their other heads"));
     }
   }
   result.warnings = std::move(found.warnings);

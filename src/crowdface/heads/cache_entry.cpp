@@ -131,13 +131,13 @@ const CacheEntry::Row& CacheEntry::find(std::string_view name,
 void CacheEntry::require(bool holds) const {
   if (!holds) {
     throw InvalidInput(
-        concat(path_.string(), ": cache entry is damaged (it holds numbers that no head has)"));
+        concat(path_.string(), ": cache entry is damaged (it contains numbers out of range)"));
   }
 }
 
 void CacheEntry::require_whole() const {
   if (file_->was_truncated())
-    throw InvalidInput(concat(path_.string(), ": cache entry is being cut"));
+    throw InvalidInput(concat(path_.string(), ": cache entry is being truncated"));
 }
 
 void CacheEntry::require_same(bool same) const {

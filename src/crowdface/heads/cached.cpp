@@ -16,7 +16,7 @@ std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& k
 }
 
 void warn_of_entry(const RecoverableError& error) {
-  log_warning(concat(error.what(), "; it is made anew"));
+  log_warning(concat(error.what(), "; it is created again"));
 }
 
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
@@ -26,7 +26,7 @@ bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<Entr
     write_entry(cache, key, arrays);
     return true;
   } catch (const RecoverableError& error) {
-    log_warning(concat(what, " cannot be kept: ", error.what()));
+    log_warning(concat(what, " cannot be stored in the cache: ", error.what()));
     return false;
   }
 }

@@ -97,11 +97,10 @@ std::vector<std::string> odd_expressions(const HeadSet& faces, const std::vector
     for (std::size_t h = 0; h < off.size(); ++h) {
       if (off[h] < kMinMm || off[h] < kMaxOfOthers * usual) continue;
       warnings.push_back(concat(
-          faces.heads[h].name, ": the form of its ", box.name, " is ", format_fixed(off[h], 1),
-          " mm from the middle of all heads, where the others are ", format_fixed(usual, 1),
-          " mm: does it grimace? Heads are to be neutral; an expression goes into all faces that "
-          "are "
-          "made of it"));
+          faces.heads[h].name, ": the shape of its ", box.name, " differs by ",
+          format_fixed(off[h], 1), " mm from the median of all heads, the others by ",
+          format_fixed(usual, 1),
+          " mm: is its expression neutral? Faces built from this head take over its expression"));
     }
   }
   return warnings;

@@ -168,7 +168,7 @@ std::string describe_levels(const Inputs& inputs) {
   for (std::size_t l = 0; l < inputs.levels.size(); ++l) {
     const auto& [level, heads, shapes] = inputs.levels[l];
     std::string line = concat("LOD", l + 1, ": ", level.topology.face_count(), " triangles, ",
-                              level.vertices.size(), " vertices; of the heads' surface ",
+                              level.vertices.size(), " vertices; distance to the heads' surface ",
                               format_fixed(heads.root_mean_square, 2), " mm (rms), ",
                               format_fixed(heads.most, 2), " mm at most");
     if (!inputs.shapes.shapes.empty()) {

@@ -52,14 +52,14 @@ std::string cause_of_difference(const Topology& first, const Topology& found) {
   const bool same_vertices = first.vertex_count == found.vertex_count;
   const bool same_faces = first.face_count() == found.face_count();
   if (same_vertices && same_faces) {
-    return "; it has as many vertices and faces, in another order or otherwise connected: export "
-           "it again with the order "
-           "of vertices kept, or wrap the first head onto it (crowdface wrap)";
+    return "; it has as many vertices and faces, but in another order or with other connections: "
+           "export it again and keep the vertex order, or wrap the first head onto it (crowdface "
+           "wrap)";
   }
   if (same_vertices && triangles(first) == triangles(found)) {
     return found.face_count() > first.face_count()
                ? "; its polygons were cut into triangles: export it without triangulating"
-               : "; its triangles were joined to polygons: export it as the others were";
+               : "; its triangles were joined to polygons: export it like the others";
   }
   if (triangles(first) == triangles(found)) {
     return found.vertex_count > first.vertex_count
@@ -69,7 +69,7 @@ std::string cause_of_difference(const Topology& first, const Topology& found) {
   }
   return concat("; it has ", found.vertex_count, " vertices and ", found.face_count(),
                 " faces, the first ", first.vertex_count, " and ", first.face_count(),
-                ": another mesh, onto which crowdface wrap brings the first head's");
+                ": it is another mesh; to fit the first head's mesh to it, use crowdface wrap");
 }
 
 }  // namespace
@@ -100,11 +100,11 @@ void check_stance(const Config& config, const Inputs& inputs) {
   if (!marks) {
     const auto found = find_bearing(topology, head);
     if (!found) return;
-    throw InvalidInput(concat(
-        "the heads look along ", name_of(found->front), " with ", name_of(found->up),
-        " up, and not as faces.front ", name_of(asked.front), " and faces.up ", name_of(asked.up),
-        " say: set up: ", name_of(found->up), " and front: ", name_of(found->front),
-        " (faces.align: none takes them as they are)"));
+    throw InvalidInput(
+        concat("the heads look along ", name_of(found->front), " with ", name_of(found->up),
+               " up, but faces.front is ", name_of(asked.front), " and faces.up is ",
+               name_of(asked.up), "; set up: ", name_of(found->up),
+               " and front: ", name_of(found->front), " (faces.align: none skips this check)"));
   }
   // eyes to mouth: 45 mm (child) to about 85 mm, with a margin
   constexpr double kMinMm = 35, kMaxMm = 120;
@@ -118,12 +118,13 @@ void check_stance(const Config& config, const Inputs& inputs) {
     const double other = marks->face() * mm_per(unit);
     if (other >= kMinMm && other <= kMaxMm) fitting = unit;
   }
-  throw InvalidInput(concat(
-      "the first head is ", format_fixed(units, 2), " units high, with faces.units ",
-      name_of(config.faces.units), " ", format_fixed(units * mm_per(config.faces.units) / 10, 1),
-      " cm, and ", format_fixed(mm, 0),
-      " mm from the eyes to the mouth; of people that is some 65 mm: set units: ", name_of(fitting),
-      " (faces.align: none takes any size)"));
+  throw InvalidInput(
+      concat("the first head is ", format_fixed(units, 2), " units high; with faces.units ",
+             name_of(config.faces.units), " it is ",
+             format_fixed(units * mm_per(config.faces.units) / 10, 1), " cm high and ",
+             format_fixed(mm, 0),
+             " mm from the eyes to the mouth, where people have about 65 mm; set units: ",
+             name_of(fitting), " (faces.align: none skips this check)"));
 }
 
 std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
@@ -169,8 +170,8 @@ std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
       if (mean > kMaxMm || (mean > kMaxOfOthers * middle && mean > 0)) continue;
       warnings.push_back(concat("heads ", heads[a].name, " and ", heads[b].name, " are ",
                                 format_fixed(mean, 2),
-                                " mm apart in the mean: is this one person twice? Faces of both "
-                                "are less varied than they seem"));
+                                " mm apart (rms): are they the same person? Faces that mix the two "
+                                "then vary less than expected"));
     }
   }
   return warnings;
@@ -185,7 +186,7 @@ std::optional<std::string> far_from_origin(const Config& config, const Inputs& i
   const double farthest_mm = farthest * mm_per(config.faces.units);
   if (farthest_mm * kHalfStep <= kMinMm) return std::nullopt;
   return concat("heads reach ", format_fixed(farthest_mm / 1000, 0),
-                " m from the origin, where meshes, in single precision, lose up to ",
+                " m from the origin, where single precision rounds positions by up to ",
                 format_fixed(farthest_mm * kHalfStep, 2), " mm: move the heads to the origin");
 }
 

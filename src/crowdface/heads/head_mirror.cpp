@@ -47,7 +47,7 @@ std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& 
   if (found.share() < kMinShare) {
     throw InvalidInput(concat(config.file.string(), ": ", key, ": the heads are not symmetric ",
                               "enough: expected ", 100 * kMinShare, " % of the vertices to have ",
-                              "a place on the other side, found ", describe_mirror(config, found)));
+                              "a mirror image, found ", describe_mirror(config, found)));
   }
   return std::make_shared<const MirrorMap>(std::move(found.map));
 }
@@ -56,7 +56,7 @@ std::string describe_mirror(const Config& config, const FoundMirror& mirror) {
   const double mm = mm_per(config.faces.units);
   const auto all = static_cast<Index>(mirror.map.corners.size());
   std::string text =
-      concat(mirror.vertices + mirror.on_surface, " of ", all, " vertices have another side");
+      concat(mirror.vertices + mirror.on_surface, " of ", all, " vertices with a mirror image");
   if (mirror.on_surface > 0) {
     text += concat(", ", mirror.on_surface, " of them on the surface between vertices");
   }

@@ -48,11 +48,11 @@ void check_place(const Attachment& item, const Positions& head) {
   const Eigen::RowVector3d middle = (own_high + own_low) / 2;
   const Eigen::RowVector3d off = (low - middle).cwiseMax(middle - high).cwiseMax(0.0);
   if (size <= kLargest * diagonal && off.norm() <= kFarthest * diagonal) return;
-  refuse_file(
-      item.file.path,
-      concat("expected a mesh beside the head that it was fitted to, in its unit; ", "the head is ",
-             format_fixed(diagonal, 2), " units across, this mesh ", format_fixed(size, 2),
-             ", and its middle is ", format_fixed(off.norm(), 2), " outside the head's box"));
+  refuse_file(item.file.path,
+              concat("expected a mesh in the place and unit of the head that it was fitted to; ",
+                     "the head is ", format_fixed(diagonal, 2), " units across, this mesh is ",
+                     format_fixed(size, 2), ", and its centre is ", format_fixed(off.norm(), 2),
+                     " outside the head's bounding box"));
 }
 
 Digest digest_of_attachments(const AttachmentSet& set) {
@@ -122,8 +122,8 @@ void load_attachments(const Config& config, const CacheFolder& cache, Inputs& in
       any_format(meshes, [](const auto& format) { return format.attachments != Beside::kNowhere; });
   if (!meshes.empty() && !have_files) {
     inputs.warn(
-        "attachments are not written as NumPy arrays, and output.meshes has points alone: no file "
-        "has them");
+        "output.meshes writes only NumPy arrays, which cannot hold attachments: the faces are "
+        "written without them");
   }
   set.digest = digest_of_attachments(set);
   inputs.attachments = std::move(set);

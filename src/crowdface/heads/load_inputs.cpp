@@ -48,8 +48,8 @@ void take_colours(Inputs& inputs) {
   inputs.colours = std::move(colours);
   if (without.empty()) return;
   inputs.warn(concat(join(without),
-                     ": no colours at vertices, which other heads have; faces have "
-                     "those of their other heads"));
+                     ": no vertex colours, although other heads have them; faces take the colours "
+                     "of their other heads"));
 }
 
 /// Moves the heads into the inputs; their common topology is stored once.
@@ -87,9 +87,9 @@ std::optional<std::string> unknown_surfaces(const Config& config, const Inputs& 
   for (const std::string& name : known) {
     if (!name.empty()) materials.push_back(quoted(name));
   }
-  return concat("output.surfaces names ", join(unknown), ", which no face of ",
-                config.faces.files.front().string(), " is made of; ",
-                materials.empty() ? "its faces name no materials (usemtl)"
+  return concat("output.surfaces names ", join(unknown), ", but no polygon of ",
+                config.faces.files.front().string(), " has such a material; ",
+                materials.empty() ? "its polygons name no materials (usemtl)"
                                   : concat("its materials are ", join(materials)));
 }
 
@@ -125,8 +125,8 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const H
   }
   if (with.empty() || without.empty()) return std::nullopt;
   return concat("the ", statement_of(textures.kind).name, " texture of ", join(with),
-                " is not blended, as all other heads have none (", join(without),
-                "): only faces with such a target get it, as it is");
+                " is not blended, because the other heads have none (", join(without),
+                "); only faces with such a target get it, unchanged");
 }
 
 /// Loads textures without damaged images: after each damaged image it loads again as if that file
@@ -162,10 +162,10 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
     HeadsTextures& found = kinds.front();
     const bool asked_for = sheet && sheet->texture == SheetTexture::kYes;
     if (asked_for && !found.any()) {
-      throw MissingInput(concat(
-          config.faces.files.front().string(),
-          ": output.contact_sheet.texture asks for textures, and no head's materials name one that "
-          "is there (map_Kd in the file of mtllib, and texture coordinates)"));
+      throw MissingInput(
+          concat(config.faces.files.front().string(),
+                 ": output.contact_sheet.texture is true, but no head has texture coordinates and "
+                 "a material with an existing texture (map_Kd in the mtllib file)"));
     }
     if (!asked_for) {
       for (std::string& text : leave_out_unreadable(found)) inputs.warn(std::move(text));
@@ -301,7 +301,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   }
   if (inputs.regions.uncovered_vertices > 0) {
     inputs.warn(concat(inputs.regions.uncovered_vertices,
-                       " vertices are covered by no mask and go to the last region, ",
+                       " vertices are covered by no mask and belong to the last region, ",
                        config.region_names().back()));
   }
   for (std::string& text : odd_masks(config, inputs)) inputs.warn(std::move(text));

@@ -38,7 +38,9 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   }
   if (names.empty()) {
     for (const YamlEntry& entry : node.entries) {
-      if (!is_name(entry.key)) complaints.about(entry.value, "its name is none");
+      if (!is_name(entry.key))
+        complaints.about(entry.value,
+                         "not a valid name; expected letters (a-z), digits, '_', '-' and '.'");
       names.push_back(entry.key);
     }
     if (names.empty() || names.size() > kMaxPoints) {
@@ -85,7 +87,8 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
   const Topology& topology = inputs.faces.topology;
   if (entry == nullptr) {
     if (!neutral.empty()) return read_positions(neutral, topology, "the heads");
-    complaints.about(root, "the key template is missing: the OBJ file beside which points stand");
+    complaints.about(root,
+                     "the key template is missing; write the OBJ file that the points belong to");
     return {};
   }
   return read_positions(file.parent_path() / entry->value.text, topology, "the heads");

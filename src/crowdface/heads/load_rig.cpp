@@ -95,9 +95,9 @@ struct Fit {
 Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
   Fit fit{from_gltf(config.faces), match_by_id(rig, inputs.faces.topology.vertex_count), {}};
   if (fit.match.missing > 0) {
-    refuse_file(config.rig, concat("its _VERTEX_ID tells ", fit.match.missing, " of the ",
+    refuse_file(config.rig, concat("its _VERTEX_ID lacks ", fit.match.missing, " of the ",
                                    inputs.faces.topology.vertex_count,
-                                   " vertices of the heads nothing; is it the whole mesh?"));
+                                   " vertices of the heads; does it contain the whole mesh?"));
   }
   fit.mesh.resize(inputs.faces.topology.vertex_count, 3);
   for (Index v = 0; v < fit.mesh.rows(); ++v) {
@@ -130,10 +130,9 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
   }
   refuse_file(config.rig,
               concat(best.match.missing, " of the ", best.mesh.rows(),
-                     " vertices of the heads lie on no vertex of its meshes (one is ",
+                     " vertices of the heads match no vertex of its meshes (one is ",
                      format_fixed(best.match.farthest * mm_per(config.faces.units), 1),
-                     " mm off), neither on the shapes' template nor on any head; expected "
-                     "the rig of one of them, at rest"));
+                     " mm off); expected the rig of the shapes' template or of a head, at rest"));
 }
 
 /// \throws InvalidInput unless the rig's mesh is about as large as the heads and close to them.
@@ -147,12 +146,11 @@ void require_near_heads(const Fit& fit, const Config& config, const Inputs& inpu
   const double off = (fit.mesh.colwise().mean() - head.colwise().mean()).norm();
   if (size <= kMaxTimes * heads && heads <= kMaxTimes * size && off <= kMaxOff * heads) return;
   const double mm = mm_per(config.faces.units);
-  refuse_file(config.rig,
-              concat("as its joints hold it, its mesh is ", format_fixed(size * mm, 1),
-                     " mm across and ", format_fixed(off * mm, 1), " mm off the heads, which are ",
-                     format_fixed(heads * mm, 1),
-                     " mm across; expected the rig of a head at rest (its inverse bind matrices "
-                     "and joints say where the mesh stands)"));
+  refuse_file(config.rig, concat("in its rest pose, its mesh is ", format_fixed(size * mm, 1),
+                                 " mm across and ", format_fixed(off * mm, 1),
+                                 " mm off the heads, which are ", format_fixed(heads * mm, 1),
+                                 " mm across; expected the rig of a head at rest (inverse bind "
+                                 "matrices and joints define the place of the mesh)"));
 }
 
 /// A joint's axes in the heads' frame. \throws InvalidInput if their lengths differ.
@@ -168,10 +166,9 @@ Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, cons
   const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
   const double turned = axes.col(0).cross(axes.col(1)).dot(axes.col(2));
   if (!(*least > 0) || *most > (1 + kAlike) * *least || std::abs(turned - 1) > kAlike) {
-    refuse_file(config.rig,
-                concat("the joint ", quoted(joint.name),
-                       " is scaled by its axes differently, mirrored or sheared; expected "
-                       "a rig whose scale is applied"));
+    refuse_file(config.rig, concat("the joint ", quoted(joint.name),
+                                   " is scaled non-uniformly, mirrored or sheared; expected a rig "
+                                   "with its scale applied"));
   }
   return axes;
 }

@@ -48,8 +48,8 @@ std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) 
     if (tiles.size() < 2 || MaskSource(mask).tiled() || holds_vertex_weights(mask)) continue;
     warnings.push_back(concat("mask ", mask, " is one image, but the skin's texture has ",
                               tiles.size(),
-                              " tiles: beyond the first its edge goes on; with <UDIM> "
-                              "in its name each tile has an image of its own"));
+                              " tiles: outside the first tile the pixels at the image's edge are "
+                              "repeated; with <UDIM> in its name, each tile has its own image"));
   }
   return warnings;
 }
@@ -58,11 +58,10 @@ std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
   const std::vector<std::string>& names = config.regions.names;
   if (names.empty() || config.regions.mask.empty()) return {};
   if (names.size() == 1) {
-    return {
-        concat("with one region its mask changes nothing, as what it does not cover goes to the "
-               "last region, which "
-               "is the same: name a second one, names: [",
-               names[0], ", rest], which gets what the first leaves")};
+    return {concat(
+        "the mask of a single region has no effect, because uncovered skin belongs to the last "
+        "region, which is the same: for the uncovered skin, add a second region, names: [",
+        names[0], ", rest]")};
   }
   std::vector<std::string> warnings;
   const std::vector<bool> skin = skin_of(inputs);
@@ -85,9 +84,8 @@ std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
   }
   if (all_are_everywhere) {
     warnings.push_back(concat("the masks (", join(config.regions.mask),
-                              ") leave no region out anywhere: each vertex of the skin "
-                              "belongs to all of ",
-                              join(names), "; are they a painting of skin and not masks?"));
+                              ") overlap everywhere: each vertex of the skin belongs to all of ",
+                              join(names), "; are they skin textures instead of masks?"));
   }
   return warnings;
 }

@@ -92,13 +92,14 @@ PartOverrides overrides_of(const Config& config, const Inputs& inputs, Problems&
         if (c == inputs.components.largest() && part_class != PartClass::kSkin) {
           problems.add(ExitCode::kUsage,
                        concat(config.file.string(), ": parts.", key, ": ", quoted(name),
-                              " is the largest component, by which all others go; it is skin"));
+                              " is the largest component, which is always skin"));
         }
         if (said && *said != part_class) {
-          problems.add(ExitCode::kUsage,
-                       concat(config.file.string(), ": parts.", key, ": ", quoted(name),
-                              " stands for component ", c + 1,
-                              ", which another list names too; expected one class for each"));
+          problems.add(
+              ExitCode::kUsage,
+              concat(config.file.string(), ": parts.", key, ": ", quoted(name), " is component ",
+                     c + 1,
+                     ", which another list also names; expected each component in one list only"));
         }
         said = part_class;
       }

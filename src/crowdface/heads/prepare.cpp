@@ -220,7 +220,7 @@ void require_whole(const Prepared& prepared) {
   if (was_truncated(prepared.patches.mapped) ||
       std::ranges::any_of(prepared.levels,
                           [&](const auto& head) { return was_truncated(head.mapped); })) {
-    throw TruncatedWhileInUse("an entry of the cache was cut while it was in use");
+    throw TruncatedWhileInUse("a cache entry was truncated while it was in use");
   }
 }
 

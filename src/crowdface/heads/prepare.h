@@ -67,7 +67,7 @@ void retry_if_truncated(const Work& work) {
       return work();
     } catch (const TruncatedWhileInUse& error) {
       if (times == kMaxTimes) throw;
-      log_warning(concat(error.what(), "; it is made anew, and the run goes on"));
+      log_warning(concat(error.what(), "; it is created again, and the run continues"));
     }
   }
 }

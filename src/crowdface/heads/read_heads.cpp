@@ -260,10 +260,10 @@ void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
       give_mesh(*files[i], **other);
       continue;
     }
-    errors[i] = InvalidInput(concat(files[i]->file.path.string(), ": expected a mesh, found ",
-                                    files[i]->file.positions.rows(),
-                                    " points and no face: put a mesh with as many vertices (OBJ) "
-                                    "beside, or faces.npy (n by 3 or 4)"));
+    errors[i] = InvalidInput(concat(
+        files[i]->file.path.string(), ": expected a mesh, found ", files[i]->file.positions.rows(),
+        " points and no face: add a mesh with the same number of vertices (OBJ), or faces.npy (n "
+        "by 3 or 4) in the same folder"));
     files[i].reset();
   }
 }
@@ -385,8 +385,8 @@ void put_in_order(std::vector<HeadFile>& heads) {
   for (std::size_t h = 0; h < heads.size(); ++h) {
     if (moved[h] == 0) continue;
     log_warning(concat(heads[h].file.path.string(), ": ", moved[h],
-                       " of its vertices stand in another order than those of ",
-                       heads[0].file.path.string(), ", and were put in that order"));
+                       " of its vertices are in another order than those of ",
+                       heads[0].file.path.string(), "; they were reordered"));
   }
 }
 
@@ -402,8 +402,7 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const Cache
     read.push_back(std::move(*head));
   }
   if (!read.empty()) put_in_order(read);
-  if (kept > 0)
-    log_info(concat(kept, " of ", paths.size(), " heads came from the cache as they were read"));
+  if (kept > 0) log_info(concat(kept, " of ", paths.size(), " heads were read from the cache"));
   return read;
 }
 
@@ -430,7 +429,7 @@ void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
       keep_head(cache, lacking[i]->text, lacking[i]->mesh_digest, lacking[i]->file);
     });
   } catch (const RecoverableError& error) {
-    log_warning(concat("heads that were read cannot be kept: ", error.what()));
+    log_warning(concat("heads cannot be stored in the cache: ", error.what()));
   }
 }
 

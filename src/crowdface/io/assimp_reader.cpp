@@ -58,7 +58,7 @@ void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::strin
 void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, int depth,
                   Collected& all) {
   constexpr int kDeepest = 256;
-  if (depth > kDeepest) throw std::runtime_error("its nodes stand too deep");
+  if (depth > kDeepest) throw std::runtime_error("its nodes are nested too deeply");
   const aiMatrix4x4 place = above * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];

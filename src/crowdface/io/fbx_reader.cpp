@@ -18,9 +18,8 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
   // than base64 allows.
   if (!bytes.starts_with("Kaydara FBX") && bytes.find("===") != bytes.npos) {
     throw InvalidInput(concat(path.string(),
-                              ": expected sound pictures in the FBX file, found text that is no "
-                              "base64: export binary FBX, or "
-                              "do not embed media"));
+                              ": expected embedded images as base64, found other text: export "
+                              "binary FBX, or do not embed media"));
   }
   FileMesh mesh;
   std::vector<std::string> beside;
@@ -29,7 +28,7 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
     throw InvalidInput(concat(
         path.string(),
         ": expected an FBX file that Assimp reads (FBX 2011 or later), found another: ", error,
-        "; export it anew, or as OBJ or GLB"));
+        "; export it again, or as OBJ or GLB"));
   }
   for (std::size_t t = mesh.textures.size(); t-- > 0;) {
     if (beside[t].empty()) continue;
@@ -41,7 +40,7 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
       continue;
     }
     mesh.notes.push_back(concat("its texture ", quoted(file.filename().string()),
-                                " does not lie beside it and is not used"));
+                                " is not in the same folder and is not used"));
     mesh.textures.erase(mesh.textures.begin() + static_cast<std::ptrdiff_t>(t));
   }
   return mesh;

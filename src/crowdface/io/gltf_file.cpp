@@ -173,8 +173,9 @@ std::string_view GltfFile::view(std::size_t number) {
         {packed.at("count").get<std::size_t>(), packed.at("byteStride").get<std::size_t>(),
          packed.value("mode", std::string()), packed.value("filter", std::string())});
     if (!bytes) {
-      fail(concat("it is compressed with ", name, ", and its view ", number,
-                  " cannot be unpacked; gltf-transform copy in.glb out.glb writes it without"));
+      fail(concat(
+          "it is compressed with ", name, ", and its view ", number,
+          " cannot be unpacked; gltf-transform copy in.glb out.glb writes it without compression"));
     }
     known->second = std::move(*bytes);
     room_ += kOften * known->second.size();
@@ -187,7 +188,7 @@ std::string_view GltfFile::view(std::size_t number) {
 /// may share the same data.
 void GltfFile::require_room(std::size_t more) {
   if (more > room_) {
-    fail("its meshes and skins have more numbers than its buffers have bytes, several times over");
+    fail("its meshes and skins use far more numbers than its buffers have bytes");
   }
   room_ -= more;
 }
@@ -307,7 +308,7 @@ std::vector<Eigen::Matrix4d> GltfFile::worlds(const std::vector<std::uint32_t>& 
   std::vector<std::uint32_t> above;
   for (std::uint32_t node = 0; node < parents.size(); ++node) {
     for (std::uint32_t n = node; n != kNoIndex && !known[n]; n = parents[n]) {
-      if (above.size() == parents.size()) fail("its nodes hang on each other in a circle");
+      if (above.size() == parents.size()) fail("its nodes form a cycle");
       above.push_back(n);
     }
     for (; !above.empty(); above.pop_back()) {
@@ -315,7 +316,7 @@ std::vector<Eigen::Matrix4d> GltfFile::worlds(const std::vector<std::uint32_t>& 
       const Eigen::Matrix4d local = local_matrix(nodes[n]);
       worlds[n] = parent == kNoIndex ? local : times(worlds[parent], local);
       if (!(worlds[n].array().abs() < kFarthestNode).all()) {
-        fail(concat("expected its node ", n, " at a place, found it beyond all measure"));
+        fail(concat("the position of its node ", n, " is out of range"));
       }
       known[n] = true;
     }

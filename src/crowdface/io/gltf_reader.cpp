@@ -148,7 +148,7 @@ class GltfMeshReader {
     }
     for (const std::uint32_t corner : part.corners) {
       if (corner >= rows.count) {
-        file_.fail(concat("a triangle names vertex ", corner, " of ", rows.count));
+        file_.fail(concat("a triangle refers to vertex ", corner, " of ", rows.count));
       }
     }
     add_faces(part.corners, mode, rows.first, place, material);
@@ -194,8 +194,8 @@ class GltfMeshReader {
     auto mesh = decode_draco(file_.view(packed.at("bufferView").get<std::size_t>()), wanted);
     if (!mesh) {
       file_.fail(
-          "it is compressed with Draco (KHR_draco_mesh_compression), and cannot be unpacked; "
-          "gltf-transform copy in.glb out.glb writes it without");
+          "it is compressed with Draco (KHR_draco_mesh_compression) and cannot be unpacked; "
+          "gltf-transform copy in.glb out.glb writes it without compression");
     }
     Primitive part;
     part.places = std::move(mesh->attributes[0]);
@@ -314,9 +314,9 @@ FileMesh parse_gltf(std::string_view bytes, const std::filesystem::path& path) {
   try {
     return GltfMeshReader(bytes, path).read();
   } catch (const GltfJson::exception& error) {
-    refuse_file(path, concat("not a scene that glTF 2.0 allows: ", error.what()));
+    refuse_file(path, concat("expected a valid glTF 2.0 scene: ", error.what()));
   } catch (const std::out_of_range&) {
-    refuse_file(path, "it speaks of nodes or numbers that it does not have");
+    refuse_file(path, "it refers to nodes or accessors that it does not have");
   }
 }
 

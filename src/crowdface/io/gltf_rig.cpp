@@ -89,7 +89,8 @@ class RigReader {
     if (skin) return add_skinned(attributes, places, skin_of(*skin));
     const std::uint32_t joint = joint_above(node);
     if (joint == kNoIndex) {
-      file_.fail(concat("the mesh of its node ", node, " is bound to no joint and hangs on none"));
+      file_.fail(
+          concat("the mesh of its node ", node, " is neither bound to a joint nor below one"));
     }
     const Eigen::Matrix4d& place = worlds_[node];
     for (std::size_t p = 0; p < count; ++p) {
@@ -150,7 +151,8 @@ class RigReader {
         if (!(weight > 0)) continue;
         const std::size_t joint = bound[i / 4][4 * p + i % 4];
         if (joint >= skin.joints.size()) {
-          file_.fail(concat("a vertex is bound to the joint ", joint));
+          file_.fail(
+              concat("a vertex is bound to the joint ", joint, ", which its skin does not have"));
         }
         of_point[skin.joints[joint]] += weight;
         place += weight * moved(skin.at_rest[joint], &places[3 * p]);
@@ -183,9 +185,9 @@ GltfRig read_gltf_rig(const std::filesystem::path& path) {
     refuse_foreign_file(file.bytes(), path);
     return RigReader(file.bytes(), path).read();
   } catch (const Json::exception& error) {
-    refuse_file(path, concat("not a scene that glTF 2.0 allows: ", error.what()));
+    refuse_file(path, concat("expected a valid glTF 2.0 scene: ", error.what()));
   } catch (const std::out_of_range&) {
-    refuse_file(path, "it speaks of nodes, joints or numbers that it does not have");
+    refuse_file(path, "it refers to nodes, joints or accessors that it does not have");
   }
 }
 

@@ -106,7 +106,7 @@ void check_kind(const path& file, std::string_view format, const PictureFacts& s
   // from.
   const bool has_windows = format == "openexr";
   if (!has_windows && (spec.width != spec.full_width || spec.height != spec.full_height)) {
-    refuse_file(file, concat("expected all of the picture, found ", spec.width, " x ", spec.height,
+    refuse_file(file, concat("expected the whole image, found ", spec.width, " x ", spec.height,
                              " pixels of ", spec.full_width, " x ", spec.full_height));
   }
 }

@@ -164,7 +164,7 @@ std::string exr_defect(std::string_view bytes, int max_side) {
       if (!attribute) return "is damaged or cut short: its header runs beyond the file's end";
       if (!has_its_size(*attribute)) {
         return concat("is damaged: the ", attribute->value.size(), " bytes of its attribute ",
-                      quoted(attribute->name), " are no ", quoted(attribute->type));
+                      quoted(attribute->name), " are not of the type ", quoted(attribute->type));
       }
       if (attribute->name != "dataWindow") continue;
       if (std::string defect = window_defect(*attribute, max_side); !defect.empty()) return defect;

@@ -138,7 +138,7 @@ class Collector {
       return refuse(concat(objection, " and is not copied"));
     }
     if (!exists(relative)) {
-      return refuse("is missing; OBJ files name it all the same, pictures do without");
+      return refuse("is missing; OBJ files still name it, renders omit it");
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
       require_stat(folder_ / relative, {errno, std::generic_category()});

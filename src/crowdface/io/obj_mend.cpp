@@ -225,25 +225,27 @@ class Mender {
     std::vector<std::string> notes;
     if (drops_normals_) {
       notes.emplace_back(
-          "its faces name normals that are not there (the third number of f lines): normals are "
-          "left out; they are computed from the surface anyway");
+          "its faces refer to normals that do not exist (the third number of f lines): the normals "
+          "are computed from the surface instead");
     }
     if (bad_normals_ > 0) {
       notes.push_back(concat(
-          bad_normals_, " of its normals are no numbers: normals are computed from the surface"));
+          bad_normals_,
+          " of its normals are not numbers: the normals are computed from the surface instead"));
     }
     if (lost_uvs_ > 0) {
       notes.push_back(concat(lost_uvs_,
-                             " of its faces name texture coordinates that are not there, are no "
-                             "numbers, or lack at some corners: these faces have none"));
+                             " of its faces have texture coordinates that do not exist, are not "
+                             "numbers, or are missing at some corners: these faces get none"));
     }
     if (small_faces_ > 0) {
       notes.push_back(
           concat(small_faces_, " of its faces have fewer than 3 corners and are left out"));
     }
     if (lost_colours_ > 0) {
-      notes.push_back(concat(
-          lost_colours_, " of its vertices have colours that are no numbers, which are left out"));
+      notes.push_back(
+          concat(lost_colours_,
+                 " of its vertices have colours that are not numbers: these colours are ignored"));
     }
     return notes;
   }

@@ -210,8 +210,8 @@ class Scanner {
     if (first_other_line_ != 0) return;
     first_other_line_ = line_number_;
     first_other_ = statement;
-    scan_.notes.push_back(concat("OBJ files have no statement ", quoted(statement), " (line ",
-                                 line_number_, "): lines like that are passed over"));
+    scan_.notes.push_back(concat("unknown OBJ statement ", quoted(statement), " (line ",
+                                 line_number_, "): such lines are ignored"));
   }
 
   std::string name_after(std::string_view line, std::string_view statement) const {
@@ -229,7 +229,7 @@ class Scanner {
     }
     if (word.find("nan") != word.npos || word.find("#IND") != word.npos ||
         word.find("#QNAN") != word.npos || word.find("inf") != word.npos) {
-      return "; a vertex without a place: clean the mesh (delete it) before exporting";
+      return "; this vertex has no position: delete it before exporting";
     }
     return "";
   }
@@ -303,7 +303,8 @@ class Scanner {
     for (std::size_t c = 1; c < words_.size(); ++c) {
       const int this_form = corner(words_[c]);
       if (form >= 0 && this_form != form) {
-        fail(concat("expected all corners of the face like the first, found ", quoted(words_[c])));
+        fail(concat("expected all corners of the face in the form of the first, found ",
+                    quoted(words_[c])));
       }
       form = this_form;
     }

@@ -60,14 +60,14 @@ void* open(const std::string& format, const std::string& file, std::string_view 
   picture->input = OIIO::ImageInput::create(format);
   OIIO::ImageInput* input = picture->input.get();
   if (input == nullptr) {
-    error = "this build reads no " + format + ": " + OIIO::geterror();
+    error = "this build cannot read " + format + ": " + OIIO::geterror();
     return nullptr;
   }
   OIIO::ImageSpec wish, spec;
   wish.attribute("oiio:UnassociatedAlpha", 1);  // keeps colours where alpha is 0
   input->threads(1);
   if (!input->set_ioproxy(&picture->memory)) {
-    error = "this build reads no " + format + " from memory";
+    error = "this build cannot read " + format + " from memory";
     return nullptr;
   }
   if (!input->open(file, spec, wish)) {

@@ -72,7 +72,7 @@ class PlyReader {
     mesh_.topology.vertex_count = mesh_.positions.rows();
     for (const std::uint32_t v : mesh_.topology.corner_vertices) {
       if (v >= mesh_.topology.vertex_count) {
-        fail(concat("a face names vertex ", v, " of ", mesh_.topology.vertex_count));
+        fail(concat("a face refers to vertex ", v, " of ", mesh_.topology.vertex_count));
       }
     }
     finish_uvs();
@@ -92,7 +92,7 @@ class PlyReader {
   std::string_view line() {
     const char last = ends_in_cr_ ? '\r' : '\n';
     const std::size_t end = bytes_.find(last, at_);
-    if (end == std::string_view::npos) fail("its header does not end");
+    if (end == std::string_view::npos) fail("its header has no end");
     const std::string_view text = bytes_.substr(at_, end - at_);
     at_ = end + 1;
     return text;
@@ -161,7 +161,7 @@ class PlyReader {
     for (const std::string_view none : {"nan", "inf", "1.#"}) {
       if (lower.find(none) != lower.npos) return std::numeric_limits<double>::quiet_NaN();
     }
-    fail(concat("a number reads ", quoted(word)));
+    fail(concat(quoted(word), " is not a number"));
   }
 
   static std::size_t column_of(const Element& element, std::initializer_list<const char*> names) {
@@ -175,7 +175,7 @@ class PlyReader {
   }
 
   void read_vertices(const Element& element) {
-    if (mesh_.positions.rows() > 0) fail("it has vertices twice");
+    if (mesh_.positions.rows() > 0) fail("it has two vertex elements");
     if (element.count > input_limits().vertices) {
       fail(concat("it has ", element.count, " vertices, more than ", input_limits().vertices,
                   " (--limit)"));
@@ -257,7 +257,7 @@ class PlyReader {
           } else if (strips && number < 0) {
             corners.push_back(-1);
           } else {
-            fail(concat("a face names vertex ", number));
+            fail(concat("a face refers to vertex ", number));
           }
         }
       }
@@ -314,7 +314,7 @@ class PlyReader {
       mesh_.pieces.assign(static_cast<std::size_t>(topology.vertex_count), 0);
     } else if (has_vertex_uvs_) {
       mesh_.uvs.resize(0, 2);
-      mesh_.notes.emplace_back("its texture coordinates are no numbers: it has none");
+      mesh_.notes.emplace_back("its texture coordinates are not numbers and are ignored");
     }
   }
 

@@ -86,7 +86,7 @@ void* open_library(const std::string& name, int flags, const char* needs, const 
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
   } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
     if (guarded) end_without_libraries(0);
-    throw IoError(concat(without, ": the libraries for them threw as they started"));
+    throw IoError(concat(without, ": their libraries failed to start"));
   }
 }
 
@@ -112,10 +112,10 @@ void* project_library_function(const char* library, const char* function, const 
   if (opened == nullptr) opened = open_library(library, 0, needs, without);
   if (opened == nullptr) {
     throw IoError(concat(
-        without, ", as the library for them cannot be loaded (is the installation whole?): ", why));
+        without, ", because a library cannot be loaded (is the installation complete?): ", why));
   }
   void* found = ::dlsym(opened, function);
-  if (found == nullptr) throw IoError(concat(library, ": is of another version"));
+  if (found == nullptr) throw IoError(concat(library, ": belongs to another version of crowdface"));
   return found;
 }
 

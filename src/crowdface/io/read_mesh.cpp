@@ -53,20 +53,20 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
     for (const double offset : read_npy_array(offsets).values) {
       const auto end = index_of(offset, topology.corner_count() + 1, offsets);
       if (!topology.face_offsets.empty() && end < topology.face_offsets.back() + 3) {
-        refuse_file(offsets, "expected faces of three corners or more, found another");
+        refuse_file(offsets, "expected faces of three corners or more, found a smaller one");
       }
       topology.face_offsets.push_back(end);
     }
     if (topology.face_offsets.empty() || topology.face_offsets[0] != 0 ||
         topology.face_offsets.back() != topology.corner_vertices.size()) {
       refuse_file(offsets,
-                  concat("expected the corners of ", corners.string(), " in faces, found others"));
+                  concat("expected face offsets that cover all corners of ", corners.string()));
     }
     const fs::path uvs = folder / "topology" / kTopologyArrays[2];
     const fs::path corner_uvs = folder / "topology" / kTopologyArrays[3];
     if (!is_file(uvs) || !is_file(corner_uvs)) return;
     const NpyArray rows = read_npy_array(uvs);
-    if (rows.width() != 2) refuse_file(uvs, "expected two numbers a row");
+    if (rows.width() != 2) refuse_file(uvs, "expected two numbers per row");
     mesh.uvs = Eigen::Map<const TextureCoordinates>(rows.values.data(), rows_of(rows), 2);
     for (const double row : read_npy_array(corner_uvs).values) {
       topology.corner_uvs.push_back(row == -1 ? kNoIndex
@@ -101,7 +101,7 @@ FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   const bool is_list = array.shape.size() == 3 && array.shape[0] != 1;
   if (is_list) {
     refuse_file(path, concat("expected the positions of one head (n by 3), found ", array.shape[0],
-                             " of them: save each as a file"));
+                             " heads: save each head to its own file"));
   }
   const std::size_t width = array.shape.empty() ? 0 : array.shape.back();
   if (width != 3 || array.shape.size() < 2) {

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::string_view kTurned = "its faces looked inward (inside out) and are turned round";
+constexpr std::string_view kTurned = "its faces pointed inward (inside out) and are flipped";
 
 /// The OBJ text with the corners of each face after the first in reverse order.
 std::string with_turned_faces(std::string_view text) {

@@ -53,12 +53,12 @@ class StlText {
   double number() {
     const std::string_view word = next_word();
     const auto number = parse_double(word);
-    if (!number) fail_stl(name_, concat("a number reads ", quoted(word)));
+    if (!number) fail_stl(name_, concat(quoted(word), " is not a number"));
     return *number;
   }
   void add(std::vector<double>& loop) {
     if (loop.empty()) return;
-    if (loop.size() < 9) fail_stl(name_, "a facet has no three vertices");
+    if (loop.size() < 9) fail_stl(name_, "a facet has fewer than three vertices");
     auto vertex = static_cast<std::uint32_t>(numbers_.size() / 3);
     numbers_.insert(numbers_.end(), loop.begin(), loop.end());
     for (; vertex < numbers_.size() / 3; ++vertex) mesh_.topology.corner_vertices.push_back(vertex);

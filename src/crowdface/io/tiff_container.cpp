@@ -193,7 +193,7 @@ std::string tiff_defect(std::string_view bytes, bool jpeg) {
   try {
     return defect_of(Directory(bytes), jpeg);
   } catch (const Directory::BeyondTheEnd&) {
-    return "is damaged or cut short: what its directory names lies beyond the file's end";
+    return "is damaged or cut short: its directory refers to data beyond the file's end";
   }
 }
 

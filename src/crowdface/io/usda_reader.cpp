@@ -119,7 +119,7 @@ class UsdaReader {
   }
 
   void read_prim(const UsdaToken& keyword, const Eigen::Matrix4d& above, int depth, Prim* parent) {
-    if (depth > kDeepest) fail("its prims stand too deep");
+    if (depth > kDeepest) fail("its prims are nested too deeply");
     Prim prim;
     UsdaToken token = tokens_.next();
     if (token.kind == UsdaToken::Kind::kWord) {

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kLicense = "three.LICENSE.txt";
 constexpr std::string_view kNotice =
-    "<!doctype html><title>crowdface</title><p>This page is not built here: run "
+    "<!doctype html><title>crowdface</title><p>This page has not been built: run "
     "scripts/build_gallery.sh, then start crowdface again.";
 
 std::string_view type_of(std::string_view name) {
@@ -101,7 +101,7 @@ HttpAnswer answer_or_refuse(const HttpRequest& request,
     return refusal(status_of(error), error.what());
   } catch (const std::exception& error) {
     log_error(concat(request.path, ": internal error, please report it: ", error.what()));
-    return refusal(500, "internal error; the program's own window says more");
+    return refusal(500, "internal error; the terminal that runs crowdface shows the details");
   }
 }
 

@@ -170,7 +170,7 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
       (lengths == 1 && !length)) {
     return refuse(411, "expected a body of a known length");
   }
-  if (head.count("content-encoding") > 0) return refuse(415, "expected a body that is not packed");
+  if (head.count("content-encoding") > 0) return refuse(415, "expected a body without compression");
   if (length.value_or(0) > kMaxBytes) return refuse(413, "the body is larger than 4 MiB");
   return std::nullopt;
 }
@@ -342,7 +342,7 @@ LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, i
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
       ::bind(socket, address, size) != 0 || ::listen(socket, SOMAXCONN) != 0 ||
       ::getsockname(socket, address, &size) != 0) {
-    throw CannotCreate(concat("port ", port, " of this machine cannot be listened to: ", reason(),
+    throw CannotCreate(concat("cannot listen on port ", port, " of this machine: ", reason(),
                               "; choose another with --port"));
   }
   const int bound = ntohs(here.sin_port);

@@ -157,7 +157,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   const Index ear = column(Band::kEars), neck = column(Band::kNeck);
   const bool with_ears = ear < count || neck < count;
   const auto found = with_ears ? find_ears(topology, head, marks) : std::nullopt;
-  if (ear < count && !found) throw InvalidInput("no ears stand out at the sides of the head");
+  if (ear < count && !found) throw InvalidInput("no ears were found at the sides of the head");
   const EarBox ears = found.value_or(EarBox());
   const Eigen::Vector3d side = axes.side();
   Eigen::VectorXd heights(positions.rows());

@@ -68,8 +68,8 @@ PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean, const Be
                            const std::vector<Band>& bands, int size) {
   if (faces.topology.corner_uvs.empty()) {
     throw InvalidInput(
-        "the heads have no texture coordinates (vt lines), and a mask is an image in their layout: "
-        "unwrap one head, with all others of the same mesh, or blend without regions");
+        "the heads have no texture coordinates (vt lines), which a mask image needs: unwrap the "
+        "mesh, the same way for all heads, or blend without regions");
   }
   return paint_masks(faces.topology, faces.uvs,
                      propose_regions(faces.topology, mean, bearing, bands), mean.skin, size);

@@ -80,7 +80,7 @@ LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of) {
   }
   const std::optional<YamlNode> root = read_yaml(path.string(), complaints);
   if (root && root->kind != YamlNode::Kind::kMap) {
-    complaints.expected(*root, "a mapping of template and scan");
+    complaints.expected(*root, "a mapping with the keys template and scan");
   } else if (root) {
     const MapReader map(*root, {"template", "scan"}, complaints);
     file.of_template = read_places(map.find("template"), complaints);

@@ -124,9 +124,9 @@ void PickSession::save(const std::vector<PickedLandmark>& landmarks) {
   const std::string before = text_on_disk();
   if (before != known_) {
     known_ = before;
-    throw UsageError(concat(inputs_.landmarks.string(),
-                            " has been changed by another program since it was read; save again to "
-                            "write over it"));
+    throw UsageError(concat(
+        inputs_.landmarks.string(),
+        " has been changed by another program since it was read; save again to overwrite it"));
   }
   std::string text = format_landmarks(landmarks, opening_comments(before));
   write_file(inputs_.landmarks, text);

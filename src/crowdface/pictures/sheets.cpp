@@ -230,8 +230,9 @@ class CrowdSheets {
     const Rgb8Image founder = read_render(path);
     const Rgb8Image other = read_render(crowd_.directory.render(crowd_.faces[member].id));
     if (founder.width == other.width && founder.height == other.height) return path;
-    log_info(concat("the founder of ", family, " is left out of its sheet: there is no mesh to ",
-                    "make a picture of another size from; crowdface generate does it"));
+    log_info(concat("the founder of ", family,
+                    " is left out of its sheet: its picture has another size, and ",
+                    "there is no mesh to render it again; run crowdface generate"));
     return std::nullopt;
   }
 

@@ -119,8 +119,8 @@ void take_grey(LoadedMask& mask, const std::string& path) {
   if (alpha >= 0 && !is_constant(mask, alpha)) return take_one_channel(mask, alpha);
   throw InvalidInput(
       concat(path,
-             ": expected a grey image, as there is one for each region, found one in colours: save "
-             "each mask in grey, or all of them as channels of one image"));
+             ": expected a grey image, because each region has its own image, found a colour "
+             "image: save each mask in grey, or all masks as channels of one image"));
 }
 
 /// Loads a mask's tiles or vertex weights; adds errors to `problems`.
@@ -188,7 +188,7 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
     if (channels >= regions) {
       throw InvalidInput(concat("the masks before ", sources[i].path(), " have ", channels,
                                 " channels, enough for all ", regions,
-                                " regions: this image is left over"));
+                                " regions: remove this image"));
     }
     channels += static_cast<Index>(masks[i].channels());
   }
@@ -242,7 +242,8 @@ std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     if (of_this || !are_named || channels.size() < 2) continue;
     throw InvalidInput(concat(
         sources[m].path(), ": its channels are called ", join(channels), ", and the regions ",
-        join(regions), ": name channels like regions, as their order in the file tells nothing"));
+        join(regions),
+        ": name the channels like the regions, because their order in the file is arbitrary"));
   }
   if (!any) return std::nullopt;
   return found;
@@ -275,8 +276,8 @@ std::vector<std::optional<RegionChannel>> channels_of_regions(
       for (const LoadedMask& mask : masks) {
         channels.insert(channels.end(), mask.names.begin(), mask.names.end());
       }
-      throw InvalidInput(concat("no channel of the masks is called like the region ", names[r],
-                                " (they are called ", join(channels), ")"));
+      throw InvalidInput(concat("no mask channel has the name of the region ", names[r],
+                                " (the channels are ", join(channels), ")"));
     }
     return *named;
   }

@@ -55,7 +55,7 @@ void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
       if (!samples.of(vertex).empty() || (!needed.empty() && !needed[vertex])) continue;
       throw InvalidInput(concat(
           "masks need texture coordinates: vertex ", std::uint64_t{vertex} + 1, " of face ", f + 1,
-          " has no texture coordinate (weights of vertices, as text or .npy, need none)"));
+          " has no texture coordinate (vertex weights, as text or .npy, do not need them)"));
     }
   }
 }

@@ -177,7 +177,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   }
   if (crowd.shortfall) {
     constexpr std::size_t kMaxTrials = 20;
-    Progress progress("looking for what would help", kMaxTrials);
+    Progress progress("searching for values that work", kMaxTrials);
     const Remedy remedy = find_remedy(casting, space, believability, &judged_in.skin,
                                       *crowd.shortfall, [&] { progress.step(); });
     tell_shortfall(config, remedy, *crowd.shortfall);

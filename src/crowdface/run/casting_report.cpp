@@ -152,7 +152,7 @@ std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
   near.resize(std::min(count, kMaxNamed));
   return {concat(count, count == 1 ? " face passes" : " faces pass",
                  " for one of the heads: ", join(near), count > kMaxNamed ? ", …" : "",
-                 "; diversity.min_distance_to_faces keeps faces away from them")};
+                 "; a larger diversity.min_distance_to_faces keeps faces away from the heads")};
 }
 
 void log_casting(const CrowdPlan& crowd_plan) {
@@ -169,7 +169,7 @@ void log_casting(const CrowdPlan& crowd_plan) {
     const std::uint64_t count = crowd_plan.rejections.count[r];
     if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
   }
-  if (!thrown.empty()) log_info(concat("candidates thrown away: ", join(thrown)));
+  if (!thrown.empty()) log_info(concat("candidates rejected: ", join(thrown)));
 }
 
 Json casting_to_json(const Config& config, const CrowdPlan& crowd_plan) {

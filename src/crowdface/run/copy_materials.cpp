@@ -73,7 +73,7 @@ class MaterialCopies {
       ledger_.write(directory_.relative(to), MappedFile(material.from).bytes());
     } else if (first->second != digest->second) {
       heads_of_warning_[concat(material.relative.string(),
-                               " is not the same file for all heads; the first head's is kept")]
+                               " differs between heads; the first head's file is used")]
           .push_back(head);
     }
   }

@@ -155,7 +155,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     ids.push_back(line.face.id);
     crowd.push_back(std::move(line.face));
   }
-  if (crowd.empty()) return log_info("a crowd of no faces has no sheets");
+  if (crowd.empty()) return log_info("the crowd has no faces, so it gets no sheets");
   const CrowdLikeness likeness = read_likeness(directory.likeness(), job.names, ids);
   const FaceTextures textures(job.config, job.inputs);
   const FaceShapes shapes(job.config, job.inputs);

@@ -105,9 +105,9 @@ std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& o
   auto planned = planned_faces(job, directory, options.shard);
   if (!planned) {
     if (options.plan_from == PlanFrom::kFolderOrCasting) return nullptr;
-    throw MissingInput(concat(directory.planned().string(),
-                              ": says nothing of a plan of this config that is whole; run "
-                              "crowdface plan first"));
+    throw MissingInput(
+        concat(directory.planned().string(),
+               ": does not record a complete plan of this config; run crowdface plan first"));
   }
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->plan_files = std::move(planned->files);
@@ -119,11 +119,11 @@ std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& o
     crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
     crowd->warnings = near_heads(crowd->crowd_plan, job.names.heads);
     check_compared_crowd(job.config, crowd->crowd_plan.crowd);
-    log_info("the folder's plan is taken");
+    log_info("using the plan in the folder");
   } else {
     crowd->crowd_plan.crowd = std::move(planned->faces);
-    log_info(concat("the folder's plan is taken; ", crowd->crowd_plan.crowd.size(),
-                    " faces of it are of shard ", options.shard.name()));
+    log_info(concat("using the plan in the folder; ", crowd->crowd_plan.crowd.size(),
+                    " of its faces belong to shard ", options.shard.name()));
   }
   return crowd;
 }
@@ -328,8 +328,8 @@ template <class Load>
 void generate_loaded(const Load& load, const GenerateOptions& options) {
   if (!options.shard.whole() && options.replace == Replace::kForce) {
     throw UsageError(
-        "--force does not go with --shard, as one shard would remove what another made; replace "
-        "the old crowd with crowdface plan --force first");
+        "--force cannot be combined with --shard, because one shard would remove the files of "
+        "another; replace the old crowd with crowdface plan --force first");
   }
   const LogMemory memory;  // buffers messages: the crowd's log is opened only after casting
   StageSeconds stages;

@@ -125,7 +125,7 @@ AttachmentLook look_of(const Attachment& item) {
     try {
       look.materials.back() = material_of(material, look.images);
     } catch (const InvalidInput& error) {
-      log_warning(concat(error.what(), "; GLB files do without"));
+      log_warning(concat(error.what(), "; GLB files omit it"));
     }
   }
   look.of_face = std::move(named.of_face);

@@ -66,12 +66,12 @@ std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
     beyond.resize(kNamed);
     beyond.emplace_back("…");
   }
-  const std::string warning = concat(
-      count, count == 1 ? " face goes" : " faces go",
-      " beyond a limit of believability on the whole mesh, though not at the samples: ",
-      join(beyond),
-      "; report.json says by how much; a review can reject them, and \"believability: {meshes: "
-      "judge}\" casts none");
+  const std::string warning =
+      concat(count, count == 1 ? " face exceeds" : " faces exceed",
+             " a limit of believability on the whole mesh, although not at the sampled points: ",
+             join(beyond),
+             "; report.json shows by how much; reject them with a review, or avoid them with "
+             "\"believability: {meshes: judge}\"");
   log_warning(warning);
   return {warning};
 }

@@ -25,9 +25,9 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
     if (sheet && input == sheet->compare.file) continue;  // may belong to this crowd
     for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
       if (!is_inside_folder(input, folder)) continue;
-      throw UsageError(concat(directory.root.string(), ": the input ", input.string(),
-                              " lies where files of this crowd are written; choose another folder "
-                              "with --out"));
+      throw UsageError(
+          concat(directory.root.string(), ": the input ", input.string(),
+                 " is in a folder that this crowd writes to; choose another folder with --out"));
     }
   }
 }
@@ -42,8 +42,8 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
   if (path_exists(directory.plan())) return;  // the config belongs to a crowd
   if (read_file(config.file) == config_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
-                          ": stands where the crowd's own config would be written; choose another "
-                          "folder with --out, or rename it"));
+                          ": the crowd's own config would overwrite this file; choose another "
+                          "folder with --out, or rename the file"));
 }
 
 }  // namespace
@@ -58,10 +58,9 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
   if (!first.is_object() || !first.contains("settings")) return;
   throw UsageError(
       concat(directory.root.string(),
-             ": holds a crowd of other heads or masks than they are now, or of another "
-             "version of crowdface (\"settings\" in its plan.jsonl); choose another "
-             "folder with --out, or replace it with --force (before shards: crowdface "
-             "plan --force)"));
+             ": holds a crowd that was made with other heads or masks, or with another version of "
+             "crowdface (\"settings\" in its plan.jsonl); choose another folder with --out, or "
+             "replace it with --force (before shards: crowdface plan --force)"));
 }
 
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) {
@@ -74,10 +73,9 @@ void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) 
     if (recorded.contains(name) && recorded[name] != digest.hex()) changed.push_back(name);
   }
   if (changed.empty()) return;
-  throw UsageError(concat(directory.root.string(), ": its faces were made with other ",
-                          join(changed),
-                          " than there are now (\"inputs\" in its report.json); run "
-                          "crowdface generate, which makes them anew"));
+  throw UsageError(
+      concat(directory.root.string(), ": its faces were made with other ", join(changed),
+             " (\"inputs\" in its report.json); run crowdface generate to make them again"));
 }
 
 void check_output(const Job& job, Replace replace) {

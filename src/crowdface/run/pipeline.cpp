@@ -72,7 +72,7 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
         problems.add(ExitCode::kUsage,
                      concat(config.file.string(), ": ", here, ": begins at up to ", most,
                             " iterations, but the band before it may end at ", least,
-                            "; bands stand coarse to fine, and their ranges do not overlap"));
+                            "; expected bands from coarse to fine whose ranges do not overlap"));
       }
       before = own;
     }
@@ -95,8 +95,8 @@ std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Conf
     warnings.push_back(
         concat("sampling.bands.", sampling.bands[b].name,
                " begins at 0 iterations and holds no detail: one iteration on edges of ",
-               format_fixed(scale.edge_length_mm, 2), " mm is a size of ", format_fixed(finest, 1),
-               " mm"));
+               format_fixed(scale.edge_length_mm, 2), " mm corresponds to a size of ",
+               format_fixed(finest, 1), " mm"));
   }
   return warnings;
 }
@@ -151,7 +151,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   }
   log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
                      "differs in ", *difference,
-                     "), which are not applied; give them with --review"));
+                     "), which are not applied; to apply them, pass them with --review"));
   return reading;
 }
 

@@ -27,8 +27,9 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
   if (remedy.largest_mm) {
     const bool all = remedy.tried == config.crowd.count;
     advice.push_back(concat("the largest ", name_of(remedy.binding), " with which ",
-                            all ? "all " : "the first ", remedy.tried, " were cast in a trial: ",
-                            *remedy.largest_mm, " mm", all ? "" : "; so many more need less"));
+                            all ? "all " : "the first ", remedy.tried,
+                            " faces were cast in a trial: ", *remedy.largest_mm, " mm",
+                            all ? "" : "; more faces need a smaller value"));
   }
   if (remedy.binding == Reason::kMinDistance &&
       config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
@@ -55,8 +56,8 @@ std::string few_heads(const Config& config, const Group& group) {
   for (const Eigen::Index head : sources) {
     names.push_back(config.faces.names[static_cast<std::size_t>(head)]);
   }
-  return concat("\n  - more heads in the group ", group.name, ": its faces are mixtures of ",
-                join(names), " only (tags and without choose the heads)");
+  return concat("\n  - more heads in the group ", group.name, ": its only heads are ", join(names),
+                " (the keys tags and without select the heads)");
 }
 
 }  // namespace
@@ -70,13 +71,14 @@ void ScarcityWarning::face_joined(const Rejections& thrown) {
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {
     foreseen_ = true;
-    log_warning(concat("roughly ", about(*faces), " faces, a third to three times as many, can be ",
-                       casting_.diversity.min_distance_mm, " mm apart, not ", casting_.count,
-                       ": a smaller diversity.min_distance fits more (crowdface plan --estimate "
-                       "tells which)"));
+    log_warning(concat("about ", about(*faces), " faces fit at diversity.min_distance ",
+                       casting_.diversity.min_distance_mm,
+                       " mm (estimate, to a factor of three), but ", casting_.count,
+                       " were requested: choose a smaller min_distance (crowdface plan --estimate "
+                       "shows how many faces fit)"));
   } else if (!scarce_ && thrown.total() >= attempts / 5) {
     scarce_ = true;
-    log_info(concat("faces are getting scarce: number ", cast_, " of ", casting_.count, " took ",
+    log_info(concat("candidates are getting scarce: face ", cast_, " of ", casting_.count, " took ",
                     thrown.total(),
                     " candidates; the crowd may need a smaller diversity.min_distance"));
   }
@@ -89,23 +91,23 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
   if (!shortfall.family.empty()) {
     message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
                       "within max_distance of a founder, min_distance apart and nearer to each ",
-                      "other than to everyone else (most candidates failed by ",
+                      "other than to all other faces (most candidates violate ",
                       asked_of(config, remedy.binding), ")");
   } else if (!shortfall.reviewed.empty()) {
-    message += concat(shortfall.reviewed, ", which the review rejects, cannot be drawn anew: ",
-                      asked_of(config, remedy.binding), ", cannot be kept");
+    message += concat(shortfall.reviewed, ", which the review rejects, cannot be redrawn: ",
+                      asked_of(config, remedy.binding), ", cannot be met");
   } else {
     message += concat(
         config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
-        ", cannot be kept; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
+        ", cannot be met; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
-    message += concat(" (for the next one ", by_main, " of ", thrown,
-                      " candidates were thrown away for that)");
+    message += concat(" (for the next face ", by_main, " of ", thrown,
+                      " candidates were rejected for this reason)");
   }
   if (shortfall.kind >= 0) {
     const Group& group = config.groups[static_cast<std::size_t>(shortfall.kind)];
-    message += concat("; the next one is of the group ", group.name);
+    message += concat("; the next face belongs to the group ", group.name);
     message += few_heads(config, group);
   }
   for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);

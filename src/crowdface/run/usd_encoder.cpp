@@ -59,7 +59,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const std::strin
     try {
       look.materials.back().surface = surface_of(material, file_of);
     } catch (const InvalidInput& error) {
-      log_warning(concat(error.what(), "; USD layers do without"));
+      log_warning(concat(error.what(), "; USD layers omit it"));
     }
   }
   return look;

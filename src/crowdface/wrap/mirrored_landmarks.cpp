@@ -76,18 +76,17 @@ void refuse_mirrored_landmarks(const Positions& positions,
   const std::vector<WrapLandmark> exchanged = with_sides_exchanged(landmarks);
   const double swapped = exchanged.size() < kMin ? as_they_are : residual_of(positions, exchanged);
   const std::string numbers = concat(format_fixed(std::min(reflected, swapped), 1),
-                                     " mm, without to ", format_fixed(as_they_are, 1), " mm");
+                                     " mm instead of ", format_fixed(as_they_are, 1), " mm");
   if (swapped < reflected) {
     throw InvalidInput(
-        concat("left and right are exchanged in the names of the scan's landmarks: with them "
-               "exchanged they fit to ",
-               numbers, " (left is the head's own left); or the scan is mirrored"));
+        concat("left and right are swapped in the names of the scan's landmarks, or the scan is "
+               "mirrored: with left and right swapped, the landmarks fit to ",
+               numbers, " (left is the head's own left)"));
   }
-  throw InvalidInput(concat("the scan is mirrored: with a reflection the landmarks fit to ",
-                            numbers,
-                            "; mirror it back (scale it by -1 along one axis, and turn its faces "
-                            "over) before wrapping, or check that left "
-                            "and right are not exchanged in the landmarks' names"));
+  throw InvalidInput(
+      concat("the scan is mirrored: with a reflection the landmarks fit to ", numbers,
+             "; mirror it back (scale it by -1 along one axis, and flip its faces) before "
+             "wrapping, or check that left and right are not swapped in the landmarks' names"));
 }
 
 }  // namespace crowdface

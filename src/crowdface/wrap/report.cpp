@@ -67,8 +67,8 @@ std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
     const double share = share_far(seen_distances(shape, result, &regions, r));
     if (share <= most) continue;
     most = share;
-    text = concat(", most of all of the ", regions.names[r], " (", format_fixed(100 * share, 1),
-                  " %)");
+    text =
+        concat(", most of it on the ", regions.names[r], " (", format_fixed(100 * share, 1), " %)");
   }
   return text;
 }
@@ -129,39 +129,38 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   for (const LandmarkResidual& landmark : result.landmarks) {
     if (!landmark.outlier) continue;
     if (landmark.by_shape) {
-      warnings.push_back(
-          concat("the place ", quoted(landmark.name), ", found by shape, ends ",
-                 format_fixed(landmark.final_mm, 1),
-                 " mm away, far more than the others: pick it if the picture is wrong"));
+      warnings.push_back(concat("landmark ", quoted(landmark.name),
+                                ", detected from the shape, ends ",
+                                format_fixed(landmark.final_mm, 1),
+                                " mm from its detected place, far more than the others: if the "
+                                "picture is wrong, pick it"));
       continue;
     }
-    warnings.push_back(concat("landmark ", quoted(landmark.name), " ends ",
-                              format_fixed(landmark.final_mm, 1),
-                              " mm from where it was picked, far more than the others: look at it "
-                              "on template and scan"));
+    warnings.push_back(concat(
+        "landmark ", quoted(landmark.name), " ends ", format_fixed(landmark.final_mm, 1),
+        " mm from where it was picked, far more than the others: check it on template and scan"));
   }
   const std::vector<std::string> faults = scan_faults(shape, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
   const double share = share_far(seen_distances(shape, result));
   if (share > kMaxFarShare && faults.empty()) {
-    warnings.push_back(
-        concat(format_fixed(100 * share, 1), " % of the skin is more than ", kFarFromScanMm,
-               " mm off the scan", farthest_region(shape, result, regions),
-               ": leave out with --ignore what is no skin, or pick landmarks there"));
+    warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ",
+                              kFarFromScanMm, " mm off the scan",
+                              farthest_region(shape, result, regions),
+                              ": exclude with --ignore what is not skin, or pick landmarks there"));
   }
   if (const double lacking = share_without_data(shape, result); lacking > kMaxWithoutData) {
-    warnings.push_back(concat("the scan shows nothing of ", format_fixed(100 * lacking, 0),
-                              " % of the skin, which is guessed"));
+    warnings.push_back(concat("the scan has no data for ", format_fixed(100 * lacking, 0),
+                              " % of the skin, whose shape is estimated"));
   }
   const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
   if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     warnings.push_back(
-        "no part of the scan, or of the template, has the relief of a face, so nothing says that "
-        "the face lies where it "
-        "should: look at the picture, or pick four landmarks or more");
+        "no face was recognised on the scan or on the template, so the place of the face is not "
+        "verified: check the picture, or pick four landmarks or more");
   }
   if (result.flipped > 0) {
-    warnings.push_back(concat(result.flipped, " triangles are turned over"));
+    warnings.push_back(concat(result.flipped, " triangles are flipped"));
   }
   if (model_heads > 0 && model_heads < kFewHeads) {
     warnings.push_back(concat("a model of ", model_heads,
@@ -175,16 +174,16 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                      const SkinRegions& regions) {
   if (share_without_data(shape, result) > 1 - kMinWithData) {
     throw InvalidInput(
-        "the scan shows nothing of the skin: is it a head, and do the landmarks, or --scan-up and "
-        "--scan-front, say how it stands?");
+        "the scan has no data for the skin: is it a head, and are the landmarks, or --scan-up and "
+        "--scan-front, correct?");
   }
   std::vector<double> residuals;
   for (const LandmarkResidual& landmark : result.landmarks) residuals.push_back(landmark.pose_mm);
   if (const double median = percentile(residuals, 0.5); !(median <= kMaxMedianMm)) {
-    throw InvalidInput(concat(
-        "landmarks of template and scan do not belong together: half of them stay more than ",
-        format_fixed(median, 1), " mm apart, expected less than ", kMaxMedianMm,
-        "; are left and right swapped, or vertices counted from 1?"));
+    throw InvalidInput(
+        concat("landmarks of template and scan do not match: half of them stay more than ",
+               format_fixed(median, 1), " mm apart, expected less than ", kMaxMedianMm,
+               "; are left and right swapped, or vertices counted from 1?"));
   }
   if (const double far = distances_of(shape, result).percentile_95; !(far <= kMaxDistanceMm)) {
     throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
@@ -192,13 +191,12 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                               farthest_region(shape, result, regions),
                               result.landmarks.empty() ? ": pick four landmarks or more"
                                                        : ": check the landmarks, pick more of them",
-                              ", or leave out with --ignore what the scan does not show as skin"));
+                              ", or exclude with --ignore what is not skin on the scan"));
   }
   if (result.face_off_mm && *result.face_off_mm > kMaxFaceOffMm) {
-    throw InvalidInput(
-        concat("the template's face came to lie ", format_fixed(*result.face_off_mm, 0),
-               " mm from the face that the scan shows: pick four landmarks or more (crowdface wrap "
-               "--pick), or see whether --scan-up and --scan-front are right"));
+    throw InvalidInput(concat("the template's face ended ", format_fixed(*result.face_off_mm, 0),
+                              " mm from the face of the scan: pick four landmarks or more "
+                              "(crowdface wrap --pick), or check --scan-up and --scan-front"));
   }
 }
 

@@ -102,11 +102,11 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());
   const double above = median(std::move(out)).value_or(0);
   if (above <= kHairMm && share <= kMaxFar) return;
-  faults.push_back(concat("the scan seems to show hair or a hat: above the brows it stands ",
+  faults.push_back(concat("the scan seems to show hair or a hat: above the brows it is ",
                           format_fixed(std::max(above, 0.0), 0),
-                          " mm out beyond the template's head, and ", format_fixed(100 * share, 1),
+                          " mm outside the template's head, and ", format_fixed(100 * share, 1),
                           " % of the skin there is more than ", kFarFromScanMm,
-                          " mm off it; leave that out with --ignore"));
+                          " mm from the scan; exclude this area with --ignore"));
 }
 
 }  // namespace

@@ -42,10 +42,10 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
   const double step = std::ldexp(1.0, std::ilogb(farthest) - 23);
   if (!(farthest > 0 && step > kMaxOfSize * size)) return;
   refuse_file(
-      path, concat("numbers of ", format_fixed(farthest, 0), " in single precision go in steps of ",
-                   format_fixed(step, 3), ", of a scan that is ", format_fixed(size, 1),
-                   " large: move the scan near the origin before exporting it, or export doubles "
-                   "(PLY, OBJ)"));
+      path,
+      concat("coordinates near ", format_fixed(farthest, 0), " in single precision have steps of ",
+             format_fixed(step, 3), ", too coarse for a scan of size ", format_fixed(size, 1),
+             ": move the scan near the origin before exporting it, or export doubles (PLY, OBJ)"));
 }
 
 /// Rejects a fan of slivers, which defeats the spatial search: near the common vertex the boxes of

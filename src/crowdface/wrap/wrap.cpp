@@ -136,8 +136,8 @@ void refuse_no_pose(const Similarity& pose) {
     return;
   }
   throw InvalidInput(
-      "template and scan cannot be laid on each other; are the landmarks in different places, and "
-      "is the scan a head?");
+      "template and scan cannot be aligned; are the landmarks in different places, and is the scan "
+      "a head?");
 }
 
 }  // namespace
