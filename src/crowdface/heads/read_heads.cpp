@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -152,21 +154,54 @@ void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
   take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.outline), shelf);
 }
 
+/// A folder outside the cache, removed when the program ends.
+const fs::path& scratch_folder() {
+  struct Scratch {
+    fs::path path;
+    Scratch() {
+      std::error_code error;
+      const fs::path parent = fs::temp_directory_path(error);
+      std::string name = ((error ? fs::path("/tmp") : parent) / "crowdface-XXXXXX").string();
+      if (::mkdtemp(name.data()) == nullptr)
+        throw CannotCreate(concat(name, ": cannot be created: ", reason()));
+      path = name;
+    }
+    ~Scratch() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+  };
+  static const Scratch scratch;
+  return scratch.path;
+}
+
 /// Stores the textures embedded in a mesh file as files next to a material file, as OBJ files have
-/// them, in a folder of the cache.
+/// them, in a folder of the cache; or in a scratch folder if there is no cache that can be written.
 /// \return the path that the material file is relative to, and the file's name; empty without
-///         textures or without a cache.
+///         textures
 std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
                                                const FileMesh& mesh) {
-  if (mesh.textures.empty() || cache.path.empty()) return {};
+  if (mesh.textures.empty()) return {};
   Hasher hasher;
   hasher.add(head.text);
   for (const MeshTexture& texture : mesh.textures) hasher.add(texture.bytes);
-  const fs::path folder = cache_entry(cache, {"textures", hasher.digest()});
+  const CacheKey key{"textures", hasher.digest()};
   const fs::path stem = head.file.path.stem();
-  std::string library = stem.string() + ".mtl";
-  if (!path_exists(folder / library)) library = write_mesh_textures(mesh, folder, stem.string());
-  return {folder / stem, std::move(library)};
+  const auto keep_in = [&](const fs::path& place) -> std::pair<fs::path, std::string> {
+    const fs::path folder = cache_entry(place, key);
+    std::string library = stem.string() + ".mtl";
+    if (!path_exists(folder / library)) library = write_mesh_textures(mesh, folder, stem.string());
+    return {folder / stem, std::move(library)};
+  };
+  if (cache.path.empty()) return keep_in(scratch_folder());
+  try {
+    return keep_in(cache);
+  } catch (const RecoverableError& error) {
+    log_warning(concat("textures cannot be kept: ", error.what()));
+    return keep_in(scratch_folder());
+  }
 }
 
 /// Files with only positions have no polygons: then the head has no mesh yet.
