@@ -79,6 +79,12 @@ ReliefFit DepthMap::fit(double across, double height, double scale, double stret
   return fit_relief(depths);
 }
 
+double DepthMap::depth(double across, double height) const {
+  const Eigen::Vector2d extent = box_.sizes();
+  return at(look_up(across - box_.min().x(), extent.x(), columns_),
+            look_up(height - box_.min().y(), extent.y(), rows_));
+}
+
 double DepthMap::at(const Lookup& column, const Lookup& row) const {
   if (column.nearest < 0 || row.nearest < 0) return kNoDepth;
   if (column.below >= 0 && row.below >= 0) {

@@ -28,6 +28,9 @@ class DepthMap {
   /// \param scale, stretch  see ReliefMatch
   ReliefFit fit(double across, double height, double scale, double stretch = 1) const;
 
+  /// Depth at a point; kNoDepth where the map shows no surface.
+  double depth(double across, double height) const;
+
  private:
   /// The squares around a coordinate along one axis of the grid: the square that contains the
   /// coordinate, the last square whose centre is below the coordinate, and the interpolation weight

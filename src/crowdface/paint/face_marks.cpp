@@ -170,15 +170,55 @@ class Outline {
 // Lengths in millimetres on a face of average size. Heights are relative to the eyes of the mean
 // relief.
 constexpr double kSlitMm = 11;  ///< an open mouth is a narrower hollow
-constexpr double kBridgeMm = 5, kTipMm = -34, kMouthMm = -74;
+constexpr double kBridgeMm = 5, kTipMm = -34;
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
-/// Half widths of the hollows of bridge and mouth.
-constexpr double kBridgeWayMm = 15, kLipWayMm = 5;
+/// Half widths of the hollows of bridge and mouth, and of the chin.
+constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
 constexpr double kPriorMm = 3;  ///< penalty at the end of the search range
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
-constexpr double kFineMm = 5;  ///< edges up to this length resolve the lips
-// Fractions of the distance from eyes to mouth, about 65 mm.
-constexpr double kMinChin = 0.4, kMaxChin = 1.05, kChinWay = 0.15;
+constexpr double kFineMm = 5;       ///< edges up to this length resolve the lips
+constexpr double kCoarsestMm = 18;  ///< longer edges do not show a face
+struct MouthAndChin {
+  double mouth = 0, chin = 0;  ///< heights
+};
+
+/// Finds mouth and chin together: the mouth is a hollow of the profile, the chin is convex, and the
+/// mouth divides the distance from the tip of the nose to the chin in about the same ratio in all
+/// faces. The ratio tells the line between the lips from the hollow above the chin.
+/// \param tip    height of the tip of the nose
+/// \param prior  penalty of a mouth at the end of its search range
+MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, double stretch,
+                            double prior) {
+  constexpr double kChinFromMm = 115, kChinToMm = 50, kMouthFromMm = 65, kMouthToMm = 18;
+  constexpr double kStepMm = 0.5;
+  constexpr double kRatio = 0.47, kRatioSpread = 0.04;
+  constexpr double kMouthBelowTipMm = 38;
+  // Deeper hollows count less, because an open mouth may be arbitrarily deep.
+  constexpr double kDeepMm = 4, kDeeperShare = 0.25;
+  constexpr double kMaxConvexMm = 6;
+  MouthAndChin best{tip - kMouthBelowTipMm * stretch * mm, tip - kMouthBelowTipMm / kRatio * mm};
+  double most = -std::numeric_limits<double>::infinity();
+  std::vector<double> of_mouth;
+  for (double below = kMouthToMm; below <= kMouthFromMm; below += kStepMm) {
+    const double hollow = outline.hollow(tip - below * mm, kLipWayMm * mm);
+    const double deeper = std::max(hollow - kDeepMm * mm, 0.0);
+    const double off = (below - kMouthBelowTipMm * stretch) / kMouthReachMm;
+    of_mouth.push_back(hollow - (1 - kDeeperShare) * deeper - prior / 2 * off * off);
+  }
+  for (double to_chin = kChinToMm; to_chin <= kChinFromMm; to_chin += kStepMm) {
+    const double convex =
+        std::min(-outline.hollow(tip - to_chin * mm, kChinWayMm * mm), kMaxConvexMm * mm);
+    for (std::size_t i = 0; i < of_mouth.size(); ++i) {
+      const double to_mouth = kMouthToMm + static_cast<double>(i) * kStepMm;
+      const double off = (to_mouth / to_chin - kRatio) / kRatioSpread;
+      const double sum = of_mouth[i] + convex - off * off * mm;
+      if (sum <= most) continue;
+      most = sum;
+      best = {tip - to_mouth * mm, tip - to_chin * mm};
+    }
+  }
+  return best;
+}
 
 /// Typical edge length of the skin around a face: the edge of a square that has the median area of
 /// the polygons there.
@@ -231,19 +271,23 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
                                      const HeadAxes& axes) {
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (match && (match->votes < kMinVotes || match->degrees_off > kMaxDegreesOff)) match.reset();
+  if (!match || match->votes < kMinVotes || match->degrees_off > kMaxDegreesOff) return {};
+  if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return {};
   return match;
 }
 
 FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
   FaceMarks marks;
   marks.axes = match.axes;
-  const double mm = match.scale, eyes = match.between.dot(match.axes.up);
+  const double mm = match.scale, eyes = match.between.dot(match.frame.up);
   // The middle of the skin is more accurate, but hair or a cap may shift it.
   marks.middle = middle_of(topology, head, marks.axes);
   const double of_relief = match.between.dot(match.axes.side());
   if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
-  const Outline outline(topology, head.positions, head.skin, marks.axes, marks.middle, mm);
+  // Heights in the profile are along the upright axis of the face, so that the orientation of the
+  // head has no effect.
+  const double across = match.between.dot(match.frame.side());
+  const Outline outline(topology, head.positions, head.skin, match.frame, across, mm);
   const Outline closed = outline.without_slits(kSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
@@ -257,28 +301,27 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
       return measure(h) - prior * off * off;
     });
   };
-  // Bridge and mouth are the deepest hollows near their expected heights.
-  marks.bridge = best_near(kBridgeMm, kBridgeReachMm,
-                           [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
-  marks.mouth = best_near(kMouthMm, kMouthReachMm,
-                          [&](double h) { return outline.hollow(h, kLipWayMm * mm); });
-  // The tip is the point farthest in front of the line from bridge to mouth, so that a bowed head
-  // does not matter.
-  const double slope =
-      (closed.at(marks.bridge) - closed.at(marks.mouth)) / std::max(marks.bridge - marks.mouth, mm);
-  marks.tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h) - slope * h; });
+  const double tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h); });
+  const double bridge = best_near(kBridgeMm, kBridgeReachMm,
+                                  [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
+  const auto [mouth, chin] = mouth_and_chin(outline, tip, mm, match.stretch, prior);
+  const auto place = [&](double h) -> Eigen::Vector3d {
+    return across * match.frame.side() + h * match.frame.up + closed.at(h) * match.frame.front;
+  };
+  const auto height = [&](double h) { return place(h).dot(marks.axes.up); };
+  marks.tip = height(tip);
+  marks.bridge = height(bridge);
+  marks.mouth = height(mouth);
+  marks.chin = height(chin);
+  marks.chin_front = place(chin).dot(marks.axes.front);
   // The eyes lie at a fixed distance from the bridge, or where eyeballs near this height are.
-  marks.eyes = marks.bridge - kBridgeMm * match.stretch * mm;
+  marks.eyes = height(bridge - kBridgeMm * match.stretch * mm);
   double of_balls = 0;
   for (const Eigen::Vector3d& eye : head.eyeballs) {
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
   }
-  if (!head.eyeballs.empty() && std::abs(of_balls - eyes) < kEyesNearMm * mm) marks.eyes = of_balls;
-  // The chin is the most convex point of the profile below the mouth.
-  const double face = marks.face();
-  marks.chin = outline.best(marks.mouth - kMaxChin * face, marks.mouth - kMinChin * face,
-                            [&](double h) { return -outline.hollow(h, kChinWay * face); });
-  marks.chin_front = outline.at(marks.chin);
+  const bool are_near = std::abs(of_balls - match.between.dot(marks.axes.up)) < kEyesNearMm * mm;
+  if (!head.eyeballs.empty() && are_near) marks.eyes = of_balls;
   return marks;
 }
 

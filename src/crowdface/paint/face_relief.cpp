@@ -2,14 +2,17 @@
 #include "crowdface/paint/face_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <numeric>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/polygon_sample.h"
@@ -107,6 +110,7 @@ ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
           0,
           0,
           axes,
+          axes,
           candidate.across * axes.side() + candidate.height * axes.up +
               depth * candidate.scale * axes.front,
           candidate.scale,
@@ -122,7 +126,7 @@ class Refinement {
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
       const Eigen::Vector3d off = (row3(samples, i) - first.between) / first.scale;
-      if (off.norm() < kAroundMm && off.dot(first.axes.front) > -kBehindMm) near.push_back(i);
+      if (off.norm() < kAroundMm && off.dot(first.frame.front) > -kBehindMm) near.push_back(i);
     }
     if (const std::size_t step = near.size() / kMax; step > 1) {
       for (std::size_t i = 0; i * step < near.size(); ++i) near[i] = near[i * step];
@@ -135,50 +139,149 @@ class Refinement {
 
   ReliefMatch find() {
     search();
-    // A slope of the depths shows that the head is pitched: compensate the pitch and search again.
-    // Smaller angles come from the person's posture or from the form of the face.
-    const double pitch = std::atan(slope_up_) / kRadians;
-    if (std::abs(pitch) > kMinPitch) {
-      ReliefMatch next = best_;
-      next.axes = turned(best_.axes, best_.axes.side(), pitch);
-      best_.agreement = -1;
-      try_match(next);
-      search();
+    for (int round = 0; round < kRounds; ++round) {
+      const HeadAxes before = best_.frame;
+      make_symmetric();
+      place();
+      // A slope of the depths shows that the head is pitched: compensate the pitch.
+      const HeadAxes axes =
+          turned(best_.frame, best_.frame.side(), std::atan(slope_up_) / kRadians);
+      restart(best_, axes);
+      if (angle_between(before, best_.frame) < kSteadyDegrees) break;
     }
+    place();
     return best_;
   }
 
  private:
   static constexpr double kSquareMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
   static constexpr double kMaxStretch = 0.25;  // of the logarithm of the stretch
-  static constexpr double kMinPitch = 10;      // degrees
+  static constexpr double kStretchPenalty = 1, kAmplitudePenalty = 0.2;
+  static constexpr double kWorst = -2;
+  static constexpr int kRounds = 6;
+  static constexpr double kSteadyDegrees = 0.3;
 
-  void search() {
+  void search(bool turns = true) {
     for (double step = 1; step >= 1.0 / 16;) {
-      const double before = best_.agreement;
-      step_all(step);
-      if (!(best_.agreement > before + 2e-5)) step /= 2;
+      const double before = score_;
+      step_all(step, turns);
+      if (!(score_ > before + 2e-5)) step /= 2;
     }
   }
 
+  /// Replaces the best match by the same place seen along other axes.
+  void restart(const ReliefMatch& match, const HeadAxes& axes) {
+    ReliefMatch next = match;
+    next.frame = axes;
+    score_ = kWorst;
+    try_match(next);
+    if (score_ <= kWorst) best_ = next;
+  }
+
+  /// Differences between the depths on the left and on the right of a middle, seen along `axes`.
+  std::vector<double> asymmetry(const HeadAxes& axes, const Eigen::Vector3d& middle) const {
+    constexpr double kHighMm = 40, kLowMm = -100, kAsideMm = 60, kStepMm = 4;
+    DepthMap map(near_, axes, square_);
+    map.soften();
+    const double mm = best_.scale, across = middle.dot(axes.side()), height = middle.dot(axes.up);
+    std::vector<double> differences;
+    for (double y = kLowMm; y <= kHighMm; y += kStepMm) {
+      for (double x = kStepMm; x <= kAsideMm; x += kStepMm) {
+        const double left = map.depth(across + x * mm, height + y * best_.stretch * mm);
+        const double right = map.depth(across - x * mm, height + y * best_.stretch * mm);
+        differences.push_back((left - right) / mm);  // not finite without a surface
+      }
+    }
+    return differences;
+  }
+
+  /// Turns and moves the match until the face is symmetric: robust Gauss-Newton steps.
+  void make_symmetric() {
+    constexpr int kSteps = 8;
+    constexpr double kDegrees = 2, kMm = 2;  // differences for the derivatives
+    constexpr double kMaxSteps = 4, kSteadySteps = 0.05, kMinMm = 1;
+    HeadAxes axes = best_.frame;
+    Eigen::Vector3d middle = best_.between;
+    for (int step = 0; step < kSteps; ++step) {
+      const auto moved = [&](const Eigen::Vector3d& by) {
+        HeadAxes next = turned(axes, axes.up, kDegrees * by(0));
+        next = turned(next, axes.front, kDegrees * by(1));
+        return asymmetry(next, middle + kMm * best_.scale * by(2) * axes.side());
+      };
+      const std::vector<double> now = moved(Eigen::Vector3d::Zero());
+      std::array<std::vector<double>, 3> ahead, back;
+      for (int k = 0; k < 3; ++k) {
+        ahead[k] = moved(Eigen::Vector3d::Unit(k));
+        back[k] = moved(-Eigen::Vector3d::Unit(k));
+      }
+      std::vector<double> sizes;
+      for (const double d : now) {
+        if (std::isfinite(d)) sizes.push_back(std::abs(d));
+      }
+      if (sizes.size() < 50) return;
+      const double usual = std::max(kMinMm, 2.5 * nth_smallest(sizes, sizes.size() / 2));
+      Eigen::Matrix3d products = Eigen::Matrix3d::Identity();
+      Eigen::Vector3d sums = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        Eigen::Vector3d by;
+        for (int k = 0; k < 3; ++k) by(k) = (ahead[k][i] - back[k][i]) / 2;
+        if (!std::isfinite(now[i]) || !by.allFinite()) continue;
+        const double off = now[i] / usual, weight = 1 / ((1 + off * off) * (1 + off * off));
+        products += weight * by * by.transpose();
+        sums -= weight * now[i] * by;
+      }
+      Eigen::Vector3d by = products.ldlt().solve(sums);
+      const double size = by.cwiseAbs().maxCoeff();
+      if (size > kMaxSteps) by *= kMaxSteps / size;
+      const HeadAxes old = axes;
+      axes = turned(axes, old.up, kDegrees * by(0));
+      axes = turned(axes, old.front, kDegrees * by(1));
+      middle += kMm * best_.scale * by(2) * old.side();
+      if (size < kSteadySteps) break;
+    }
+    ReliefMatch next = best_;
+    next.between = middle;
+    restart(next, axes);
+  }
+
+  /// Searches height, size and stretch around the best match.
+  void place() {
+    const ReliefMatch first = best_;
+    for (int up = -3; up <= 3; ++up) {
+      for (int grow = -3; grow <= 3; ++grow) {
+        for (int stretch = -2; stretch <= 2; ++stretch) {
+          ReliefMatch next = first;
+          next.between += up * kMoveMm * first.scale * first.frame.up;
+          next.scale *= 1 + grow * 0.5 * kGrow;
+          next.stretch = 1 + stretch * kGrow;
+          try_match(next);
+        }
+      }
+    }
+    search(false);
+  }
+
   /// Tries a step of each parameter in both directions.
-  void step_all(double step) {
+  void step_all(double step, bool turns) {
     for (const double sign : {1.0, -1.0}) {
-      const HeadAxes axes = best_.axes;
+      if (!turns) break;
+      const HeadAxes axes = best_.frame;
       ReliefMatch next = best_;
-      next.axes = turned(axes, axes.up, sign * step * kTurnDegrees);
+      next.frame = turned(axes, axes.up, sign * step * kTurnDegrees);
       try_match(next);
       next = best_;
-      next.axes = turned(axes, axes.front, sign * step * kTurnDegrees);
+      next.frame = turned(axes, axes.front, sign * step * kTurnDegrees);
       try_match(next);
     }
     for (const double sign : {1.0, -1.0}) {
       const double move = sign * step * kMoveMm * best_.scale;
       ReliefMatch next = best_;
-      next.between += move * best_.axes.side();
-      try_match(next);
-      next = best_;
-      next.between += move * best_.axes.up;
+      if (turns) {
+        next.between += move * best_.frame.side();
+        try_match(next);
+        next = best_;
+      }
+      next.between += move * best_.frame.up;
       try_match(next);
       next = best_;
       next.scale *= 1 + sign * step * kGrow;
@@ -191,21 +294,25 @@ class Refinement {
 
   /// Keeps a match if it agrees better than the best match and its stretch is plausible.
   void try_match(const ReliefMatch& match) {
-    if (!map_ || match.axes.front != map_axes_.front || match.axes.up != map_axes_.up) {
-      map_.emplace(near_, match.axes, square_).soften();
-      map_axes_ = match.axes;
+    if (!map_ || match.frame.front != map_axes_.front || match.frame.up != map_axes_.up) {
+      map_.emplace(near_, match.frame, square_).soften();
+      map_axes_ = match.frame;
     }
-    Candidate candidate{match.between.dot(match.axes.side()),
-                        match.between.dot(match.axes.up),
+    Candidate candidate{match.between.dot(match.frame.side()),
+                        match.between.dot(match.frame.up),
                         match.scale,
                         match.stretch,
                         {},
                         0};
     candidate.fit =
         map_->fit(candidate.across, candidate.height, candidate.scale, candidate.stretch);
-    const bool is_likely = std::abs(std::log(match.stretch)) < kMaxStretch;
-    if (is_likely && candidate.fit.agreement > best_.agreement) {
-      best_ = match_of(candidate, match.axes);
+    const double stretch = std::log(match.stretch);
+    const double height = std::log(std::max(candidate.fit.amplitude, 0.1));
+    const double score = candidate.fit.agreement - kStretchPenalty * stretch * stretch -
+                         kAmplitudePenalty * height * height;
+    if (std::abs(stretch) < kMaxStretch && score > score_) {
+      score_ = score;
+      best_ = match_of(candidate, match.frame);
       slope_up_ = candidate.fit.slope_up / match.stretch;
     }
   }
@@ -213,7 +320,7 @@ class Refinement {
   Positions near_;
   std::optional<DepthMap> map_;  ///< depth map seen along map_axes_
   HeadAxes map_axes_;
-  double square_ = 1, slope_up_ = 0;
+  double square_ = 1, slope_up_ = 0, score_ = kWorst;
   ReliefMatch best_;
 };
 
@@ -255,6 +362,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   constexpr double kTurn = 25;      // rotation of the rotated views, in degrees
   // A face within this angle in degrees counts as aligned with the axes.
   constexpr double kStraight = 5;
+  constexpr double kMinPitch = 10;  // smaller angles come from posture or the form of the face
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
     std::vector<Candidate> found(views.size());
@@ -285,8 +393,15 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
-    match.degrees_off = angle_between(match.axes, all_axes[match.view]);
-    if (match.degrees_off < kStraight) match.axes = all_axes[match.view];
+    const HeadAxes& asked = all_axes[match.view];
+    match.degrees_off = angle_between(match.axes, asked);
+    // Removes a small pitch.
+    const double pitch =
+        std::asin(std::clamp(match.frame.up.dot(asked.front), -1.0, 1.0)) / kRadians;
+    if (std::abs(pitch) < kMinPitch) {
+      match.axes = turned(match.frame, match.frame.side(), -pitch);
+    }
+    if (angle_between(match.axes, asked) < kStraight) match.axes = asked;
     return match;
   };
   std::vector<HeadAxes> others;

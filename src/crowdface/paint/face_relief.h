@@ -30,6 +30,9 @@ struct ReliefMatch {
   std::size_t view = 0;    ///< index of the requested axes that are nearest to the axes of the face
   double degrees_off = 0;  ///< angle between these requested axes and the axes of the face
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
+  /// Axes in which the face is symmetric and as upright as the mean face. `axes` ignore small angles
+  /// between these and the requested axes, which come from the posture and the form of the face.
+  HeadAxes frame;
   Eigen::Vector3d between;  ///< point on the surface between the eyes
   double scale = 1;    ///< units of the positions per millimetre of the mean face, horizontally
   double stretch = 1;  ///< vertical scale as a multiple of `scale`

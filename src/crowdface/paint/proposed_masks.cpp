@@ -59,7 +59,8 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
                               other ? concat("the heads look along ", name_of(other->front),
                                              " with ", name_of(other->up), " up")
                                     : "no part of the mean head has the relief of a face (nose, "
-                                      "eye sockets, mouth and chin); paint the mask by hand"));
+                                      "eye sockets, mouth and chin), or its polygons are too "
+                                      "large to show one; paint the mask by hand"));
   }
   return propose_bands(topology, mean, *marks, bands);
 }
