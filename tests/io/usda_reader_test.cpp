@@ -8,11 +8,13 @@
 
 #include "support/expect_error.h"
 #include "support/meshes.h"
+#include "support/temporary_folder.h"
 
 namespace crowdface::testing {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr const char* kSquare =
     "int[] faceVertexCounts = [3, 3]\n int[] faceVertexIndices = [0, 1, 2, 2, 1, 3]\n"
@@ -113,6 +115,53 @@ TEST(ParseUsda, RefusesWhatHasNoMeshOfItsOwnOrIsBroken) {
       "def Mesh \"a\" { point3f[] points = [(1, 2, 3)] int[] faceVertexCounts = [4] "
       "int[] faceVertexIndices = [0, 0, 0] }",
       "an index below 4, found 4");
+}
+
+TEST(ParseUsda, ReadsTheTexturesOfPreviewSurfaces) {
+  const TemporaryFolder folder;
+  folder.write("maps/skin.png", "colours");
+  folder.write("bumps.png", "normals");
+  const std::string body = concat(R"(#usda 1.0
+def Xform "root" {
+ def Mesh "skin" {
+  rel material:binding = </root/looks/pale>
+)",
+                                  kSquare, R"( }
+ def Scope "looks" {
+  def Material "pale" {
+   asset inputs:rough = @rough.png@
+   token outputs:surface.connect = </root/looks/pale/surface.outputs:surface>
+   def Shader "surface" {
+    uniform token info:id = "UsdPreviewSurface"
+    color3f inputs:diffuseColor.connect = </root/looks/pale/colour.outputs:rgb>
+    normal3f inputs:normal.connect = </root/looks/pale/nodes/relief.outputs:rgb>
+    float inputs:roughness.connect = </root/looks/pale/rough.outputs:r>
+   }
+   def Shader "colour" {
+    uniform token info:id = "UsdUVTexture"
+    asset inputs:file = @./maps/skin.png@ ( colorSpace = "sRGB" )
+   }
+   def NodeGraph "nodes" {
+    def Shader "relief" {
+     uniform token info:id = "UsdUVTexture"
+     asset inputs:file = @C:\work\bumps.png@
+    }
+   }
+   def Shader "rough" {
+    uniform token info:id = "UsdUVTexture"
+    asset inputs:file.connect = </root/looks/pale.inputs:rough>
+   }
+  }
+ }
+})");
+  const FileMesh mesh = parse_usda(body, (folder / "head.usda").string());
+  ASSERT_EQ(mesh.textures.size(), 2U);
+  EXPECT_EQ(mesh.textures[0].material, "pale");
+  EXPECT_EQ(mesh.textures[0].kind, TextureKind::kColour);
+  EXPECT_EQ(mesh.textures[0].bytes, "colours");
+  EXPECT_EQ(mesh.textures[1].kind, TextureKind::kNormal);
+  EXPECT_EQ(mesh.textures[1].bytes, "normals");
+  EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("\"rough.png\" does not lie beside it")));
 }
 
 }  // namespace

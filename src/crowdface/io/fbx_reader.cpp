@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/fbx_reader.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "crowdface/core/error.h"
-#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/project_library.h"
 
 namespace crowdface {
@@ -30,19 +30,7 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
         ": expected an FBX file that Assimp reads (FBX 2011 or later), found another: ", error,
         "; export it again, or as OBJ or GLB"));
   }
-  for (std::size_t t = mesh.textures.size(); t-- > 0;) {
-    if (beside[t].empty()) continue;
-    std::ranges::replace(beside[t], '\\', '/');
-    const std::filesystem::path file =
-        path.parent_path() / std::filesystem::path(beside[t]).filename();
-    if (is_file(file)) {
-      mesh.textures[t].bytes = read_file(file);
-      continue;
-    }
-    mesh.notes.push_back(concat("its texture ", quoted(file.filename().string()),
-                                " is not in the same folder and is not used"));
-    mesh.textures.erase(mesh.textures.begin() + static_cast<std::ptrdiff_t>(t));
-  }
+  read_texture_files(std::move(beside), path, mesh);
   return mesh;
 }
 

@@ -20,7 +20,8 @@ struct Known {
 /// Formats recognised by their exact first bytes.
 constexpr std::array kBinary = {
     Known{"PK\x03\x04"sv,
-          "a ZIP archive, as usdz files are: unpack it and name the mesh in it, or export GLB"},
+          "a ZIP archive: unpack it and name the mesh in it. Of a usdz file, save the text (usdcat "
+          "--flatten -o head.usda FILE), or import it in Blender and export head.usda or GLB"},
     Known{"Rar!"sv, "a RAR archive: unpack it and name the mesh in it"},
     Known{"7z\xBC\xAF"sv, "a 7-Zip archive: unpack it and name the mesh in it"},
     Known{"\x1f\x8b"sv, "compressed with gzip: unpack it (gunzip)"},
@@ -30,8 +31,10 @@ constexpr std::array kBinary = {
     Known{"//Maya"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
     Known{"FOR4"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
     Known{"FOR8"sv, "a scene of Maya: export the mesh as OBJ or FBX"},
-    Known{"PXR-USDC"sv,
-          "binary USD (usdc): save it as text (usdcat --flatten -o head.usda FILE), or export GLB"},
+    Known{
+        "PXR-USDC"sv,
+        "binary USD (usdc): save it as text (usdcat --flatten -o head.usda FILE), or import it in "
+        "Blender and export head.usda or GLB"},
     Known{"\xff\xfe"sv, "text in UTF-16: save it as UTF-8"},
     Known{"\xfe\xff"sv, "text in UTF-16: save it as UTF-8"},
     Known{"\x89PNG"sv, "a picture"},

@@ -31,6 +31,27 @@ std::string material_name_of(std::string name) {
   return name.empty() ? "material" : name;
 }
 
+void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
+                        FileMesh& mesh) {
+  for (std::size_t t = mesh.textures.size(); t-- > 0;) {
+    if (files[t].empty()) continue;
+    std::ranges::replace(files[t], '\\', '/');
+    const std::filesystem::path named = files[t], folder = path.parent_path(),
+                                beside = folder / named.filename();
+    const std::filesystem::path file = is_file(folder / named) ? folder / named : beside;
+    if (is_file(file)) {
+      mesh.textures[t].bytes = read_file(file);
+      continue;
+    }
+    const bool is_tiled = files[t].find("<UDIM>") != std::string::npos;
+    mesh.notes.push_back(concat("its texture ", quoted(named.filename().string()),
+                                is_tiled ? " has several tiles (UDIM) and is not used: an OBJ file "
+                                           "with a material file can name it"
+                                         : " does not lie beside it and is not used"));
+    mesh.textures.erase(mesh.textures.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
                                 const std::string& name) {
   make_directories(folder);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crowdface/io/file_mesh.h"
 
@@ -14,6 +15,14 @@ namespace crowdface {
 /// \throws CannotCreate, IoError
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
                                 const std::string& name);
+
+/// Fills in the bytes of textures that are files of their own. A file is searched at its name
+/// relative to the mesh file, then beside the mesh file. Removes textures without a file and adds a
+/// note for each.
+/// \param files  #mesh.textures: the names of the files; an empty name if the texture has its bytes
+/// \param path   of the mesh file
+void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
+                        FileMesh& mesh);
 
 /// A material name that is valid in OBJ and material files: one line, not empty.
 std::string material_name_of(std::string name);

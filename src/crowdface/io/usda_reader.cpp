@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/gltf_file.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/srgb.h"
 #include "crowdface/io/usda_tokens.h"
 
@@ -31,7 +33,7 @@ struct Prim {
   std::string_view type, name;
   std::map<std::string, PrimProperty, std::less<>> properties;
   std::string uvs, colours;  ///< names of the primvars
-  std::vector<Prim> subsets;
+  std::vector<Prim> subsets, shaders;
 
   const PrimProperty* find(std::string_view property) const {
     const auto found = properties.find(property);
@@ -94,7 +96,7 @@ Eigen::Matrix4d place_of(const Prim& prim) {
 
 class UsdaReader {
  public:
-  UsdaReader(std::string_view text, const std::string& name) : tokens_(text, name) {}
+  UsdaReader(std::string_view text, const std::string& name) : name_(name), tokens_(text, name) {}
 
   FileMesh read() {
     for (UsdaToken token = tokens_.next(); token.kind != UsdaToken::Kind::kEnd;
@@ -160,6 +162,14 @@ class UsdaReader {
       }
     }
     if (prim.type == "Mesh") add_mesh(prim, placed());
+    if (prim.type == "Material") add_textures(prim);
+    if (parent != nullptr && prim.type == "NodeGraph") {
+      std::ranges::move(prim.shaders, std::back_inserter(parent->shaders));
+    }
+    if (parent != nullptr && prim.type == "Shader") {
+      parent->shaders.push_back(std::move(prim));
+      return;
+    }
     if (prim.type == "GeomSubset" && parent != nullptr) parent->subsets.push_back(std::move(prim));
   }
 
@@ -173,7 +183,9 @@ class UsdaReader {
     const bool is_plain = name.find('.') == name.npos;  // "points.timeSamples"
     const bool is_primvar = name.starts_with("primvars:");
     const bool is_list = name == "xformOpOrder" || name == "material:binding";
-    const bool is_text = name == "orientation" || name == "visibility" || name == "purpose";
+    const bool is_text = name == "orientation" || name == "visibility" || name == "purpose" ||
+                         name == "info:id" || name.ends_with(".connect") ||
+                         (name.starts_with("inputs:") && type == "asset");
     if (is_plain &&
         (std::ranges::find(kNumbers, name) != kNumbers.end() || name.starts_with("xformOp:") ||
          (is_primvar && (type.starts_with("texCoord2") || type.starts_with("color3") ||
@@ -229,6 +241,42 @@ class UsdaReader {
       result.push_back(index_of(static_cast<double>(row), rows));
     }
     return result;
+  }
+
+  /// The first text of a property; empty if there is none.
+  static std::string_view text_of(const Prim& prim, std::string_view property) {
+    const PrimProperty* found = prim.find(property);
+    return found == nullptr || found->texts.empty() ? std::string_view() : found->texts[0];
+  }
+
+  /// The shader of a material to which an input is connected: </head/skin/colour.outputs:rgb>.
+  static const Prim* connected(const Prim& material, const Prim& shader, std::string_view input) {
+    std::string_view path = text_of(shader, concat(input, ".connect"));
+    path = path.substr(0, path.find('.'));
+    path = path.substr(path.rfind('/') + 1);
+    const auto found = std::ranges::find(material.shaders, path, &Prim::name);
+    return path.empty() || found == material.shaders.end() ? nullptr : &*found;
+  }
+
+  /// The image files that the preview surface of a material names.
+  void add_textures(const Prim& material) {
+    for (const Prim& surface : material.shaders) {
+      if (text_of(surface, "info:id") != "UsdPreviewSurface") continue;
+      for (const auto& [input, kind] : {std::pair("inputs:diffuseColor", TextureKind::kColour),
+                                        std::pair("inputs:normal", TextureKind::kNormal),
+                                        std::pair("inputs:roughness", TextureKind::kRoughness)}) {
+        const Prim* texture = connected(material, surface, input);
+        if (texture == nullptr || text_of(*texture, "info:id") != "UsdUVTexture") continue;
+        std::string_view file = text_of(*texture, "inputs:file");
+        // The file may be an input of the material.
+        const std::string_view from = text_of(*texture, "inputs:file.connect");
+        if (file.empty()) file = text_of(material, from.substr(from.rfind('.') + 1));
+        if (file.empty()) continue;
+        mesh_.textures.push_back({std::string(material.name), kind, {}});
+        files_.emplace_back(file);
+      }
+      return;
+    }
   }
 
   void add_mesh(const Prim& prim, const Eigen::Matrix4d& place) {
@@ -301,11 +349,16 @@ class UsdaReader {
     return binding->texts[0].substr(binding->texts[0].rfind('/') + 1);
   }
 
-  void finish() { set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>()); }
+  void finish() {
+    set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
+    read_texture_files(std::move(files_), name_, mesh_);
+  }
 
+  const std::string& name_;
   UsdaTokens tokens_;
   FileMesh mesh_;
   std::vector<double> points_, uvs_, colours_;
+  std::vector<std::string> files_;  ///< #textures
   bool any_colours_ = false;
 };
 
