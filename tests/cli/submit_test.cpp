@@ -68,7 +68,7 @@ TEST(Submit, WritesNothingBehindALinkThatLeadsOutOfTheCrowd) {
 
 TEST(Status, OfNoCrowdIs66) {
   const SmallCrowdFolder folder(SmallCrowd{});
-  crowdface(66, {"status", (folder / "heads").string()}, {"a crowd's folder"});
+  crowdface(66, {"status", (folder / "heads").string()}, {"the folder of a crowd"});
   crowdface(64, {"status", folder.out().string(), "--every", "2"}, {"--watch"});
 }
 

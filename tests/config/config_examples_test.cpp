@@ -137,7 +137,7 @@ TEST_F(ExampleConfigs, TheStarterReadsBack) {
   EXPECT_EQ(config->faces.up, facts.up);
   EXPECT_EQ(config->faces.front, facts.front);
   EXPECT_EQ(config->output.directory, folder_ / "out/crowd");
-  EXPECT_THAT(text, testing::HasSubstr("because the first head is 10.50 units tall,\n"));
+  EXPECT_THAT(text, testing::HasSubstr("because the first head is 10.50 units tall.\n"));
   EXPECT_THAT(text, testing::HasSubstr("26.7 cm high. PLEASE CHECK"));
 }
 

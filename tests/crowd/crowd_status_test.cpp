@@ -135,7 +135,7 @@ TEST_F(Status, NotesOfOthersSayNothing) {
 
 TEST(StatusOfNothing, IsRefused) {
   const TemporaryFolder folder;
-  testing::expect_error(ExitCode::kMissingInput, {"config.yaml", "a crowd's folder"},
+  testing::expect_error(ExitCode::kMissingInput, {"config.yaml", "the folder of a crowd"},
                         [&] { crowd_status(folder.path()); });
 }
 

@@ -227,7 +227,7 @@ TEST(GltfRig, BrokenScenesAreRefused) {
   refuse(scene(R"({},{"mesh":0,"skin":0})",
                R"({"bufferView":2,"byteOffset":12,"componentType":5126,"count":1})"),
          {"accessor 0", "not finite"});
-  refuse(scene(R"({},{"mesh":0,"skin":7})", position), {"not"});
+  refuse(scene(R"({},{"mesh":0,"skin":7})", position), {"valid glTF 2.0 scene", "7"});
   refuse(scene(R"({"translation":[1e300,0,0]})", position), {"node 0", "out of range"});
   refuse(scene(concat(R"({"name":")", std::string(1001, 'n'), R"("})"), position),
          {"at most 1000 bytes, found 1001"});

@@ -99,7 +99,7 @@ void check_stance(const Config& config, const Inputs& inputs) {
   auto marks = find_face_marks(topology, head, axes_of(asked));
   if (!marks) {
     const auto found = find_bearing(topology, head);
-    if (!found) return;
+    if (!found || *found == asked) return;
     throw InvalidInput(
         concat("the heads look along ", name_of(found->front), " with ", name_of(found->up),
                " up, but faces.front is ", name_of(asked.front), " and faces.up is ",

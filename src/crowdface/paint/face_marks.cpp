@@ -356,6 +356,7 @@ std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& h
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, axes, head.eyeballs);
   if (!match || match->votes < kMinVotes) return std::nullopt;
+  if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
   return bearings[match->view];
 }
 
