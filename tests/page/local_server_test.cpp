@@ -19,42 +19,12 @@
 #include "crowdface/core/error.h"
 
 #include "support/expect_error.h"
+#include "support/raw_client.h"
 
 namespace crowdface {
 namespace {
 
-/// A client that says what it is told, byte by byte if need be.
-class RawClient {
- public:
-  explicit RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in there{};
-    there.sin_family = AF_INET;
-    there.sin_port = htons(static_cast<std::uint16_t>(port));
-    there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there), 0);
-    const timeval patience = {20, 0};
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  }
-  ~RawClient() { ::close(socket_); }
-  RawClient(const RawClient&) = delete;
-  RawClient& operator=(const RawClient&) = delete;
-
-  bool say(std::string_view text) const {
-    return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) ==
-           static_cast<ssize_t>(text.size());
-  }
-  /// All that comes until the server closes.
-  std::string hear() const {
-    std::string heard, piece(1 << 16, '\0');
-    for (ssize_t got = 0; (got = ::recv(socket_, piece.data(), piece.size(), 0)) > 0;) {
-      heard.append(piece, 0, static_cast<std::size_t>(got));
-    }
-    return heard;
-  }
-
- private:
-  int socket_;
-};
+using testing::RawClient;
 
 /// A server that tells what it was asked for.
 class LocalServerTest : public ::testing::Test {
@@ -197,6 +167,27 @@ TEST_F(LocalServerTest, SlowClientsHoldNobodyUp) {
       EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
     }
   }
+}
+
+// Where more clients came at once than the server serves, it hung up on those whose request was there already.
+TEST_F(LocalServerTest, AFloodOfClientsHoldsNobodyUp) {
+  std::atomic<bool> done = false;
+  std::list<std::jthread> floods;
+  for (int i = 0; i < 3; ++i) {
+    floods.emplace_back([&] {
+      std::list<RawClient> clients;
+      while (!done) {
+        if (clients.size() > 100) clients.pop_front();
+        clients.emplace_back(port()).say("GET / HTTP/1.1\r\n");
+      }
+    });
+  }
+  const std::string body(1 << 20, 'x');
+  for (int i = 0; i < 50; ++i) {
+    const auto got = client().Post(path_, ours(), body, "text/plain");
+    EXPECT_TRUE(got && got->status == 200) << i;
+  }
+  done = true;
 }
 
 // Header lines without an end took 1.2 GB.

@@ -32,7 +32,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 64, kThreads = 16;
+constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 64, kMaxAtOnce = 16,
+                      kThreads = 16;
 constexpr auto kMoment = std::chrono::milliseconds(100);
 /// Time limits: for the head of a request, counted from its first byte; for a request with a body;
 /// and for a client to accept more of its answer.
@@ -175,17 +176,18 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// Accepts waiting clients. If there are too many connections, closes the one whose request has
-/// been incomplete for the longest time.
+/// Accepts some of the waiting clients. If there are too many connections, closes the one whose
+/// head of a request has been incomplete for the longest time. Reads from each new client at once,
+/// so that a client whose request has arrived is not closed in favour of the clients after it.
 void LocalServer::State::accept_clients() {
-  for (;;) {
+  for (std::size_t i = 0; i < kMaxAtOnce; ++i) {
     Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     const bool is_short = !accepted.valid() && is_system_error(errno);
     if (!accepted.valid() && !is_short) return;
     if (is_short || connections.size() >= kMaxConnections) {
       auto oldest = connections.end();
       for (auto client = connections.begin(); client != connections.end(); ++client) {
-        const bool may_go = client->state == Connection::State::kReading;
+        const bool may_go = client->state == Connection::State::kReading && !client->head;
         if (may_go && (oldest == connections.end() || client->since < oldest->since)) {
           oldest = client;
         }
@@ -196,7 +198,7 @@ void LocalServer::State::accept_clients() {
     if (is_short) return;
     const int yes = 1;
     ::setsockopt(accepted.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-    connections.emplace_back(std::move(accepted));
+    read_from(connections.emplace_back(std::move(accepted)));
   }
 }
 
