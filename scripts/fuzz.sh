@@ -4,21 +4,24 @@
 # each parser's own code its inputs and the tests of its module reach. What is found stays in
 # build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
-#   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of obj mask yaml
-#                                           review plan cache ledger scan landmarks rig http. 0 s: coverage of what is there
+#   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of obj mask material
+#                                           yaml review edits pattern plan cache ledger scan landmarks rig http. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
 shift || true
 parsers=("$@")
-[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask yaml review plan cache ledger scan landmarks rig http)
+[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask material yaml review edits pattern plan cache ledger scan landmarks rig http)
 
 # The files that make a parser, in src/crowdface: what they share is counted with each.
 declare -A sources=(
   [obj]='io/obj_file.cpp io/obj_scan.cpp'
   [mask]='io/image.cpp'
+  [material]='io/material_files.cpp io/surface_materials.cpp'
   [yaml]='config/*_keys.cpp config/co*.cpp config/yaml*.cpp'
   [review]='config/review_keys.cpp config/yaml.cpp'
+  [edits]='config/edits.cpp config/recipes_keys.cpp config/yaml.cpp'
+  [pattern]='config/input_files.cpp'
   [plan]='crowd/plan_file.cpp'
   [cache]='heads/head_cache.cpp'
   [ledger]='crowd/ledger.cpp'
@@ -53,7 +56,7 @@ more_seeds() {
 # Until the parser has had its time of a processor, however busy the machine is with other things.
 fuzz() {
   local parser=$1 dictionary=() left=$seconds TIMEFORMAT='%U %S'
-  case $parser in yaml | review | plan) dictionary=(-dict="$out/words.dict") ;; esac
+  case $parser in yaml | review | edits | plan) dictionary=(-dict="$out/words.dict") ;; esac
   : >"$out/$parser.log"
   while [ "$left" -gt 0 ]; do
     { time "$out/bin/crowdface_${parser}_fuzz" "$out/corpus/$parser" "tests/fuzz/corpus/$parser" \

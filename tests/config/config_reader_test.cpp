@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "crowdface/config/input_files.h"
+
 #include "config/config_test_folder.h"
 
 namespace crowdface {
@@ -62,6 +64,21 @@ TEST_F(ReadConfig, FilesKeepTheirOrder) {
   EXPECT_EQ(config->faces.units, LengthUnit::kInch);
   EXPECT_EQ(config->faces.up, (Axis{2, -1}));
   EXPECT_EQ(config->faces.front, (Axis{0, 1}));
+}
+
+// Each asterisk multiplied the time by the length of the names.
+TEST_F(ReadConfig, APatternMayHaveManyAsterisks) {
+  touch("heads/" + std::string(200, 'a') + ".obj");
+  std::string pattern;
+  for (int i = 0; i < 50; ++i) pattern += "*a";
+  const auto count = [&](const std::string& name) {
+    return files_like(folder_ / "heads" / name).size();
+  };
+  EXPECT_EQ(count(pattern + "*b.obj"), 0U);
+  EXPECT_EQ(count(pattern + "*.obj"), 1U);
+  EXPECT_EQ(count("*b.o?j"), 1U);
+  EXPECT_EQ(count("?n*n.ob*j**"), 1U);
+  EXPECT_EQ(count("*n"), 0U);
 }
 
 TEST_F(ReadConfig, RegionsTakeTheirOwnValuesOrTheDefault) {

@@ -3,11 +3,16 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/pick/landmark_file.h"
+#include "crowdface/pick/landmark_lists.h"
 
 #include "fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const crowdface::fuzz::InputFile file(data, size);
+  try {
+    crowdface::parse_landmark_list(crowdface::fuzz::text_of(data, size), "list.csv");
+  } catch (const crowdface::Error&) {
+  }
   try {
     const crowdface::LandmarkFile landmarks = crowdface::read_landmarks(file.path());
     for (const auto* places : {&landmarks.of_template, &landmarks.of_scan}) {

@@ -29,5 +29,18 @@ TEST(SurfaceMaterials, AreReadWithTheTexturesThatAreThere) {
   EXPECT_TRUE(materials[1].colour_map.empty());
 }
 
+// Each end of the line was copied for each texture.
+TEST(SurfaceMaterials, LinesOfManyWordsAreCheap) {
+  const testing::TemporaryFolder folder;
+  std::string line = "map_Kd";
+  for (int i = 0; i < 500'000; ++i) line += " a";
+  folder.write("a.mtl", "newmtl a\nKd -1 0.5 1e300\n" + line + " b.png\n");
+  folder.write("b.png", "x");
+  const auto materials = read_surface_materials(find_material_files(folder / "a.obj", {"a.mtl"}));
+  ASSERT_EQ(materials.size(), 1U);
+  EXPECT_EQ(materials[0].colour_map.filename(), "b.png");
+  EXPECT_EQ(materials[0].colour, (std::array<float, 3>{0, 0.5F, 1}));
+}
+
 }  // namespace
 }  // namespace crowdface

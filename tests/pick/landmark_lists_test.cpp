@@ -58,6 +58,16 @@ TEST(LandmarkLists, VerticesAndNamelessPointsAreTaken) {
   EXPECT_EQ(array.of_scan.at("2").point, Eigen::Vector3d(4, 5, 6));
 }
 
+// Each point was counted from the beginning of the file and copied to its end: 5 MB took minutes.
+TEST(LandmarkLists, ManyPointsAreCheap) {
+  std::string text = "<PickedPoints>\n";
+  for (int i = 0; i < 300'000; ++i) text += "<point active=\"0\"\n";
+  const auto read = [&](const char* last) { return parse_landmark_list(text + last, "many.pp"); };
+  EXPECT_EQ(read("<point x=\"1\" y=\"2\" z=\"3\" name=\"chin\"/>")->size(), 1U);
+  expect_error(ExitCode::kUsage, {"many.pp:300002: expected a number y"},
+               [&] { read("<point x=\"1\"/>"); });
+}
+
 TEST(LandmarkLists, WhatIsWrongIsNamedWithItsPlace) {
   const TemporaryFolder folder;
   const auto refuse = [&](const char* name, const std::string& text, const char* phrase) {

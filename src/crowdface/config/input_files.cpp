@@ -51,19 +51,25 @@ bool may_hold_mesh(const fs::path& path) {
   return endings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
-/// Returns whether a name matches a pattern with the wildcards `*` and `?`.
+/// Returns whether a name matches a pattern with the wildcards `*` and `?`. If the characters after
+/// an asterisk do not match, only the last asterisk takes one more character.
 bool is_like(std::string_view pattern, std::string_view name) {
-  if (pattern.empty()) return name.empty();
-  if (pattern[0] != '*') {
-    return !name.empty() && (pattern[0] == '?' || pattern[0] == name[0]) &&
-           is_like(pattern.substr(1), name.substr(1));
+  std::size_t p = 0, n = 0, after_asterisk = pattern.npos, taken = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      after_asterisk = ++p;
+      taken = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p;
+      ++n;
+    } else if (after_asterisk != pattern.npos) {
+      p = after_asterisk;
+      n = ++taken;
+    } else {
+      return false;
+    }
   }
-  const std::string_view rest =
-      pattern.substr(std::min(pattern.find_first_not_of('*'), pattern.size()));
-  for (std::size_t skipped = 0; skipped <= name.size(); ++skipped) {
-    if (is_like(rest, name.substr(skipped))) return true;
-  }
-  return false;
+  return pattern.find_first_not_of('*', p) == pattern.npos;
 }
 
 }  // namespace

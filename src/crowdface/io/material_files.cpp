@@ -25,20 +25,6 @@ namespace fs = std::filesystem;
 constexpr const char* kBlanks = " \t\r";
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
-/// All suffixes of a text that begin at a word, longest first: a file name may contain spaces, and
-/// follows the options. Limited to the last 32 words.
-std::vector<std::string_view> tails_of(std::string_view text) {
-  constexpr std::size_t kMaxTails = 32;
-  std::vector<std::string_view> tails;
-  for (std::size_t end = text.size(); end > 0 && tails.size() < kMaxTails;) {
-    const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
-    tails.push_back(text.substr(begin));
-    end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
-  }
-  std::ranges::reverse(tails);
-  return tails;
-}
-
 /// Whether a path stays below its starting folder. (A NUL is rejected because the operating system
 /// would truncate the name there.)
 bool stays_inside(const fs::path& relative) {
@@ -261,6 +247,18 @@ MaterialStatement material_statement(std::string_view line) {
   const std::size_t blank = line.find_first_of(kBlanks);
   if (blank == line.npos) return {};
   return {line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank))};
+}
+
+std::vector<std::string_view> tails_of(std::string_view text) {
+  constexpr std::size_t kMaxTails = 32;
+  std::vector<std::string_view> tails;
+  for (std::size_t end = text.size(); end > 0 && tails.size() < kMaxTails;) {
+    const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
+    tails.push_back(text.substr(begin));
+    end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
+  }
+  std::ranges::reverse(tails);
+  return tails;
 }
 
 bool is_texture_statement(std::string_view word) {

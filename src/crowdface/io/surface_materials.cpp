@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -21,37 +22,36 @@ std::vector<float> leading_numbers(std::string_view text) {
 }
 
 /// The texture whose name ends a statement; among several the one with the longest name.
-std::filesystem::path texture_at_end(std::string rest, const std::filesystem::path& folder,
+std::filesystem::path texture_at_end(std::string_view rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
-  std::replace(rest.begin(), rest.end(), '\\', '/');
-  std::filesystem::path found;
-  std::size_t longest = 0;
-  for (const MaterialFile& file : files.files) {
-    if (file.is_library) continue;
-    for (std::size_t begin = 0; begin < rest.size(); ++begin) {
-      const bool is_word = begin == 0 || is_blank(rest[begin - 1]);
-      if (!is_word || rest.size() - begin <= longest) continue;
-      if ((folder / rest.substr(begin)).lexically_normal() != file.relative) continue;
-      longest = rest.size() - begin;
-      found = file.from;
+  for (const std::string_view tail : tails_of(rest)) {
+    std::string name(tail);
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const std::filesystem::path relative = (folder / name).lexically_normal();
+    for (const MaterialFile& file : files.files) {
+      if (!file.is_library && file.relative == relative) return file.from;
     }
   }
-  return found;
+  return {};
+}
+
+float in_range(float value) {
+  return std::clamp(value, 0.0F, 1.0F);
 }
 
 void take(const MaterialStatement& statement, const std::filesystem::path& folder,
           const MaterialFiles& files, SurfaceMaterial& material) {
   const std::vector<float> numbers = leading_numbers(statement.rest);
   if (statement.word == "Kd" && numbers.size() == 3) {
-    material.colour = {numbers[0], numbers[1], numbers[2]};
+    material.colour = {in_range(numbers[0]), in_range(numbers[1]), in_range(numbers[2])};
   } else if (statement.word == "d" && numbers.size() == 1) {
-    material.opacity = std::clamp(numbers[0], 0.0F, 1.0F);
+    material.opacity = in_range(numbers[0]);
   } else if (statement.word == "Tr" && numbers.size() == 1) {
-    material.opacity = std::clamp(1 - numbers[0], 0.0F, 1.0F);
+    material.opacity = in_range(1 - numbers[0]);
   } else if (statement.word == "map_Kd") {
-    material.colour_map = texture_at_end(std::string(statement.rest), folder, files);
+    material.colour_map = texture_at_end(statement.rest, folder, files);
   } else if (statement.word == "map_d") {
-    material.opacity_map = texture_at_end(std::string(statement.rest), folder, files);
+    material.opacity_map = texture_at_end(statement.rest, folder, files);
   }
 }
 
@@ -63,6 +63,7 @@ std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) 
     if (!file.is_library) continue;
     const std::string text = read_file(file.from);
     for (const std::string_view line : split_lines(text)) {
+      throw_if_interrupted();
       const MaterialStatement statement = material_statement(line);
       if (statement.word == "newmtl") {
         materials.push_back({std::string(statement.rest), std::nullopt, 1, {}, {}});

@@ -14,7 +14,7 @@ namespace crowdface {
 /// The appearance of a material in a material file.
 struct SurfaceMaterial {
   std::string name;
-  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear
+  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear, from 0 to 1
   float opacity = 1;                                ///< `d`, or 1 − `Tr`
   std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
   std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none

@@ -73,12 +73,13 @@ std::string_view attribute_of(std::string_view tag, const std::string& name) {
 }
 
 void read_picked_points(std::string_view text, PlaceList& list) {
+  std::size_t line = 1, seen = 0;
   for (std::size_t at = text.find("<point"); at != text.npos; at = text.find("<point", at + 1)) {
-    std::string tag(text.substr(at, std::min(text.find('>', at), text.size()) - at));
+    std::string tag(text.substr(at, std::min(text.find_first_of("<>", at + 1), text.size()) - at));
     std::ranges::replace_if(
         tag, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-    const auto line =
-        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    line += static_cast<std::size_t>(std::ranges::count(text.substr(seen, at - seen), '\n'));
+    seen = at;
     const std::string where = concat(':', line);
     if (attribute_of(tag, "active") == "0") continue;
     std::vector<double> point;

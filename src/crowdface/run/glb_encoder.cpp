@@ -68,7 +68,7 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
   const bool has_colours = !made_of.colour_map.empty();
   if (made_of.colour && !has_colours) {
     for (std::size_t c = 0; c < 3; ++c) {
-      material.colour[c] = std::clamp((*made_of.colour)[c], 0.0F, 1.0F);
+      material.colour[c] = (*made_of.colour)[c];
     }
   }
   material.colour[3] = made_of.opacity;

@@ -27,7 +27,6 @@ UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   UsdaSurface surface;
   if (material.colour) std::ranges::copy(*material.colour, surface.colour.begin());
   surface.colour[3] = material.opacity;
-  for (float& value : surface.colour) value = std::clamp(value, 0.0F, 1.0F);
   const fs::path& colours = material.colour_map;
   const fs::path& holes = material.opacity_map.empty() ? colours : material.opacity_map;
   if (!colours.empty()) {
