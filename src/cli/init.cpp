@@ -6,6 +6,7 @@
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/problems.h"
@@ -33,6 +34,7 @@ bool has_three_bands(const fs::path& image) {
   try {
     return mask_channels(read_image(image)).size() == 3;
   } catch (const RecoverableError&) {
+    throw_if_interrupted();
     return false;
   }
 }
@@ -112,6 +114,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   Problems problems;
   const auto set = load_faces(faces, {}, problems);
   if (!set) {
+    throw_if_interrupted();
     log_warning(concat("no regions: ", problems.messages().front()));
     return {read_mesh_as_obj(files[0]).positions, {}, {}};
   }

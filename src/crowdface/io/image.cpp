@@ -9,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/input_limits.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
@@ -171,6 +172,7 @@ std::string encode(const std::string& format, const PictureToEncode& picture, st
           " values");
   std::string bytes, error;
   if (!codec_of(format).encode(picture, bytes, error)) {  // pixels of this program
+    throw_if_interrupted();
     throw IoError(concat(format, ": cannot be encoded (is there too little memory?): ", error));
   }
   return bytes;
@@ -241,6 +243,7 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
   if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(facts));
   std::string error;
   if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
+    throw_if_interrupted();
     throw DamagedImage(file, concat(file.string(), ": is damaged or cut short: ", error));
   }
   check_finite(file, image);

@@ -10,6 +10,7 @@
 #include <tiny_obj_loader.h>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/foreign_file.h"
 #include "crowdface/io/obj_mend.h"
@@ -17,13 +18,25 @@
 namespace crowdface {
 namespace {
 
-/// A stream buffer that reads a text in memory without copying it.
+/// A stream buffer that reads a text in memory without copying it. After a signal, the text ends
+/// early, because the reader of the stream does not look for signals.
 class ViewBuffer : public std::streambuf {
  public:
-  explicit ViewBuffer(std::string_view text) {
-    char* begin = const_cast<char*>(text.data());  // the stream only reads the get area
-    setg(begin, begin, begin + text.size());
+  explicit ViewBuffer(std::string_view text) : rest_(text) {}
+
+ protected:
+  int_type underflow() override {
+    constexpr std::size_t kAtOnce = 1U << 20U;
+    if (rest_.empty() || interrupted()) return traits_type::eof();
+    const std::string_view piece = rest_.substr(0, kAtOnce);
+    rest_.remove_prefix(piece.size());
+    char* begin = const_cast<char*>(piece.data());  // the stream only reads the get area
+    setg(begin, begin, begin + piece.size());
+    return traits_type::to_int_type(*begin);
   }
+
+ private:
+  std::string_view rest_;
 };
 
 /// Ignores material files; the mesh reader does not need them.
@@ -126,6 +139,7 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
   constexpr bool kTriangulate = false, kDefaultColours = false;
   const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                        &no_materials, kTriangulate, kDefaultColours);
+  throw_if_interrupted();
   if (!loaded) refuse_file(path, concat("cannot be loaded: ", error));
 
   take_faces(shapes, result);

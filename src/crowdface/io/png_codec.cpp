@@ -9,6 +9,8 @@
 
 #include <png.h>
 
+#include "crowdface/core/interrupt.h"
+
 namespace crowdface {
 namespace {
 
@@ -25,6 +27,11 @@ struct PngError {
 }
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*warning*/) {}
+
+/// Call this before each row. A signal then is an error, which image.cpp reports as what it is.
+void give_up_if_interrupted(png_structp png) {
+  if (interrupted()) png_error(png, "interrupted by a signal");
+}
 
 /// \return whether libpng finished `work` without an error.
 template <class Work>
@@ -93,6 +100,7 @@ bool read_png(void* picture, void* pixels, std::string& error) {
     const int passes = interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1;
     for (int pass = 0; pass < passes; ++pass) {
       for (png_uint_32 y = 0; y < height; ++y) {
+        give_up_if_interrupted(png);
         png_read_row(png, static_cast<png_bytep>(pixels) + y * row, nullptr);
       }
     }
@@ -165,6 +173,7 @@ bool write_png(const PictureToEncode& picture, std::string& bytes, std::string& 
                          png_write_info(png, info);
                          if (bits == 16) png_set_swap(png);
                          for (int y = 0; y < picture.height; ++y) {
+                           give_up_if_interrupted(png);
                            png_write_row(png, static_cast<png_const_bytep>(picture.pixels) +
                                                   static_cast<std::size_t>(y) * row);
                          }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crowdface/core/error.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {
@@ -124,6 +125,7 @@ std::vector<double> UsdaTokens::numbers() {
     }
     at_ = static_cast<std::size_t>(after - text_.data());
     numbers.push_back(number);
+    if (numbers.size() % 1024 == 0) throw_if_interrupted();
   } while (open > 0);
   return numbers;
 }

@@ -222,6 +222,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);
         if (counts_first(corners[0]) != turn) continue;
+        throw_if_interrupted();
         const auto at = [&](std::size_t c) -> Vector2d {
           return size * Vector2d(uvs(face_uvs[c], 0) - column, 1 - (uvs(face_uvs[c], 1) - row));
         };
@@ -231,7 +232,10 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
         }
       }
     }
-    for (int i = 0; i < kBleed; ++i) canvas.bleed();
+    for (int i = 0; i < kBleed; ++i) {
+      throw_if_interrupted();
+      canvas.bleed();
+    }
     // Collect the samples of this tile that should match vertex weights.
     std::vector<Texels> places;
     std::vector<const double*> weights;
