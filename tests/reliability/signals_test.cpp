@@ -63,7 +63,7 @@ class Signals : public ::testing::Test {
         {"convert", head, "-o", at("out/head.usda"), "--force"},
         {"init", at("heads"), "-o", at("out/crowd.yaml"), "--force"},
         {"mask", at("heads"), "--cache", cold, "-o", at("out/mask.png")},
-        {"plan", config, "--cache", warm, "--count", "400", "--out", out, "--set",
+        {"plan", config, "--cache", warm, "--count", "20", "--out", out, "--set",
          "diversity.min_distance=0mm", "--set", "diversity.min_distance_to_faces=0mm"},
         {"prepare", config, "--cache", cold},
         {"blend", config, "--recipe", at("made/crowd/plan.jsonl#crowd_0001"), "--cache", warm, "-o",
