@@ -266,7 +266,7 @@ class DisturbedEditor : public ::testing::Test {
                   crowdface::edit(config(), {}, options, started);
                   break;
                 } catch (const UsageError& error) {
-                  if (std::string(error.what()).find("is edited already") == std::string::npos)
+                  if (std::string(error.what()).find("is already running") == std::string::npos)
                     throw;
                   std::this_thread::sleep_for(std::chrono::milliseconds(10));
                 } catch (...) {
