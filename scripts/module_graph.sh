@@ -42,6 +42,7 @@ blend 4
 cast 5
 wrap 5
 texture 5
+neck 6
 config 6
 crowd 6
 pick 7

@@ -100,6 +100,7 @@ TEST_F(ExampleConfigs, ThoseOfTheReferenceAreReadToo) {
     touch(concat("scans/", name, ".obj"));
   }
   touch("configs/mask.png");
+  touch("configs/body.obj");
   touch("configs/template/neutral.obj");
   touch("configs/template/shapes/smile.obj");
   for (const char* name : {"ann", "bob", "cyd"}) {

@@ -155,6 +155,17 @@ struct Config {
   std::filesystem::path points;  ///< file of points that follow the face; empty: none
   std::filesystem::path rig;     ///< GLB file of joints and the parts bound to them; empty: none
 
+  /// The ring of vertices at the neck in which all faces end.
+  struct Neck {
+    std::filesystem::path body;        ///< the mesh that the faces end on; empty: none
+    std::optional<Eigen::Index> like;  ///< the head whose neck all faces get
+    bool mean = false;                 ///< all faces get the mean of the heads' necks
+    std::filesystem::path rim;         ///< file of the ring's vertices; empty: the open rim
+    double falloff_mm = 60;            ///< how far up from the ring faces are bent
+
+    bool is_set() const { return !body.empty() || like || mean; }
+  } neck;
+
   /// An item that a head may wear, such as hair or glasses; a separate mesh.
   struct Attachment : AttachmentItem {
     std::filesystem::path file;

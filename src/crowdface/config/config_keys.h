@@ -246,6 +246,7 @@ const Keys<Config::Output>& output_keys();
 Key<Config> faces_key();
 Key<Config> regions_key();
 Key<Config> shapes_key();
+Key<Config> neck_key();
 Key<Config> attachments_key();
 Key<Config> believability_key();
 Key<Config> recipes_key();

@@ -185,6 +185,8 @@ std::vector<fs::path> input_files(const Config& config) {
   for (const auto& of_head : config.shapes.of_head) std::ranges::for_each(of_head, add);
   add(config.points);
   add(config.rig);
+  add(config.neck.body);
+  add(config.neck.rim);
   add(config.attachments.file);
   for (const Config::Attachment& item : config.attachments.items) add(item.file);
   for (const std::string& mask : config.regions.mask) add_image(mask, files);

@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> files_like(const std::filesystem::path& patte
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
 /// Lists every file that the config names: the config itself, heads, shapes, points, rig,
-/// attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Material
+/// neck, attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Material
 /// files and textures are not listed, because the head files name them.
 std::vector<std::filesystem::path> input_files(const Config& config);
 

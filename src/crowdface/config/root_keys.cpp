@@ -217,6 +217,7 @@ const Keys<Config>& root_keys() {
       shapes_key().apart_from_faces(),
       file_key("points", &Config::points, "none, or a YAML file of points").apart_from_faces(),
       file_key("rig", &Config::rig, "none, or a GLB file with joints").apart_from_faces(),
+      neck_key().apart_from_faces(),
       attachments_key().apart_from_faces(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane).apart_from_faces(),

@@ -12,6 +12,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/lod/level_error.h"
 #include "crowdface/mesh/vector3.h"
 
@@ -79,10 +80,26 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
   return error;
 }
 
+/// \throws InvalidInput if a level lacks vertices of the ring in which all faces end.
+void require_ring(const Inputs& inputs, const DetailLevel& level) {
+  if (!inputs.neck) return;
+  const Rim& rim = inputs.neck->seam.rim;
+  const auto kept = std::ranges::count_if(
+      rim, [&](std::uint32_t v) { return std::ranges::binary_search(level.vertices, v); });
+  if (kept == static_cast<std::ptrdiff_t>(rim.size())) return;
+  throw InvalidInput(concat("output.lods: a level of ", level.share * 100, " % keeps ", kept,
+                            " of the ", rim.size(),
+                            " vertices of neck.rim; levels keep a ring "
+                            "that is an open border"));
+}
+
 /// A level of detail, and its error on the heads and their shapes.
 MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, double share,
                              double mm) {
-  DetailLevel level = std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1})[0]);
+  const Borders borders = inputs.neck ? Borders::kStay : Borders::kCollapse;
+  DetailLevel level =
+      std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1}, borders)[0]);
+  require_ring(inputs, level);
   const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
@@ -101,6 +118,7 @@ Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double
   key.add_array(numbers_of(typical.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
   if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);
+  if (inputs.neck) key.add(inputs.neck->digest);
   return key.digest();
 }
 

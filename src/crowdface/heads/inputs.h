@@ -25,6 +25,8 @@
 
 namespace crowdface {
 
+struct HeadsOnBody;  // heads/heads_on_body.h
+
 /// A mesh that heads may wear, and its material files.
 struct Attachment {
   std::string name, kind;
@@ -79,6 +81,7 @@ struct Inputs {
   PartList parts;   ///< empty for `parts: none`
   Components skin;  ///< the components, with all skin merged into the largest
   std::shared_ptr<const MirrorMap> mirror;  ///< null unless the config has faces mirrored
+  std::shared_ptr<const HeadsOnBody> neck;  ///< null unless the config has `neck`
   ShapeSet shapes;
   Digest shapes_digest;  ///< if there are shapes
   std::vector<MeasuredLevel> levels;

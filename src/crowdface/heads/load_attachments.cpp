@@ -9,6 +9,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/read_heads.h"
 
@@ -21,10 +22,10 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
     return read_positions(file, inputs.faces.topology, config.faces.files.front().string());
   };
   if (!asked.file.empty()) return read(asked.file);
-  if (!asked.head) return mean_head(inputs.faces);
+  if (!asked.head) return inputs.neck ? inputs.neck->unplaced_mean : mean_head(inputs.faces);
   const auto head = static_cast<std::size_t>(*asked.head);
-  // Attachments were fitted to the head as its file has it, before any alignment.
-  if (config.faces.align == Align::kRigid) return read(config.faces.files[head]);
+  // Attachments were fitted to the head as its file has it, before it was moved.
+  if (config.faces.align == Align::kRigid || inputs.neck) return read(config.faces.files[head]);
   return inputs.faces.heads[head].positions;
 }
 

@@ -264,6 +264,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     problems.add(error);
     return std::nullopt;
   }
+  load_neck(config, inputs, problems);
+  if (!problems.empty()) return std::nullopt;
   hash_heads(inputs);
   inputs.mean = mean_head(inputs.faces);
   const std::size_t before = problems.size();

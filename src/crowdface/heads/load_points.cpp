@@ -9,6 +9,7 @@
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/read_heads.h"
 
@@ -75,6 +76,11 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
       continue;
     }
     points.positions.push_back(read_set(entry->value, points.names, complaints));
+    if (inputs.neck) {
+      const RigidMotion& placed = inputs.neck->heads[points.meshes.size()].placed;
+      Positions& own = points.positions.back();
+      for (Index p = 0; p < own.rows(); ++p) own.row(p) = placed.apply(row3(own, p)).transpose();
+    }
     points.meshes.push_back(head.positions);
   }
 }

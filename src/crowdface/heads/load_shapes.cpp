@@ -9,6 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
@@ -64,6 +65,11 @@ void read_meshes(const std::vector<std::filesystem::path>& asked, const Source& 
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
+/// Keeps a shape still at the ring in which all faces end.
+void hold_ring(const Inputs& inputs, Displacements& moves) {
+  if (inputs.neck) inputs.neck->seam.hold(moves);
+}
+
 /// Loads the template's shapes; skips those that the template lacks.
 ShapeSet load_template(const Source& source, const Inputs& inputs, double extent,
                        Problems& problems) {
@@ -80,6 +86,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     if (asked.files[s].empty()) continue;
     set.shapes.push_back(shape_of(asked.names[s], set.neutral, meshes[s], extent));
+    hold_ring(inputs, set.shapes.back().moves);
   }
   return set;
 }
@@ -92,7 +99,7 @@ struct RestingHead {
 
 RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t head) {
   const Positions& used = inputs.faces.heads[head].positions;
-  if (config.faces.align != Align::kRigid) return {used, {}};
+  if (config.faces.align != Align::kRigid && !inputs.neck) return {used, {}};
   Positions mesh = read_positions(config.faces.files[head], inputs.faces.topology,
                                   config.faces.files.front().string());
   std::vector<std::uint32_t> all(static_cast<std::size_t>(mesh.rows()));
@@ -111,6 +118,7 @@ void load_head(const Source& source, const Inputs& inputs, std::size_t head, dou
     for (Index row = 0; row < moves.moves.rows(); ++row) {
       moves.moves.row(row) = rest.motion.turn(row3(moves.moves, row)).transpose();
     }
+    hold_ring(inputs, moves);
     shapes[s] = own_shape_of(moves);
   });
 }

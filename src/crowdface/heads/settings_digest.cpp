@@ -9,6 +9,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/units.h"
+#include "crowdface/heads/heads_on_body.h"
 
 namespace crowdface {
 namespace {
@@ -49,6 +50,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   if (inputs.mirror != nullptr) {
     hasher.add(kMirrorVersion).add(config.faces.up.index).add(config.faces.front.index);
   }
+  if (inputs.neck != nullptr) hasher.add(kNeckVersion).add(inputs.neck->digest);
   return hasher.digest();
 }
 

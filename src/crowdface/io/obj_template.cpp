@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
@@ -97,7 +98,8 @@ bool is_zero(const Positions& rows, Index i) {
 
 }  // namespace
 
-ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool colours)
+ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool colours,
+                         const FixedNormals& fixed)
     : text_(target.file.bytes()),
       topology_(topology),
       vertices_(topology.vertex_count),
@@ -124,7 +126,32 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
   }
   if (!places.empty()) add_block(places);
   require_counts(target, vertices, vertices_, normals);
-  if (has_normals) fans_.emplace(topology, target.corner_normals, normals);
+  if (!has_normals) return;
+  fans_.emplace(topology, target.corner_normals, normals);
+  fix_normals(target.corner_normals, fixed);
+}
+
+void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
+                              const FixedNormals& fixed) {
+  if (fixed.vertices.empty()) return;
+  // The only vertex of each row of normals; kNoIndex if corners at several vertices use the row.
+  std::vector<std::uint32_t> vertices(static_cast<std::size_t>(fans_->rows()), kNoIndex);
+  std::vector<bool> is_used(vertices.size(), false);
+  for (std::size_t c = 0; c < corner_rows.size(); ++c) {
+    const std::uint32_t row = corner_rows[c], vertex = topology_.corner_vertices[c];
+    if (row == kNoIndex) continue;
+    if (!is_used[row]) vertices[row] = vertex;
+    if (vertices[row] != vertex) vertices[row] = kNoIndex;
+    is_used[row] = true;
+  }
+  std::map<std::uint32_t, Index> numbers;
+  for (const std::uint32_t vertex : fixed.vertices) {
+    numbers.emplace(vertex, static_cast<Index>(numbers.size()));
+  }
+  for (std::uint32_t row = 0; row < vertices.size(); ++row) {
+    const auto found = numbers.find(vertices[row]);
+    if (found != numbers.end()) fixed_.emplace_back(row, fixed.normals.row(found->second));
+  }
 }
 
 void ObjTemplate::add_block(const std::vector<Place>& places) {
@@ -163,6 +190,7 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
   require(!colours_ || colours.rows() == vertices_, "ObjTemplate: a colour of each vertex");
   Positions normals;
   if (fans_) normals = fans_->normals(topology_, positions, {0, 0, 0});
+  for (const auto& [row, normal] : fixed_) normals.row(row) = normal;
   const Rows rows{positions, normals, colours};
   EncodedFile file;
   char* buffer = file.reserve(buffer_size_);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "crowdface/io/encoded_file.h"
@@ -15,6 +16,12 @@
 
 namespace crowdface {
 
+/// Vertices whose normals do not follow from the mesh, and these normals.
+struct FixedNormals {
+  std::vector<std::uint32_t> vertices;
+  Positions normals;  ///< #vertices by 3
+};
+
 /// Writes copies of an OBJ file with other positions. Every byte but the x y z of `v` lines (and of
 /// `vn` lines, if any) comes from the file, in whatever order its lines are. Built once per target;
 /// needs 16 bytes per line besides the text.
@@ -24,7 +31,9 @@ class ObjTemplate {
   /// the target is not needed afterwards.
   /// \param topology  the faces, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false);
+  /// \param fixed  normals of the files' `vn` lines that only corners at one of these vertices use.
+  ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
+              const FixedNormals& fixed = {});
 
   /// The file with these positions. Each number is the shortest text that reads back as the same
   /// single-precision value. A normal is recomputed from the faces whose corners use it; an unused
@@ -64,6 +73,7 @@ class ObjTemplate {
     const ColourRows& colours;
   };
 
+  void fix_normals(const std::vector<std::uint32_t>& corner_rows, const FixedNormals& fixed);
   void add_block(const std::vector<Place>& places);
   char* encode_block(const Block& block, const Rows& rows, char* out) const;
   char* encode_place(const Place& place, const Rows& rows, char* out) const;
@@ -73,6 +83,8 @@ class ObjTemplate {
   Index vertices_ = 0;
   bool colours_;
   std::vector<Block> blocks_;
+  /// Rows of normals with given values.
+  std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_;
   std::optional<NormalFans> fans_;  ///< for the `vn` lines, if faces use any
   std::size_t buffer_size_ = 0;
 };

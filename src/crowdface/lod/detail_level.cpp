@@ -66,16 +66,16 @@ Displacements DetailLevel::of(const Displacements& whole) const {
 }
 
 std::vector<DetailLevel> detail_levels(const HeadSet& faces, std::span<const std::uint32_t> looks,
-                                       std::span<const double> shares) {
+                                       std::span<const double> shares, Borders borders) {
   const SplitMesh split = split_mesh(faces.topology, faces.uvs, looks);
   const Positions positions = split.of(mean_head(faces));
   std::vector<DetailLevel> levels(shares.size());
   parallel_for_each(shares.size(), [&](std::size_t l) {
     const double most = shares[l] * static_cast<double>(split.triangles.size());
-    levels[l] = level_of(
-        split,
-        reduce_triangles(split.triangles, positions, static_cast<std::size_t>(std::round(most))),
-        faces);
+    levels[l] = level_of(split,
+                         reduce_triangles(split.triangles, positions,
+                                          static_cast<std::size_t>(std::round(most)), borders),
+                         faces);
     levels[l].share = shares[l];
   });
   return levels;

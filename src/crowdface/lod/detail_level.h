@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowdface/mesh/displacements.h"
+#include "crowdface/preview/reduced_mesh.h"
 
 namespace crowdface {
 
@@ -39,8 +40,10 @@ struct LevelError {
 ///                look are contiguous.
 /// \param shares  fractions of the triangles, each in (0, 1). A level has more triangles if its
 ///                borders need them.
+/// \param borders what becomes of the vertices of open borders.
 /// \return        #shares levels.
 std::vector<DetailLevel> detail_levels(const HeadSet& faces, std::span<const std::uint32_t> looks,
-                                       std::span<const double> shares);
+                                       std::span<const double> shares,
+                                       Borders borders = Borders::kCollapse);
 
 }  // namespace crowdface

@@ -44,9 +44,10 @@ std::vector<Triangle> for_drawing(std::vector<unsigned int> corners, Index verte
 }  // namespace
 
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
-                                       const Positions& positions, std::size_t most) {
+                                       const Positions& positions, std::size_t most,
+                                       Borders borders) {
   std::vector<unsigned int> corners = corners_of(triangles);
-  reduce(corners, positions, most);
+  reduce(corners, positions, most, borders == Borders::kStay ? meshopt_SimplifyLockBorder : 0U);
   return for_drawing(std::move(corners), positions.rows());
 }
 

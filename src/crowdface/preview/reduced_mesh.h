@@ -9,13 +9,18 @@
 
 namespace crowdface {
 
+/// Whether simplification may remove vertices of open borders.
+enum class Borders { kCollapse, kStay };
+
 /// Collapses edges until at most `most` triangles are left, in the order of least error (quadric
 /// error metrics, Garland & Heckbert 1997, by meshoptimizer). Edges of open borders, and of seams
 /// (borders where several vertices share one position), collapse along the border only. If these
 /// constraints block further collapses, more than `most` triangles remain.
 /// \param positions  #V by 3, finite.
+/// \param borders    what becomes of the vertices of open borders.
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
-                                       const Positions& positions, std::size_t most);
+                                       const Positions& positions, std::size_t most,
+                                       Borders borders = Borders::kCollapse);
 
 /// A reduced mesh over a subset of a mesh's vertices, numbered in the order of first use by a
 /// triangle.

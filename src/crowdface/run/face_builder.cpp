@@ -8,6 +8,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/head_mirror.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
@@ -105,6 +106,7 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (keeps_contacts_) contacts_->bring_into(contact_ranges(recipe), face);
   if (follower_) follower_->follow(recipe.target, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
+  if (inputs_.neck) inputs_.neck->seam.fit(face);
 }
 
 const MirrorMap& FaceBuilder::mirror() const {
@@ -120,7 +122,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
     return this->defects(check, other_way, mirrored(mirror(), face));
   }
   SkinDefects defects;
-  if (recipe.mixture.empty() && recipe.asymmetry == 1) {
+  if (recipe.mixture.empty() && recipe.asymmetry == 1 && !inputs_.neck) {
     defects = check.compare(face, recipe.target);
   } else {
     Positions target = target_positions(inputs_.faces, recipe);
@@ -128,6 +130,8 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
       target = between_mirrored(target, mirrored(mirror(), target),
                                 mirror_share(recipe.asymmetry, false));
     }
+    // The bend at the neck is no defect.
+    if (inputs_.neck) inputs_.neck->seam.bend_like(face, target);
     defects = check.compare(face, target);
   }
   defects.wider_mm = contacts_->wider(face) * mm_per_unit_;

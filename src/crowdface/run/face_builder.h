@@ -56,7 +56,7 @@ class FaceBuilder {
   std::uint64_t bytes(std::size_t faces) const;
 
  private:
-  /// The steps after blending: asymmetry, contacts, parts, mirroring.
+  /// The steps after blending: asymmetry, contacts, parts, mirroring, the ring at the neck.
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed at the first call. Thread-safe.
   const MirrorMap& mirror() const;

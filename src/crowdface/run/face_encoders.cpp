@@ -7,6 +7,7 @@
 
 #include "crowdface/core/contains.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/single_precision.h"
@@ -100,7 +101,7 @@ void FaceEncoders::prepare(FinishedFace& face) const {
   const bool need_normals = std::ranges::any_of(formats_, [&](MeshFormat format) {
     return needs_normals(format, levels_.size() - 1, target);
   });
-  if (need_normals) face.normals = vertex_normals(*fans_, inputs_.faces.topology, face.positions);
+  if (need_normals) face.normals = normals_of(face.positions);
   if (points_) face.points = points_->carry(target, face.positions);
   if (joints_) face.joints = joints_->carry(target, face.positions);
   if (holds_textures()) face.images = own_->of_mesh(*face.textures);
@@ -108,6 +109,12 @@ void FaceEncoders::prepare(FinishedFace& face) const {
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     face.meshes.push_back(mesh_on(level, face));
   }
+}
+
+Positions FaceEncoders::normals_of(const Positions& positions) const {
+  Positions normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
+  if (inputs_.neck) inputs_.neck->seam.set_normals(normals);
+  return normals;
 }
 
 FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
@@ -152,7 +159,7 @@ EncodedFile FaceEncoders::mesh(const FinishedFace& face, MeshFormat format, std:
   Positions positions = face.positions, normals;
   face.moves[*shape].add_to(positions);
   if (needs_normals(format, level, acting.target)) {
-    normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
+    normals = normals_of(positions);
     if (level > 0) normals = levels_[level].face->of(normals);
   }
   if (level > 0) positions = levels_[level].face->of(positions);

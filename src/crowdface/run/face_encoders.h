@@ -100,6 +100,8 @@ class FaceEncoders {
  private:
   /// Whether files of this format have vertex normals at this level of detail.
   bool needs_normals(MeshFormat format, std::size_t level, Index target) const;
+  /// Vertex normals; at the neck's ring those that all faces share.
+  Positions normals_of(const Positions& positions) const;
   FaceMesh mesh_on(std::size_t level, FinishedFace& face) const;
 
   const Config& config_;

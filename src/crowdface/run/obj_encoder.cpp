@@ -6,6 +6,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_template.h"
@@ -73,9 +74,13 @@ std::map<Index, std::string> shared_libraries(const MeshSource& source) {
 MeshEncoder whole_encoder(const MeshSource& source) {
   const std::span<const Index> targets = source.targets;
   std::vector<std::optional<ObjTemplate>> made(targets.size());
+  FixedNormals fixed;
+  if (source.inputs.neck) {
+    fixed = {source.inputs.neck->seam.rim, source.inputs.neck->seam.normals};
+  }
   parallel_for_each(targets.size(), [&](std::size_t t) {
     made[t].emplace(source.inputs.files[static_cast<std::size_t>(targets[t])],
-                    source.inputs.faces.topology, !source.inputs.colours.empty());
+                    source.inputs.faces.topology, !source.inputs.colours.empty(), fixed);
   });
   const auto forms = std::make_shared<std::map<Index, ObjTemplate>>();
   for (std::size_t t = 0; t < targets.size(); ++t) forms->emplace(targets[t], std::move(*made[t]));

@@ -14,8 +14,10 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/settings_digest.h"
 #include "crowdface/io/shallow_json.h"
+#include "crowdface/mesh/alignment.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -173,6 +175,22 @@ std::string indented(const Json& json, std::size_t levels) {
   return text;
 }
 
+/// How each head was fitted to the ring at the neck.
+Json neck_to_json(const Job& job) {
+  const HeadsOnBody& neck = *job.inputs.neck;
+  Json heads = Json::array();
+  for (std::size_t h = 0; h < neck.heads.size(); ++h) {
+    const auto& [placed, moved_mm, bent_mm] = neck.heads[h];
+    heads.push_back({{"name", job.names.heads[h]},
+                     {"moved_mm", rounded(moved_mm)},
+                     {"turned_degrees", rounded(Similarity{placed.rotation}.angle_degrees())},
+                     {"bent_mm", rounded(bent_mm)}});
+  }
+  return {{"ring_vertices", neck.seam.rim.size()},
+          {"bent_vertices", neck.seam.neck.vertices().size()},
+          {"heads", std::move(heads)}};
+}
+
 /// The report without the faces.
 Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
              const Json& casting, const std::vector<FaceResult>& faces, std::size_t sheets,
@@ -190,6 +208,7 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
   if (!job.inputs.levels.empty()) report["lods"] = lods_to_json(job.inputs);
   report["smoothing"] = smoothing_to_json(job, prepared, crowd_plan);
   report["heads"] = heads_to_json(job, crowd_plan);
+  if (job.inputs.neck) report["neck"] = neck_to_json(job);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
   for (const auto& [name, digest] : digests_beside_heads(job.inputs)) {
@@ -239,7 +258,8 @@ std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& i
       {"shapes", inputs.shapes_digest},
       {"points", inputs.points_digest},
       {"rig", inputs.rig.digest},
-      {"attachments", inputs.attachments.digest}};
+      {"attachments", inputs.attachments.digest},
+      {"neck", inputs.neck ? inputs.neck->digest : Digest()}};
   for (const HeadTextures& maps : inputs.maps) {
     const TextureKind kind = maps.names.front().kind;
     digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);

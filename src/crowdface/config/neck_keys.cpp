@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `neck`.
+#include "crowdface/config/config_keys.h"
+
+namespace crowdface {
+namespace {
+
+using Neck = Config::Neck;
+
+constexpr double kMaxFalloffMm = 1000;
+
+Codec<std::filesystem::path> existing_file(const std::string& expected) {
+  return such_that(path(expected),
+                   [](const std::filesystem::path& file, const YamlNode& node, ConfigDraft& draft) {
+                     return expect_file(node, file, draft);
+                   });
+}
+
+void read_like(const YamlNode& node, Neck& neck, ConfigDraft& draft) {
+  neck.mean = is_word(node, "mean");
+  if (!neck.mean) neck.like = head().read(node, draft);
+}
+
+std::string write_like(const Neck& neck, const ConfigWriting& writing) {
+  if (neck.mean) return "mean";
+  return neck.like ? writing.head(*neck.like) : "";
+}
+
+const Keys<Neck>& neck_keys() {
+  static const Keys<Neck> keys = {
+      key("body", &Neck::body, existing_file("a mesh file")),
+      Key<Neck>{"like", read_like, write_like}.taking("head, or `mean`"),
+      key("rim", &Neck::rim, existing_file("a text file of vertex numbers")),
+      key("falloff", &Neck::falloff_mm, positive_length(kMaxFalloffMm))};
+  return keys;
+}
+
+void read_neck(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  config.neck.mean = is_word(node, "mean");
+  if (config.neck.mean || is_word(node, "none")) return;
+  if (!draft.complaints.expect_map(
+          node, "none, mean, or a mapping with the keys body, like, rim, falloff")) {
+    return;
+  }
+  const std::size_t before = draft.complaints.size();
+  read_keys(node, neck_keys(), config.neck, draft);
+  if (draft.complaints.size() > before) return;
+  const bool has_like = node.find("like") != nullptr;
+  if (has_like == !config.neck.body.empty()) {
+    draft.complaints.about(node, "expected either body (a mesh file) or like (a head, or mean)");
+  }
+}
+
+std::string write_neck(const Config& config, const ConfigWriting& writing) {
+  if (!config.neck.is_set()) return "";
+  return block_map(write_keys(neck_keys(), config.neck, writing));
+}
+
+}  // namespace
+
+Key<Config> neck_key() {
+  return Key<Config>{"neck", read_neck, write_neck}.holding(neck_keys());
+}
+
+}  // namespace crowdface

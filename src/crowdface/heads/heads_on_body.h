@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/neck/seam.h"
+#include "crowdface/parts/rigid_motion.h"
+
+namespace crowdface {
+
+/// All heads on one body (config section `neck`). Heads are moved only; the neck of each finished
+/// face is bent, so that the face above is the same as without a body.
+struct HeadsOnBody {
+  /// How a head was placed.
+  struct Head {
+    RigidMotion placed;   ///< from the head's file to its place on the body; scale 1
+    double moved_mm = 0;  ///< rms distance by which the placement moves the ring
+    double bent_mm = 0;   ///< largest distance of the placed ring from the body's
+  };
+  Seam seam;
+  std::vector<Head> heads;
+  Positions unplaced_mean;  ///< mean of the heads before they were placed
+  Digest digest;            ///< hash of the seam and of `falloff`
+};
+
+}  // namespace crowdface

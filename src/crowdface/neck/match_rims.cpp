@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/neck/match_rims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/parts/rigid_motion.h"
+
+namespace crowdface {
+namespace {
+
+using Eigen::Vector3d;
+
+// Rims that differ by more than this are of another unit, another pose or another place. Smaller
+// differences are what heads of different people have.
+constexpr double kMaxScale = 1.3;
+constexpr double kMaxTurnDegrees = 12;
+constexpr double kRoundingMm = 0.01;
+
+double length_of(const Rim& rim, const Positions& positions) {
+  double sum = 0;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    sum += (row3(positions, rim[i]) - row3(positions, rim[(i + 1) % rim.size()])).norm();
+  }
+  return sum;
+}
+
+Vector3d centroid(const Positions& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (Index i = 0; i < points.rows(); ++i) sum += row3(points, i);
+  return sum / static_cast<double>(points.rows());
+}
+
+Positions centred(const Positions& points) {
+  return points.rowwise() - centroid(points).transpose();
+}
+
+double square_sum(const Positions& rows) {
+  double sum = 0;
+  for (Index i = 0; i < rows.size(); ++i) sum += rows.data()[i] * rows.data()[i];
+  return sum;
+}
+
+double root_mean_square(const Positions& rows) {
+  return std::sqrt(square_sum(rows) / static_cast<double>(rows.rows()));
+}
+
+/// The best motion without scale from `from` to `to`, and what it leaves.
+struct RigidFit {
+  double degrees = 0, left = 0;  ///< angle; rms distance
+};
+
+RigidFit rigid_fit(const Positions& from, const Positions& to) {
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
+  std::iota(all.begin(), all.end(), 0U);
+  RigidMotion motion = fit_rigid_motion(from, to, all, std::vector<double>(all.size(), 1.0));
+  motion.scale = 1;
+  Positions left(from.rows(), 3);
+  for (Index i = 0; i < from.rows(); ++i) {
+    left.row(i) = row3(to, i) - motion.apply(row3(from, i));
+  }
+  return {Similarity{motion.rotation}.angle_degrees(), root_mean_square(left)};
+}
+
+/// `rim` from the start `shift`, forwards or backwards.
+Rim shifted(const Rim& rim, std::size_t shift, bool forwards) {
+  Rim result;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const std::size_t step = forwards ? i : rim.size() - i;
+    result.push_back(rim[(shift + step) % rim.size()]);
+  }
+  return result;
+}
+
+/// Mean square of the distances from each point to the nearest of the others.
+double nearest_rms(const Positions& points, const Positions& others) {
+  double sum = 0;
+  for (Index i = 0; i < points.rows(); ++i) {
+    double nearest = std::numeric_limits<double>::max();
+    for (Index k = 0; k < others.rows(); ++k) {
+      nearest = std::min(nearest, (row3(points, i) - row3(others, k)).squaredNorm());
+    }
+    sum += nearest;
+  }
+  return std::sqrt(sum / static_cast<double>(points.rows()));
+}
+
+std::string mm_text(double mm) {
+  return concat(format_fixed(mm, 1), " mm");
+}
+
+/// Why two matched rims do not belong together; empty if they do.
+/// \param turned  the fit of the start that fits best after a rotation
+std::string fault_of(const Positions& head, const Positions& body, const RigidFit& turned,
+                     double reach_mm) {
+  const Positions from = centred(head), to = centred(body);
+  const double radius = root_mean_square(from), found = root_mean_square(to);
+  if (!(found < kMaxScale * radius && radius < kMaxScale * found)) {
+    return concat("is ", format_fixed(found / radius, 2), " times as large: its radius is ",
+                  mm_text(found), ", that of the heads' rim ", mm_text(radius),
+                  " (scaled, or in another unit?)");
+  }
+  const double off = (centroid(body) - centroid(head)).norm();
+  if (off > reach_mm) return concat("lies elsewhere, ", mm_text(off), " off the heads' rim");
+  const RigidFit own = rigid_fit(from, to);
+  // A turned copy of a neck fits its own start, which needs a large angle, better than the nearest.
+  constexpr double kBetter = 0.85;
+  const bool fits_turned =
+      turned.degrees > kMaxTurnDegrees && turned.left < kBetter * own.left - kRoundingMm;
+  const double degrees = fits_turned ? turned.degrees : own.degrees;
+  if (degrees > kMaxTurnDegrees) {
+    return concat("is turned by ", format_fixed(degrees, 0), " degrees, ",
+                  mm_text(2 * radius * std::sin(degrees * std::numbers::pi / 360)),
+                  " along the heads' rim");
+  }
+  if (own.left <= reach_mm / 3) return {};
+  if (nearest_rms(from, to) < own.left / 2) {
+    return concat("has its vertices in another order: one after the other they lie ",
+                  mm_text(own.left), " (rms) off those of the heads' rim");
+  }
+  return concat("has another form: its vertices lie ", mm_text(own.left),
+                " (rms) off those of the heads' rim");
+}
+
+}  // namespace
+
+Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const Vector3d& up,
+               double mm) {
+  constexpr double kLong = 0.5, kSameHeightMm = 10;
+  double longest = 0;
+  for (const Rim& rim : rims) longest = std::max(longest, length_of(rim, positions));
+  std::vector<std::pair<double, const Rim*>> long_ones;  // by height
+  for (const Rim& rim : rims) {
+    if (length_of(rim, positions) < kLong * longest) continue;
+    long_ones.emplace_back(centroid(positions(rim, kAllColumns)).dot(up), &rim);
+  }
+  if (long_ones.empty()) {
+    throw InvalidInput("the heads have no open rim; neck.rim can name the vertices of the seam");
+  }
+  std::ranges::stable_sort(long_ones, {}, &std::pair<double, const Rim*>::first);
+  if (long_ones.size() > 1 && (long_ones[1].first - long_ones[0].first) * mm < kSameHeightMm) {
+    throw InvalidInput(concat("the heads have two open rims at their lower end, of ",
+                              long_ones[0].second->size(), " and ", long_ones[1].second->size(),
+                              " vertices; neck.rim can name the vertices of the seam"));
+  }
+  return *long_ones.front().second;
+}
+
+RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm) {
+  RimMatch match;
+  double least = std::numeric_limits<double>::max();
+  RigidFit turned{0, least};
+  for (const bool forwards : {true, false}) {
+    for (std::size_t shift = 0; shift < rim.size(); ++shift) {
+      Rim order = shifted(rim, shift, forwards);
+      const Positions points = body(order, kAllColumns);
+      const RigidFit fit = rigid_fit(head, points);
+      if (fit.left < turned.left) turned = fit;
+      const double sum = square_sum(points - head);
+      if (sum >= least) continue;
+      least = sum;
+      match.rim = std::move(order);
+    }
+  }
+  const Positions points = body(match.rim, kAllColumns);
+  match.off_mm = (centroid(points) - centroid(head)).norm();
+  match.fault = fault_of(head, points, turned, reach_mm);
+  return match;
+}
+
+Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
+                 double reach_mm) {
+  const auto count = static_cast<std::size_t>(head.rows());
+  std::vector<RimMatch> matches;
+  std::vector<std::string> others;
+  for (const Rim& rim : rims) {
+    if (rim.size() == count) {
+      matches.push_back(match_rims(head, rim, body, reach_mm));
+      continue;
+    }
+    const Positions points = body(rim, kAllColumns);
+    others.push_back(concat(rim.size(), " vertices, ",
+                            mm_text((centroid(points) - centroid(head)).norm()), " off"));
+  }
+  const std::string expected =
+      concat("expected an open rim of ", count, " vertices where the heads' neck ends, found ");
+  if (matches.empty()) {
+    constexpr std::size_t kNamed = 6;
+    const std::size_t more = others.size() - std::min(others.size(), kNamed);
+    others.resize(others.size() - more);
+    throw InvalidInput(
+        concat(expected, others.empty() ? "none"
+                                        : concat("rims of ", join(others, "; "),
+                                                 more > 0 ? concat("; and ", more, " more") : "")));
+  }
+  std::ranges::sort(matches, {}, &RimMatch::off_mm);
+  const auto fitting =
+      std::ranges::count_if(matches, [](const RimMatch& match) { return match.fault.empty(); });
+  if (fitting == 0) {
+    throw InvalidInput(concat(expected, "one that ", matches.front().fault));
+  }
+  std::erase_if(matches, [](const RimMatch& match) { return !match.fault.empty(); });
+  if (fitting > 1) {
+    throw InvalidInput(concat(expected, fitting, " that fit, ", mm_text(matches[0].off_mm), " and ",
+                              mm_text(matches[1].off_mm), " off"));
+  }
+  return matches.front().rim;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/neck/open_rims.h"
+
+namespace crowdface {
+
+/// The heads' neck: the lowest of the long open rims.
+/// \param up  unit vector
+/// \param mm  length of a unit of the positions
+/// \throws InvalidInput if there is no open rim, or if two long rims are equally low.
+Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const Eigen::Vector3d& up,
+               double mm);
+
+/// How a body's rim lies relative to the heads' rim.
+struct RimMatch {
+  Rim rim;            ///< the body's vertex for each vertex of the heads' rim
+  double off_mm = 0;  ///< distance between the centroids
+  std::string fault;  ///< why the rims do not match; empty if they do
+};
+
+/// Matches two rims of equal length: of all starts and both directions, the one with the smallest
+/// sum of squared distances.
+/// \param head     the heads' rim, #rim by 3, in mm, in order
+/// \param body     positions of the whole body, in mm
+/// \param reach_mm largest offset: the falloff
+RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm);
+
+/// Finds the rim of a body that matches the heads' rim.
+/// \throws InvalidInput with the number of vertices and the offsets that were found if no rim
+///         matches, or if several do.
+Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
+                 double reach_mm);
+
+}  // namespace crowdface

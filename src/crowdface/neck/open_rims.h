@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// A closed loop of edges: its vertices in order, each once.
+using Rim = std::vector<std::uint32_t>;
+
+/// The open rims of a mesh: closed loops of edges that have exactly one polygon, ordered by their
+/// lowest vertices. A vertex where two rims touch breaks both, and they are left out.
+std::vector<Rim> open_rims(const Topology& topology, const Adjacency& adjacency);
+
+/// The closed loop that the edges among these vertices form; empty if they do not form exactly one.
+Rim rim_through(std::span<const std::uint32_t> vertices, const Adjacency& adjacency);
+
+}  // namespace crowdface

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/neck/seam.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/mesh/all_columns.h"
+
+namespace crowdface {
+namespace {
+
+/// Adds displacements of vertices, ascending, to `sum`; vertices that `sum` lacks are skipped.
+void add_rows(const std::vector<std::uint32_t>& vertices, const Positions& rows,
+              Displacements& sum) {
+  auto at = sum.vertices.begin();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    at = std::lower_bound(at, sum.vertices.end(), vertices[i]);
+    if (at == sum.vertices.end()) return;
+    if (*at == vertices[i])
+      sum.moves.row(at - sum.vertices.begin()) += rows.row(static_cast<Index>(i));
+  }
+}
+
+void set_rows(const Rim& rim, const Positions& rows, Positions& mesh) {
+  for (std::size_t i = 0; i < rim.size(); ++i) mesh.row(rim[i]) = rows.row(static_cast<Index>(i));
+}
+
+/// Bends the neck of a mesh and gives the rim these positions.
+void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
+  const Positions moves = goal - mesh(seam.rim, kAllColumns);
+  // Blending heads that all end in the ring leaves rounding errors only.
+  constexpr double kRounding = 1e-9;
+  if (moves.cwiseAbs().maxCoeff() > kRounding * goal.cwiseAbs().maxCoeff()) {
+    const std::vector<std::uint32_t>& bent = seam.neck.vertices();
+    const Positions by = seam.neck.bend(moves);
+    for (std::size_t i = 0; i < bent.size(); ++i)
+      mesh.row(bent[i]) += by.row(static_cast<Index>(i));
+  }
+  set_rows(seam.rim, goal, mesh);
+}
+
+}  // namespace
+
+void Seam::fit(Positions& mesh) const {
+  bend_to(*this, positions, mesh);
+}
+
+void Seam::bend_like(const Positions& face, Positions& mesh) const {
+  bend_to(*this, face(rim, kAllColumns), mesh);
+}
+
+void Seam::hold(Displacements& moves) const {
+  Positions at_rim = Positions::Zero(positions.rows(), 3);
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const auto found = std::ranges::lower_bound(moves.vertices, rim[i]);
+    if (found == moves.vertices.end() || *found != rim[i]) continue;
+    at_rim.row(static_cast<Index>(i)) = moves.moves.row(found - moves.vertices.begin());
+  }
+  if (at_rim.isZero(0)) return;
+  Displacements held;
+  std::ranges::set_union(moves.vertices, neck.vertices(), std::back_inserter(held.vertices));
+  std::erase_if(held.vertices, [&](std::uint32_t v) { return contains(rim, v); });
+  held.moves = Positions::Zero(static_cast<Index>(held.vertices.size()), 3);
+  add_rows(moves.vertices, moves.moves, held);
+  add_rows(neck.vertices(), -neck.bend(at_rim), held);
+  moves = std::move(held);
+}
+
+void Seam::set_normals(Positions& of_mesh) const {
+  if (of_mesh.rows() > 0) set_rows(rim, normals, of_mesh);
+}
+
+}  // namespace crowdface

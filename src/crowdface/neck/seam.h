@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/mesh/displacements.h"
+#include "crowdface/neck/neck_bend.h"
+
+namespace crowdface {
+
+/// The ring of vertices in which all faces end, with its positions and normals, and the bending of
+/// the skin above it. Thread-safe.
+struct Seam {
+  Rim rim;
+  Positions positions, normals;  ///< #rim by 3; unit normals
+  NeckBend neck;
+
+  /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
+  void fit(Positions& mesh) const;
+  /// Bends the neck of a mesh so that the rim has the positions that it has in `face`.
+  void bend_like(const Positions& face, Positions& mesh) const;
+  /// Changes a shape's displacements smoothly so that they are zero at the rim.
+  void hold(Displacements& moves) const;
+  /// Gives the rim the seam's normals. \param of_mesh  #V by 3; may be empty
+  void set_normals(Positions& of_mesh) const;
+};
+
+}  // namespace crowdface
