@@ -47,8 +47,8 @@ void Seam::fit(Positions& mesh) const {
   bend_to(*this, positions, mesh);
 }
 
-void Seam::bend_like(const Positions& face, Positions& mesh) const {
-  bend_to(*this, face(rim, kAllColumns), mesh);
+void Seam::bend_like(const Positions& other, Positions& mesh) const {
+  bend_to(*this, other(rim, kAllColumns), mesh);
 }
 
 void Seam::hold(Displacements& moves) const {

@@ -15,8 +15,8 @@ struct Seam {
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
   void fit(Positions& mesh) const;
-  /// Bends the neck of a mesh so that the rim has the positions that it has in `face`.
-  void bend_like(const Positions& face, Positions& mesh) const;
+  /// Bends the neck of a mesh so that the rim has the positions that it has in `other`.
+  void bend_like(const Positions& other, Positions& mesh) const;
   /// Changes a shape's displacements smoothly so that they are zero at the rim.
   void hold(Displacements& moves) const;
   /// Gives the rim the seam's normals. \param of_mesh  #V by 3; may be empty

@@ -116,25 +116,24 @@ const MirrorMap& FaceBuilder::mirror() const {
 
 SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
                                  const Positions& face) const {
-  if (recipe.mirrored) {
-    Recipe other_way = recipe;
-    other_way.mirrored = false;
-    return this->defects(check, other_way, mirrored(mirror(), face));
-  }
-  SkinDefects defects;
-  if (recipe.mixture.empty() && recipe.asymmetry == 1 && !inputs_.neck) {
-    defects = check.compare(face, recipe.target);
-  } else {
-    Positions target = target_positions(inputs_.faces, recipe);
+  std::optional<Positions> mixed;  // the target, unless it is a head
+  if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
+    mixed = target_positions(inputs_.faces, recipe);
     if (recipe.asymmetry != 1) {
-      target = between_mirrored(target, mirrored(mirror(), target),
-                                mirror_share(recipe.asymmetry, false));
+      mixed = between_mirrored(*mixed, mirrored(mirror(), *mixed),
+                               mirror_share(recipe.asymmetry, false));
     }
-    // The bend at the neck is no defect.
-    if (inputs_.neck) inputs_.neck->seam.bend_like(face, target);
-    defects = check.compare(face, target);
   }
-  defects.wider_mm = contacts_->wider(face) * mm_per_unit_;
+  const Positions& target =
+      mixed ? *mixed : inputs_.faces.heads[static_cast<std::size_t>(recipe.target)].positions;
+  Positions judged = face;
+  if (inputs_.neck) {  // the bend at the neck is no defect: undo it
+    inputs_.neck->seam.bend_like(recipe.mirrored ? mirrored(mirror(), target) : target, judged);
+  }
+  if (recipe.mirrored) judged = mirrored(mirror(), judged);
+  SkinDefects defects =
+      mixed ? check.compare(judged, *mixed) : check.compare(judged, recipe.target);
+  defects.wider_mm = contacts_->wider(judged) * mm_per_unit_;
   return defects;
 }
 
