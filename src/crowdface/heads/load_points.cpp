@@ -101,8 +101,9 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
 }
 
 /// \param neutral  file of the shapes' template; empty if there is none
-void read_file(const std::filesystem::path& file, const YamlNode& root,
-               const std::filesystem::path& neutral, Inputs& inputs, Complaints& complaints) {
+void read_points_file(const std::filesystem::path& file, const YamlNode& root,
+                      const std::filesystem::path& neutral, Inputs& inputs,
+                      Complaints& complaints) {
   constexpr const char* kExpected =
       "a mapping with the keys template, points, or with the key heads";
   if (!complaints.expect_map(root, kExpected)) return;
@@ -128,7 +129,7 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems) {
   Complaints complaints;
   try {
     if (const auto root = read_yaml(config.points.string(), complaints)) {
-      read_file(config.points, *root, config.shapes.neutral, inputs, complaints);
+      read_points_file(config.points, *root, config.shapes.neutral, inputs, complaints);
     }
   } catch (const RecoverableError& error) {
     problems.add(error);
