@@ -25,7 +25,8 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
-  /// Returns the arguments `--limit` of this run, to pass on to processes that it starts.
+  /// Returns the run's `--limit` arguments, which are passed on to the processes that this run
+  /// starts.
   std::vector<std::string> limit_arguments() const;
   /// Applies the options. \return holds the thread limit during its lifetime.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
@@ -50,7 +51,7 @@ struct ConfigOptions : CacheOption {
   void add_review_to(CLI::App& command);
 };
 
-/// `--force`, `--dry-run`, `--memory`: options of commands that write into a crowd's folder.
+/// `--force`, `--dry-run`, `--memory`: options of the commands that write into a crowd's folder.
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
@@ -64,7 +65,7 @@ struct WriteOptions {
   GenerateOptions with_cache(const std::filesystem::path& cache) const;
 };
 
-/// Parses the value `I/N` of `--shard`; an empty text is the whole job. \throws UsageError.
+/// Parses the value `I/N` of `--shard`; an empty text gives the shard 1/1. \throws UsageError.
 Shard shard_from(const std::string& text);
 
 /// Parses a size with its unit, "4 GiB"; returns 0 if `text` is empty.
@@ -79,11 +80,12 @@ void print(std::string_view text);
 
 enum class Browser { kOpen, kNone };
 
-/// Prints the address of a page that is being served. Also opens it in the browser if there is a
-/// display and `browser` is kOpen; failures to start the browser are ignored.
+/// Prints the address of the page that the process serves. With kOpen and a display, also opens the
+/// page in the browser; a failure to start the browser is ignored.
 void show_page(const std::string& address, Browser browser);
 
-/// Parses a whole number in [least, most]. \param option  for messages. \throws UsageError.
+/// Parses a whole number in [least, most]. \param option  name of the option, for messages. \throws
+/// UsageError.
 std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
                            std::uint64_t most);
 

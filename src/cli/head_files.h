@@ -12,7 +12,7 @@
 
 namespace crowdface::cli {
 
-inline constexpr std::uint64_t kMaxMade = 1000;  ///< largest number of heads per command
+inline constexpr std::uint64_t kMaxMade = 1000;  ///< largest number of heads that one command makes
 inline constexpr int kMaskSize = 1024;           ///< width and height of masks in pixels
 inline constexpr std::uint64_t kMinTexture = 64,
                                kMaxTexture = 8192;  ///< width and height of textures in pixels
@@ -44,9 +44,9 @@ struct TaggedHead {
 /// Returns "young" below 35 years, "adult" below 55 years, else "old".
 std::string_view age_class(double years);
 
-/// Returns YAML with the section `faces`, which contains only tags ([female, old]); ages are
-/// comments.
-/// \param about  first line of the comment at the top, without "# ", a description of the heads.
+/// Returns YAML with the section `faces`, which contains only tags ([female, old]). The ages are
+/// comments in this YAML.
+/// \param about  first line of the comment at the top, without "# ": a description of the heads.
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view about);
 
 /// Returns a name with at least two digits: "synth_01".

@@ -15,8 +15,8 @@
 
 namespace crowdface::cli {
 
-/// The files that `import makehuman --dress` writes in addition to the heads. Textures are computed
-/// only when they are written.
+/// The files that `import makehuman --dress` writes in addition to the heads. A texture is computed
+/// only when its file is written.
 class MakeHumanDress {
  public:
   /// Adds eyes, lashes, teeth and tongue to the model's heads.
@@ -27,9 +27,9 @@ class MakeHumanDress {
   /// Adds a person's material file `NAME.mtl`, skin texture `NAME_skin.png`, and eye texture.
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
                   std::uint64_t index, std::vector<HeadFile>& files);
-  /// Adds the files that all heads share: textures of lashes, teeth and tongue; a folder
-  /// `attachments` with the hair, brows and beards that previously added persons may wear, and with
-  /// the config section that lists these; `licences.txt`.
+  /// Adds the files that all heads share: textures of lashes, teeth and tongue; the folder
+  /// `attachments` with the hair, brows and beards that the persons added so far may wear, and with
+  /// the config section that lists these attachments; `licences.txt`.
   /// \param base  the average head, in the heads' topology.
   void add_common(const std::filesystem::path& folder, HeadFile base, std::vector<HeadFile>& files);
 
@@ -41,7 +41,8 @@ class MakeHumanDress {
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;
   int max_texels_;
-  std::set<std::set<std::string>> tags_;               ///< sets of tags of the added persons
+  std::set<std::set<std::string>> tags_;               ///< the different tag sets of the added
+                                                       ///< persons
   std::map<std::string, std::filesystem::path> eyes_;  ///< eye textures in use, by colour
 };
 

@@ -23,8 +23,9 @@ class SynthHair {
   /// brown_hair, straight_hair"; the form is "bald" if the crown is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
-  /// Adds the folder `attachments` in the folder of the heads: meshes, materials, textures, the
-  /// average head that the meshes are fitted to, and attachments.yaml with the config's section.
+  /// Adds the files of the folder `attachments`, inside the folder of the heads: meshes, materials,
+  /// textures, the average head that the meshes are fitted to, and attachments.yaml with the
+  /// config's section.
   void add_files(const std::filesystem::path& directory, const SyntheticHeads& heads,
                  const std::vector<MaterialRange>& materials, std::vector<HeadFile>& files) const;
 

@@ -42,7 +42,7 @@ struct WrapInputs {
   Digest digest;                                  ///< digest of all inputs in this struct
 };
 
-/// \throws Error naming the file or option that is wrong.
+/// \throws Error that names the faulty file or option.
 WrapInputs read_wrap_inputs(const WrapOptions& options);
 
 /// Parses a length unit. \throws UsageError naming the option.
