@@ -24,9 +24,9 @@ class AttachmentCarrier {
                     AttachmentMove move);
 
   /// Returns the attachment's vertices on a face. Vertices that were outside the skin of the fitted
-  /// mesh stay outside. A bending attachment gets its original gap to the skin if that gap was
-  /// narrow, otherwise at least two millimetres. A rigid attachment keeps its distance as far as
-  /// moving it as a whole allows.
+  /// mesh stay outside. For a bending attachment, a narrow gap to the skin is restored; elsewhere
+  /// the gap is at least two millimetres. A rigid attachment moves as a whole, so it keeps its gaps
+  /// only approximately.
   ///
   /// \param face     #V by 3, in the topology of the fitted mesh.
   /// \param normals  Normals of the face, from FittedSkin::normals.

@@ -5,7 +5,7 @@ namespace crowdface {
 
 /// How an attachment follows the skin under it.
 enum class AttachmentMove {
-  kBend,   ///< each place follows the skin around it, smoothly: hair, brows, beard
+  kBend,   ///< each point follows the skin around it, smoothly: hair, brows, beard
   kRigid,  ///< the whole attachment rotates, translates and scales: glasses
 };
 

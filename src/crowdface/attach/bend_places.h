@@ -12,13 +12,13 @@ namespace crowdface {
 /// The nodes of a moving-least-squares deformation. Each node has a patch of skin that determines
 /// its motion; each point blends the motions of the nodes around it.
 struct BendPlaces {
-  /// Spacing of the nodes, as a fraction of the reach of a node's patch. No node is nearer than
-  /// this to an earlier node, and every point is within this distance of a node.
+  /// Minimum distance between two nodes, as a fraction of the reach of a node's patch. Every point
+  /// is within this distance of a node.
   static constexpr double kApart = 0.3;
-  /// Radius of a node's influence on points, in multiples of that spacing.
+  /// Radius within which a node influences points, in multiples of the distance kApart.
   static constexpr double kHeard = 2;
 
-  /// The weight of one node for one point.
+  /// The weight of one node at one point.
   struct Share {
     std::uint32_t place;
     float weight;  ///< weights of a point do not sum to one

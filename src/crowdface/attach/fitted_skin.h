@@ -55,7 +55,7 @@ class FittedSkin {
   /// Weights and reach are continuous in the point, so neighbouring points get almost the same
   /// patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
-  /// \param least  Reach of a point on the skin, if the vertices there are dense enough.
+  /// \param least  Minimum reach of the patch.
   Patch patch_around(const Eigen::Vector3d& point, double least) const;
 
   /// Returns the outward unit normals of a face's vertices, #V by 3.
@@ -70,7 +70,7 @@ class FittedSkin {
                        const Eigen::Vector3d& point) const;
 
  private:
-  /// A subset of the skin's vertices, one for each cell of a grid.
+  /// A level of detail of the skin: one vertex for each occupied cell of a grid.
   struct Level {
     double spacing;
     std::vector<std::uint32_t> vertices;
@@ -89,7 +89,7 @@ class FittedSkin {
   double mm_;
   FacesAround around_;
   NormalFans fans_;
-  double side_ = 1;  ///< −1 if the faces are wound so that their normals point inwards
+  double side_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;
   std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level
 };

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Places a rigid attachment on a face. The attachment moves by the best rotation, translation and
-/// scale of the skin near it. A few more small motions then move it out of the skin as far as
-/// possible.
+/// Places a rigid attachment on a face. The attachment first gets the best rotation, translation
+/// and scale of the skin near it. A few small rigid motions then reduce how far it penetrates the
+/// skin.
 class RigidSeat {
  public:
   /// \param skin    Must outlive this object.

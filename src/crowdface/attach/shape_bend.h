@@ -26,8 +26,8 @@ class ShapeBend {
   ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
             const Positions& points);
 
-  /// Returns how the attachment moves in an expression. Points that depend on no moved skin are
-  /// left out.
+  /// Returns how the attachment moves in an expression. The result omits points whose patches
+  /// contain no moved skin.
   ///
   /// \param face   #V by 3, at rest.
   /// \param placed #P by 3, the attachment on that face at rest.

@@ -24,8 +24,8 @@ class SkinGaps {
     double height;            ///< distance by which the vertex must move outwards
     Eigen::Vector3d outward;  ///< unit normal of the skin
   };
-  /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
-  /// skin than allowed: than their original distance, or than two millimetres if that is less.
+  /// Returns the vertices that were outside the skin of the fitted mesh and are now too near to the
+  /// skin. The minimum distance of a vertex is its original distance, but at most two millimetres.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
@@ -34,7 +34,8 @@ class SkinGaps {
                                const Positions& points) const;
 
   /// Moves points so that those close to the skin get their original gap, and no point that was
-  /// outside is inside or too near. Pushed points move their neighbours along.
+  /// outside the fitted skin is inside this skin or too near to it. Pushed points move their
+  /// neighbours along.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
@@ -49,7 +50,8 @@ class SkinGaps {
   const FittedSkin& skin_;
   /// #P: signed distances on the fitted mesh; infinite if the point is far from the skin
   std::vector<double> heights_;
-  std::vector<std::uint32_t> starts_;  ///< #P: a vertex of the skin near each point
+  std::vector<std::uint32_t> starts_;  ///< #P: a skin vertex near each point, where the search for
+                                       ///< the nearest skin starts
   Adjacency neighbours_;               ///< #P
 };
 
