@@ -10,17 +10,17 @@
 
 namespace crowdface {
 
-/// B, #V by 3: the target's positions, or the mixture's.
+/// Returns B, #V by 3: the target's positions, or for a mixture the weighted mean of its heads.
 Positions target_positions(const HeadSet& faces, const Recipe& recipe);
 
 /// Blends the face of a recipe with exact levels, before mirroring (Eq. 7 in the form below;
 /// level_shares generalises it to several bands). Applies the filter once per band and region. With
 /// C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
 ///
-///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ] = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
+/// A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ] = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
 ///
-/// The form on the right keeps some vertices bit-identical to B: fixed vertices, and vertices where
-/// D_k = 0 (the target blended with itself). B of a mixture is the weighted mean of its heads.
+/// The right-hand form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
+/// (the target blended with itself). For a mixture, B is the weighted mean of its heads.
 /// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
 /// \return         #V by 3, in the unit of the heads.
 /// \throws BrokenPrecondition if recipe, regions and heads do not fit together.

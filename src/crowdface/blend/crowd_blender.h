@@ -43,8 +43,9 @@ class CrowdBlender {
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 
-  /// Updates a face from one recipe to another, bit-identical to `blend`. Recomputes only the
-  /// patches that a changed region covers, or all patches if the target changed.
+  /// Changes a face that was blended from one recipe into the face of another recipe. The result is
+  /// bit-identical to `blend`. Recomputes only the patches that a changed region covers, or all
+  /// patches if the target changed.
   /// \param face  #V by 3, the result of `blend` for `before`.
   void change(const Recipe& before, const Recipe& after, Positions& face) const;
 
@@ -53,7 +54,7 @@ class CrowdBlender {
   class PatchBlender;
 
   void find_regions();
-  /// The regions with a weight at any vertex of the patch.
+  /// Returns the regions that have nonzero weight at some vertex of the patch.
   std::span<const std::uint32_t> regions_at(std::size_t patch) const {
     return std::span(patch_regions_)
         .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);

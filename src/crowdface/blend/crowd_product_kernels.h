@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// Columns per call of a matrix product. Chosen so that the sums of six columns and two vectors of
-/// values fit into the vector registers.
+/// Number of columns per call of a matrix product. The sums of six columns and two vectors of
+/// values just fit into the vector registers.
 inline constexpr std::size_t kColumns = 6;
 
 /// values[i] = numbers[i]·step.
@@ -21,7 +21,7 @@ struct ProductRows {
   const Number* values;
   std::size_t stride;  ///< distance between the starts of consecutive rows, in elements
   std::size_t width;   ///< elements per row; a multiple of kPatchStep
-  std::span<const std::uint32_t> used;  ///< rows to add up, in this order
+  std::span<const std::uint32_t> used;  ///< indices of the rows that enter the sum, in this order
 };
 
 /// products[c][i] = Σ_r columns[c][r]·values[r·stride + i] over the used rows, by fused

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A head and its weight in a blend; ω̂ for heads that lend detail.
+/// A head and its weight in a blend: for heads that lend detail, the weight is ω̂.
 struct SourceWeight {
   Index head = 0;
   double weight = 0;
@@ -21,7 +21,8 @@ struct SourceWeight {
 /// A band of detail: the heads that lend it, its strength, and the level at which it begins. A band
 /// ends where the next finer band begins; the finest band ends at level 0.
 struct BandRecipe {
-  std::optional<PlanePoint> position;  ///< m_k, if the weights come from a position on the plane
+  std::optional<PlanePoint> position;  ///< m_k, if the weights were computed from a position on the
+                                       ///< plane
   std::vector<SourceWeight> weights;   ///< ω̂_ki, by ascending head, none zero
   double smoothness = 0;               ///< L_k/L_max
   std::uint64_t iterations = 0;        ///< L_k
@@ -41,26 +42,28 @@ const BandRecipe& band_of(const RegionRecipe& region, std::size_t band);
 /// The parameters of one face. Together with the heads and the regions, a recipe determines the
 /// mesh to the bit.
 struct Recipe {
-  Index target = 0;  ///< B; for a mixture, the head whose file and parts the face uses
+  Index target = 0;  ///< index of B; for a mixture, of the head whose file and parts the face uses
   std::vector<RegionRecipe> regions;  ///< one for each mask region
-  /// The τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, none zero, summing to one. Empty: B
-  /// is the target alone. Eq. 2 is linear in B, so everything computed from B is linear in the
-  /// heads too.
+  /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, none zero, summing to one.
+  /// Empty: B is the target alone. Eq. 2 is linear in B, so everything computed from B is linear in
+  /// the mixture's heads too.
   std::vector<SourceWeight> mixture = {};
   /// The heads whose textures are blended, by ascending head, none zero, summing to one. Empty: the
-  /// weights of the shape.
+  /// textures use the weights of the shape.
   std::vector<SourceWeight> colours = {};
-  /// Factor on the left-right differences of the blended skin; 1: as blended, 0: symmetric.
+  /// Factor on the left-right differences of the blended skin: 1 keeps them, 0 makes the skin
+  /// symmetric.
   double asymmetry = 1;
   bool mirrored = false;  ///< mirrors the whole face including its parts
 };
 
-/// Whether the face is used as blended: not mirrored, and with asymmetry 1.
+/// Returns whether the face is used as blended: not mirrored, and with asymmetry 1.
 bool is_unmirrored(const Recipe& recipe);
-/// The weight of the mirror image in the face, see mirror_share(double, bool).
+/// Returns the weight of the mirror image in the face, see mirror_share(double, bool).
 double mirror_share(const Recipe& recipe);
 
-/// The weights of the heads that a region smooths to one level, see level_shares.
+/// One smoothing level of a region, and the weights of the heads that are smoothed to this level;
+/// see level_shares.
 struct LevelShares {
   std::uint64_t level = 0;
   std::vector<SourceWeight> shares;  ///< s_h in the order of summation; a head may occur twice
@@ -81,11 +84,11 @@ enum class Extrapolation { kAsGiven, kNone };
 std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation = Extrapolation::kAsGiven);
 
-/// The τ_h of B: the weights of the mixture, or 1 for the target.
+/// Returns the τ_h of B: the weights of the mixture, or weight 1 for the target.
 std::vector<SourceWeight> target_shares(const Recipe& recipe);
 
 /// Sets B to a mixture of heads, or to a single head. The target becomes the head with the largest
-/// share; of equal shares, the first.
+/// weight; if several have the largest weight, the first of them.
 /// \param shares  by ascending head, above zero, summing to one.
 void set_target(Recipe& recipe, std::vector<SourceWeight> shares);
 
@@ -102,17 +105,17 @@ Matrix target_matrix(const Recipe& recipe, const Of& of) {
   return sum;
 }
 
-/// The weights ω̂ of a position on the plane (Eqs. 3 and 4).
+/// Returns the weights ω̂ of a position on the plane (Eqs. 3 and 4).
 ///
 /// - Partition: the target is face 0 and lends its own detail, whether or not it is in `sources`;
-///   the weights sum to one.
-/// - Printed: the target's ω_0 occurs only in the denominator. The result omits it, so its weights
-///   sum to less than one.
+/// the weights sum to one.
+/// - Printed: the target's ω_0 occurs only in the denominator. The result omits it, so the returned
+/// weights sum to less than one.
 ///
 /// \param anchors      #heads
 /// \param sources      heads that lend detail, ascending.
 /// \param max_sources  keeps only this many of the largest weights (of equal weights, the first)
-///                     and normalises again; ω_0 is always kept and not counted.
+///     and normalises them again; ω_0 is always kept and does not count towards this number.
 std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
                                      const std::vector<Index>& sources, const PlanePoint& position,
                                      Normalization normalization, std::optional<int> max_sources);
