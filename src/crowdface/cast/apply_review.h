@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// Redraws the faces that a review rejects, against all other faces, and stores the review's notes.
-/// All other faces stay as they are.
+/// Redraws the faces that a review rejects, so that each keeps its distance from all other faces,
+/// and stores the review's notes. Faces that are not rejected do not change.
 ///
 /// \throws InvalidInput if the review names a face that is not in the crowd.
 void apply_review(const CastingOptions& casting, const FaceJudge& judge, const Review& review,

@@ -9,14 +9,14 @@ namespace crowdface {
 /// An attachment that a face may wear.
 struct AttachmentItem {
   std::string name, kind;
-  std::vector<std::string> tags;      ///< only for faces whose typical_head has all of these
+  std::vector<std::string> tags;      ///< the face's typical_head must have all of these tags
   double share = 1;                   ///< relative frequency within its kind
   std::vector<std::string> excludes;  ///< names and kinds that cannot be worn with this item
-  /// colour shared by the items of a face, and inherited in families
+  /// colour that the face's other items share and that families inherit
   std::string colour = {};
 };
 
-/// Returns whether a word is the item's kind, name or colour.
+/// Returns whether `word` is the item's kind, name or colour.
 inline bool is_called(const AttachmentItem& item, const std::string& word) {
   return item.kind == word || item.name == word || item.colour == word;
 }

@@ -9,12 +9,12 @@
 namespace crowdface {
 
 /// Lowers the levels at which finer bands begin, so that no band begins at a higher level than the
-/// coarser band before it. Needed if bands come from several recipes, or if a coarser one was
-/// written by hand.
+/// next coarser band. This can be necessary if the bands come from several recipes, or if a user
+/// wrote a coarser band by hand.
 void keep_order(RegionRecipe& region);
 
-/// Copies bands from one recipe to another and restores the order of levels: the copied bands stay,
-/// and the others change.
+/// Copies bands from one recipe to another. Then restores the order of levels by changing only
+/// bands that were not copied.
 ///
 /// \param parts  Bands to copy: region · #bands + band.
 void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe);

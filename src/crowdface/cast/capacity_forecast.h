@@ -6,29 +6,29 @@
 
 namespace crowdface {
 
-/// Forecasts, while faces are placed by first fit, how many faces can keep a distance. A candidate
-/// is too near to one of n faces with probability p(n). While the crowd is sparse, p grows by C per
-/// face, where C is the probability that two candidates are too near to each other. First fit ends
-/// at about 4/C faces (docs/method.md). Dense parts of the space fill first, and then p grows more
-/// slowly; so C is estimated from the recent growth of p.
+/// Forecasts, while first fit places faces, how many faces can keep the minimum distance. A
+/// candidate is too near to one of n faces with probability p(n). While the crowd is sparse, p
+/// grows by C per face, where C is the probability that two candidates are too near to each other.
+/// First fit ends at about 4/C faces (docs/method.md). Dense parts of the face space fill first,
+/// and then p grows more slowly; so C is estimated from the recent growth of p.
 class CapacityForecast {
  public:
-  /// Adds the counts of one placed face.
+  /// Adds the counts of the candidates for one placed face.
   ///
-  /// \param too_near  Candidates for it that were too near to a face of the crowd.
-  /// \param wanted    Candidates for it that were far enough; above zero.
+  /// \param too_near  Number of candidates that were too near to a face of the crowd.
+  /// \param wanted    Number of candidates that were far enough; above zero.
   void add(std::uint64_t too_near, std::uint64_t wanted);
 
-  /// Returns how many faces will fit in all, to a factor of about three; nothing while too few
-  /// faces have been placed.
+  /// Returns the estimated final number of faces, correct to a factor of about three; nothing while
+  /// too few faces have been placed.
   std::optional<double> faces() const;
 
  private:
-  /// Counts over faces number `begin` to 2·`begin`.
+  /// Counts over the faces number `begin` to 2·`begin`.
   struct Stretch {
     std::uint64_t begin = 16;
     std::uint64_t too_near = 0;
-    double chances = 0;  ///< sum over its faces: fraction of candidates that were too near
+    double chances = 0;  ///< sum over these faces: fraction of candidates that were too near
     double mean() const { return chances / static_cast<double>(begin); }
     double middle() const { return 1.5 * static_cast<double>(begin); }
   };

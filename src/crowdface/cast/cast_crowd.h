@@ -7,13 +7,13 @@
 
 namespace crowdface {
 
-/// Casts a crowd: hand-written recipes in their order, then families, then sampled faces; each is
-/// judged before it joins. Reviews follow, one after the other. Each face records its nearest head
-/// and the nearest face before it. The effort is bounded. If constraints cannot be met, the result
-/// has a shortfall; no exception is thrown.
+/// Casts a crowd: hand-written recipes in their order, then families, then sampled faces; each face
+/// is judged before it joins the crowd. Then applies the reviews, one after the other. Each face
+/// records its nearest head and the nearest earlier face. The number of attempts is bounded. If
+/// constraints cannot be met, the result has a shortfall; no exception is thrown.
 ///
 /// \param joined  Called after each sampled face.
-/// \throws InvalidInput if a family or a review names a face that is not there.
+/// \throws InvalidInput if a family or a review names a face that does not exist.
 CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
                          const FaceJoined& joined = {});
 

@@ -16,9 +16,9 @@ namespace crowdface {
 
 /// Where and why casting stopped early.
 struct Shortfall {
-  std::uint64_t reached = 0;  ///< number of sampled faces that were found
+  std::uint64_t reached = 0;  ///< number of sampled faces that were cast
   Rejections rejections;      ///< why candidates for the next face were rejected
-  int kind = -1;              ///< group of the next face, or −1
+  int kind = -1;              ///< group of the face that could not be found, or −1
   std::string family = {};    ///< name of the family that could not be cast, if any
   std::string reviewed = {};  ///< id of the face that could not be redrawn, if any
 };
@@ -34,9 +34,9 @@ struct CastingResult {
   std::optional<Shortfall> shortfall;
 };
 
-/// Called after each sampled face; may be empty.
+/// Called after each sampled face that joins the crowd; may be empty.
 ///
-/// \param thrown  Rejected candidates of this face: many if the crowd is nearly full.
+/// \param thrown  Rejected candidates for this face: many if the crowd is nearly full.
 using FaceJoined = std::function<void(const Rejections& thrown)>;
 
 }  // namespace crowdface

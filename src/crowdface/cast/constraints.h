@@ -19,14 +19,16 @@ namespace crowdface {
 enum class Reason {
   kMinDistance,         ///< too near to another face of the crowd
   kMinDistanceToFaces,  ///< too near to an input head
-  kMaxWeight,           ///< one head has too much weight
-  kImplausible,         ///< farther from the heads' mean than believable
+  kMaxWeight,           ///< one head has too much weight in a region
+  kImplausible,         ///< too far from the mean of the heads to be believable
   kFlipped,             ///< part of the skin is turned inside out or collapsed
   kStretched,           ///< part of the skin is stretched too far
   kIntersecting,        ///< the skin intersects itself where the target's does not
-  kGap,                 ///< skin that nearly touches is farther apart than in any head
-  kExposed,             ///< the skin shows its back near an intersection
-  kFamily,              ///< intrudes into another family, or does not fit into its own
+  kGap,                 ///< skin that nearly touches in the heads, such as the lips, is farther
+                        ///< apart than in any head
+  kExposed,             ///< intrudes into another family (FamilySeparation), or breaks a limit of
+                        ///< its own family
+  kFamily,              ///< nearer to another family than allowed, or too far from its own
   kRejected,            ///< too similar to a face that a review rejected
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;
@@ -78,7 +80,7 @@ struct Rejections {
   std::uint64_t total() const {
     return std::accumulate(count.begin(), count.end(), std::uint64_t{0});
   }
-  /// Returns the reason with most rejections; the first of equals.
+  /// Returns the most frequent reason; if several are equally frequent, the first of them.
   Reason most_frequent() const {
     return static_cast<Reason>(std::ranges::max_element(count) - count.begin());
   }

@@ -22,9 +22,9 @@ class CrowdSoFar {
   Index size() const { return index_.size(); }
   /// Marks the beginning of the sampled faces: all faces added later are sampled.
   void begin_sampled() { first_sampled_ = size(); }
-  /// Candidates compete by their distance from the sampled faces only, so that an additional recipe
-  /// or family does not change which candidate wins. (All faces must still be far enough from all
-  /// others.)
+  /// Only the distance from the sampled faces decides which candidate wins, so that an additional
+  /// recipe or family does not change the winner. (All faces must still be far enough from all
+  /// other faces.)
   Index first_sampled() const { return first_sampled_; }
   const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }

@@ -15,11 +15,12 @@ struct Quartiles {
 };
 Quartiles quartiles(std::vector<double> values);
 
-/// Returns the distances between all pairs of faces. Crowds of more than 1500 faces are subsampled
-/// evenly.
+/// Returns the distances between all pairs of faces. For more than 1500 faces, uses an evenly
+/// spaced subset of the faces.
 std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points);
 
-/// Returns the distances over one region, between all pairs of at most 300 faces.
+/// Returns the distances over one region, between all pairs of an evenly spaced subset of at most
+/// 300 faces.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points);
 

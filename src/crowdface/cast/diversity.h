@@ -9,7 +9,8 @@ namespace crowdface {
 /// How different the faces of a crowd must be.
 struct DiversityOptions {
   enum class Mode {
-    /// draw, and keep if far enough from all earlier faces; a larger crowd changes no face
+    /// accept candidates that are far enough from all earlier faces; a larger crowd changes no
+    /// earlier face
     kFirstFit,
     kSpread,  ///< choose the most spread set from a pool many times as large as the crowd
   };
@@ -18,9 +19,11 @@ struct DiversityOptions {
   double min_distance_to_faces_mm = 0;  ///< from every input head
   /// Between a rejected face and its replacement; empty: half the crowd's median distance.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;                      ///< of one head in one region
-  int max_attempts = 1000;                    ///< draws for one face before casting gives up
-  static constexpr std::uint64_t kPool = 10;  ///< kSpread: size of the pool, in crowds
+  double max_weight = 1;                      ///< largest weight of one head in one region
+  int max_attempts = 1000;                    ///< number of draws for one face before casting gives
+                                              ///< up
+  static constexpr std::uint64_t kPool = 10;  ///< kSpread: size of the pool, in multiples of the
+                                              ///< crowd's size
 
   /// Number of acceptable candidates for one face, of which kFirstFit keeps the one farthest from
   /// the crowd. Must not depend on the size of the crowd.
@@ -29,11 +32,12 @@ struct DiversityOptions {
   static int candidates_for(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
 };
 
-/// Limits for a believable face. The defaults accept faces between the heads (scans have slivers,
-/// and lips that touch) and reject excessive extrapolation. docs/casting.md has figures.
+/// Limits for a believable face. The defaults accept faces between the heads (although scans have
+/// sliver triangles and touching lips) and reject excessive extrapolation. docs/casting.md has
+/// figures.
 struct BelievabilityOptions {
-  /// Whether whole meshes are checked in addition to the samples. Except with kJudge, they are
-  /// checked when they are built, after casting, and only reported.
+  /// Whether whole meshes are checked in addition to the coarse samples. Except with kJudge, the
+  /// check takes place after casting, when the meshes are built, and only adds to the report.
   enum class Meshes {
     kAuto,  ///< up to 200,000 polygons
     kAll,
@@ -43,14 +47,16 @@ struct BelievabilityOptions {
   };
   Meshes meshes = Meshes::kAuto;
   bool check = true;           ///< false: candidates are not checked for believability
-  double max_deviation = 2.5;  ///< from the heads' mean, see Plausibility
+  double max_deviation = 2.5;  ///< largest Plausibility of a face: its deviation from the heads'
+                               ///< mean
   double max_stretch = 3;      ///< 99th percentile of the stretch of the skin's triangles
   /// fraction of the skin's triangles that are turned over or collapsed
   double max_flipped = 0.003;
-  double max_intersecting = 0.01;  ///< fraction that intersects others where the target's does not
-  /// how much farther apart lips may be than in any head, see SkinContacts
+  double max_intersecting = 0.01;  ///< fraction of triangles that intersect others where the
+                                   ///< target's do not
+  /// how much farther apart the lips may be than in any head, see SkinContacts
   double max_gap_mm = 0.5;
-  /// Area of skin that may show its back, in addition to the target's; see skin_check.h.
+  /// Area of skin that may show its back side, in addition to that of the target; see skin_check.h.
   double max_exposed_mm2 = 3;
 };
 

@@ -41,18 +41,19 @@ struct CastingOptions {
   HeadTags tags = {};                ///< #heads, or empty
 };
 
-/// What a face is drawn from: the parameters of the crowd or of a group, and the possible targets.
+/// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
+/// possible targets.
 struct FaceKind {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
-  /// By band, the heads that lend detail instead of those in `sampling`. If empty, or empty for a
-  /// band, those in `sampling` are used.
+  /// For each band, the heads that lend detail in place of those in `sampling`. If this list, or
+  /// the entry of a band, is empty, the heads in `sampling` are used.
   std::vector<std::vector<Index>> sources = {};
 };
-/// Returns the heads that lend detail to a band of such a face.
+/// Returns the heads that lend detail to a band of a face of this kind.
 const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band);
-/// Returns the parameters of a group's faces; without group, those of the crowd.
+/// Returns the parameters of a group's faces, or of the crowd's faces if `group` is empty.
 FaceKind kind_of_group(const CastingOptions& casting,
                        std::optional<std::size_t> group = std::nullopt);
 
@@ -65,12 +66,13 @@ std::string face_id(const std::string& crowd, std::uint64_t index);
 /// Key of a face's random numbers. Each combination has independent numbers.
 struct DrawKey {
   std::uint64_t index = 0;    ///< of the face, from 1
-  std::uint32_t attempt = 0;  ///< number of rejected draws of this face before
-  std::string who = {};       ///< empty for a sampled face; separates the draws of other faces
+  std::uint32_t attempt = 0;  ///< number of earlier draws of this face that were rejected
+  std::string who = {};       ///< empty for a sampled face; otherwise separates the random numbers
+                              ///< of other faces
 };
 
-/// Draws everything that `hand` leaves open; for a sampled face, that is everything. A pure
-/// function of its arguments, so a face does not depend on the crowd's size or on the order of
+/// Draws everything that `hand` does not specify; for a sampled face, `hand` specifies nothing. A
+/// pure function of its arguments, so a face does not depend on the crowd's size or on the order of
 /// draws.
 FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, const DrawKey& key,
                      const FaceKind& kind);

@@ -9,10 +9,10 @@
 
 namespace crowdface {
 
-/// How far apart a given number of faces can be.
+/// The distance that a given number of faces can keep.
 struct EstimateRow {
   std::uint64_t faces = 0;
-  double spread_mm = 0;     ///< closest pair of a spread set
+  double spread_mm = 0;     ///< smallest distance between two faces of a spread set
   double first_fit_mm = 0;  ///< largest min_distance at which first fit finds this many faces
 };
 

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// The part of the head that counts when two faces are compared.
+/// The part of the head that enters the distance between two faces.
 enum class FaceArea {
   kFront,  ///< the skin in front of the head's middle
   kSkin,   ///< the whole skin, including the back of the head and the neck

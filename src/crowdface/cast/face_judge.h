@@ -28,8 +28,8 @@ class FaceJudge {
             const BelievabilityOptions& believability, const ProxySkin* skin = nullptr,
             MeshDefects meshes = {});
 
-  /// Checks what the recipe and its point tell, in microseconds: weights, distance from the input
-  /// heads, plausibility.
+  /// Checks everything that follows from the recipe and its point, in microseconds: weights,
+  /// distance from the input heads, plausibility.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;

@@ -35,9 +35,9 @@ struct FacePlan {
   std::optional<double> age;  ///< −1 … 1, if the face was aged
   /// mother and father, if the family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
-  /// with parents, #regions by #bands: whose detail the face has
+  /// if there are parents, #regions by #bands: the origin of the detail
   std::vector<std::string> inherits;
-  double mother_share = 0;  ///< mother's share of the large forms, if these are inherited
+  double mother_share = 0;  ///< mother's fraction of the coarse shape, if the face inherits it
   std::vector<std::string> attachments;  ///< names
   CastingNotes notes;
 };

@@ -26,9 +26,9 @@ class PointTree {
   /// Bounds of the points of a node.
   struct Bounds {
     LeadingBox box;
-    Index least, greatest;  ///< smallest and largest number of its points
+    Index least, greatest;  ///< smallest and largest number of the node's points
   };
-  /// Visits the blocks of leaves; of two children, the one nearer to the query first.
+  /// Visits the blocks of leaves. Of two child nodes, visits the one nearer to the query first.
   ///
   /// \param wanted  (squared distance, bounds) → whether to visit the node.
   /// \param use     Called with the number of each block.
@@ -103,7 +103,7 @@ class FacePointIndex {
 
  private:
   PointTrees as_built_, unit_;
-  bool extrapolated_ = false;  ///< whether any face differs from its version with factors of 1
+  bool extrapolated_ = false;  ///< whether any face has an extrapolation factor other than 1
 };
 
 }  // namespace crowdface

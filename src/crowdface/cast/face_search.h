@@ -13,20 +13,20 @@ namespace crowdface {
 
 /// The search for one face: draws candidates, rejects those that violate a constraint, and chooses
 /// the one farthest from the crowd (best-candidate sampling, Mitchell 1991; with one candidate, the
-/// first that is far enough). The result depends only on the crowd passed to `settle` and on the
-/// search's own draws, not on the crowd passed to `prepare`.
+/// first that is far enough). The result depends only on the search's own draws and on the crowd
+/// passed to `settle`. The crowd passed to `prepare` only affects the speed.
 class FaceSearch {
  public:
   /// Draws attempt number `attempt`. Must be a pure function.
   using Draw = std::function<FacePlan(std::uint32_t attempt)>;
-  /// An additional check of a candidate's point; returns why the point is rejected, or nothing.
+  /// An additional check of a candidate's point: returns the reason for a rejection, or nothing.
   using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
   FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
              std::uint32_t first_attempt = 0);
 
-  /// Draws candidates in advance, against the current crowd. Different searches may run in
-  /// parallel.
+  /// Draws candidates in advance and compares them with the current crowd. Different searches may
+  /// run in parallel.
   void prepare(const CrowdSoFar& crowd);
 
   struct Found {
@@ -42,7 +42,8 @@ class FaceSearch {
   struct Candidate {
     FacePlan face;
     FaceSpace::Point point;
-    double nearest_mm = HUGE_VAL;  ///< distance to the nearest face, or an upper bound of it
+    double nearest_mm = HUGE_VAL;  ///< distance to the nearest face, or an upper bound of this
+                                   ///< distance
     bool known = true;
     bool judged = false;  ///< whether `check_skin` was called
     std::optional<Reason> broken = std::nullopt;

@@ -11,10 +11,10 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: all functions that faces are sums of, in the basis of scalar functions
+  /// #functions by #P: the functions whose sums are the faces, in the basis of scalar functions
   FloatRows functions;
   FloatRows directions;  ///< #D by 3·#P: principal directions of aligned faces
-  /// #regions (empty for one region), #D by #D: metric times the region's share
+  /// #regions (empty for one region), #D by #D: metric times the region's weights
   std::vector<FloatRows> metrics;
 };
 
@@ -24,11 +24,11 @@ struct FaceSpaceTables {
 /// over the face in millimetres.
 class FaceSpace {
  public:
-  /// A face. Extrapolation alone does not make another person, so each face has two points: as
-  /// built, and with every factor 1.
+  /// The point of a face. Extrapolation alone does not make another person, so each face has two
+  /// variants: as built, and with all extrapolation factors 1.
   struct Point {
     Eigen::VectorXf as_built;  ///< #dimensions
-    Eigen::VectorXf unit;      ///< #dimensions; with every factor 1
+    Eigen::VectorXf unit;      ///< #dimensions; with all extrapolation factors 1
   };
 
   /// \param weights  #S, from sample_weights. Samples of weight zero are ignored.
@@ -88,7 +88,7 @@ class FaceSpace {
     return head < head_count() ? heads_ : *heads_.image;
   }
   std::size_t in_side(Index head) const { return static_cast<std::size_t>(head % head_count()); }
-  /// Returns the sample of row i; rows exist only for samples that count.
+  /// Returns the sample of row i; rows exist only for samples of nonzero weight.
   Index sample_at(Index i) const { return counting_[static_cast<std::size_t>(i)]; }
   void choose_counting(const std::vector<double>& weights);
   SpanBasis level_modes() const;
@@ -108,8 +108,8 @@ class FaceSpace {
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
-  std::vector<Index> counting_;  ///< samples that count in a distance
-  Eigen::VectorXf roots_;        ///< √w of each
+  std::vector<Index> counting_;  ///< samples of nonzero weight
+  Eigen::VectorXf roots_;        ///< √w of each sample in `counting_`
   FaceSpaceTables tables_;
   Shape mean_shape_;           ///< #P by 3
   std::vector<Shape> shapes_;  ///< of all heads, including mirror images

@@ -13,26 +13,27 @@ namespace crowdface {
 /// A parent of a family: an input head, or a face of the plan, given by its id.
 struct Parent {
   std::optional<Eigen::Index> head;
-  std::string id;      ///< id with or without the crowd's name; for a head, its name
-  bool drawn = false;  ///< the parent is cast for this family, as a face with this id
+  std::string id;      ///< id of the face, with or without the crowd's name; or name of the head
+  bool drawn = false;  ///< the parent does not exist yet: casting draws a face with this id
   std::optional<std::size_t> group =
       {};  ///< drawn parent: group whose parameters are used; empty: the crowd's
-  /// Parent drawn with the crowd's parameters: the possible targets, heads of a woman or a man,
-  /// where tags tell this. Empty: all targets of the crowd.
+  /// Possible targets of a parent that is drawn with the crowd's parameters: the heads of women or
+  /// of men, if the tags tell. Empty: all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
 };
 
-/// Faces that resemble each other.
+/// A family: faces that resemble each other.
 struct FamilyOptions {
   std::string name;
   int members = 0;
   std::optional<std::size_t> group;  ///< group whose parameters are used; empty: the crowd's
-  /// target of all members; empty: inherited, or the founder's
+  /// target of all members; empty: inherited from the parents, or the founder's
   std::optional<Eigen::Index> target;
   std::vector<Parent> parents;  ///< empty, or mother and father
-  /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 drawn
+  /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 from neither
   std::vector<int> inherit;
-  double max_distance_mm = 2.5;  ///< from the founder, who is not in the crowd
+  double max_distance_mm = 2.5;  ///< largest distance of a member from the founder, who is not in
+                                 ///< the crowd
   double min_distance_mm = 0;    ///< between members
   /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
   bool twins = false;

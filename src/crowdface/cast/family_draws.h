@@ -18,18 +18,18 @@ struct FamilyPlan {
   std::string name;
   FacePlan founder;  ///< not in the crowd
   FaceSpace::Point founder_point;
-  /// twins: the founder is a hidden child, and the twins have its age
+  /// twins: the founder is a hidden child, whose age the twins have
   bool alike_to_founder = false;
   Index begin = 0, end = 0;     ///< range of its members in the crowd
   double strangers_nearer = 0;  ///< largest fraction of strangers nearer to a child than a parent
 };
 
 /// Limit for the fraction of strangers that are nearer than a parent to the mean of both parents.
-/// Smaller than the limit for children, so that children have room to differ.
+/// It is smaller than the corresponding limit for children, so that children have room to differ.
 inline constexpr double kStrangersNearerToHalf = 0.06;
 
-/// Draws the faces of one family. Each member lies between the founder and a random face, as far
-/// from the founder as drawn within max_distance.
+/// Draws the faces of one family. Each member lies between the founder and a random face, at a
+/// random distance from the founder of at most max_distance.
 class FamilyDraws {
  public:
   /// \param crowd  All faces except the family; parents are looked up in it by id.
@@ -38,14 +38,14 @@ class FamilyDraws {
 
   /// Returns whether parents must be drawn for this family because they are not in the crowd yet.
   bool needs_parents() const { return !to_draw_.empty(); }
-  /// Draws these parents.
+  /// Draws the parents of needs_parents().
   ///
-  /// \return  false if there is no room for them.
+  /// \return  false if there is no room for them in the crowd.
   bool draw_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
                     std::uint32_t attempt, Rejections& rejections);
   /// Returns the parents drawn last, mother first.
   const std::vector<FaceSearch::Found>& drawn_parents() const { return drawn_; }
-  /// Returns the distance to the nearest of these parents, who are not in the crowd yet.
+  /// Returns the distance to the nearest drawn parent; drawn parents are not in the crowd yet.
   double drawn_parent_mm(const FaceSpace::Point& point) const;
 
   /// Draws the founder, from whom all members start: with parents, the mean of both; otherwise a
@@ -63,9 +63,9 @@ class FamilyDraws {
                                 const std::vector<FaceSpace::Point>& own,
                                 const FamilySeparation& family_separation) const;
 
-  /// Returns the largest fraction of strangers that are nearer to a point than one of the parents.
-  /// For a family in a group, strangers are drawn from this group, and only parents whose heads are
-  /// all in the group count.
+  /// Returns the largest fraction, over both parents, of strangers that are nearer to a point than
+  /// the parent. For a family in a group, strangers are drawn from this group, and only parents
+  /// whose heads are all in the group are considered.
   double strangers_nearer(const FaceSpace::Point& point) const;
 
  private:
@@ -102,14 +102,14 @@ class FamilyDraws {
   std::vector<KnownParent> parents_;  ///< #parents; empty entries are still to be drawn
   std::vector<std::size_t> to_draw_;  ///< indices of parents that were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
-  FaceKind others_;  ///< source of what members inherit from neither parent
-  /// replaces parents' targets by targets of the family's group
+  FaceKind others_;  ///< where members get what they inherit from neither parent
+  /// replaces targets of the parents by targets of the family's group
   SubstituteHeads form_;
-  /// by band: replaces sources by sources of the group; empty: no group
+  /// by band: replaces the parents' sources by sources of the group; empty: no group
   std::vector<SubstituteHeads> detail_;
   /// families of the parents, and families that share a parent
   std::vector<std::string> relatives_;
-  FacePointIndex kin_, strangers_;  ///< points of relatives, and of all others
+  FacePointIndex kin_, strangers_;  ///< points of relatives, and of all other faces
 };
 
 /// Returns "NAME_FAMILY_01".

@@ -12,12 +12,13 @@
 
 namespace crowdface {
 
-/// Keeps families together: every member is nearer to each member of its family than to anyone who
-/// is not a relative. Relatives are the own family, the parents' families, and families that share
-/// a parent.
+/// Keeps families apart: every member is nearer to each member of its own family than to any face
+/// that is not a relative. Relatives are the own family, the parents' families, and families that
+/// share a parent.
 class FamilySeparation {
  public:
-  /// Returns whether a face would be as near to a member of a family as the farthest of its family.
+  /// Returns whether some member of a family is as near to the face as to the farthest member of
+  /// its own family.
   ///
   /// \param relatives  Families that are not checked.
   bool intrudes(const FaceSpace::Point& point,
@@ -37,13 +38,14 @@ class FamilySeparation {
   std::vector<Member> members_;
 };
 
-/// Faces drawn with the crowd's or a group's parameters that are related to nobody: they tell how
-/// near strangers are by chance. A function of the seed and these parameters only, so that a family
-/// does not depend on the crowd's size. Empty if no family has parents.
+/// Random faces that belong to no family. They show how near two unrelated faces are by chance.
+/// They are drawn with the parameters of the crowd, or of a group, and depend only on the seed and
+/// these parameters, so that a family does not depend on the crowd's size. Empty if no family has
+/// parents.
 class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);
-  /// Returns the fraction of a group's strangers that are nearer than `mm` to a point, 0 … 1.
+  /// Returns the fraction of a group's unrelated faces that are nearer than `mm` to a point, 0 … 1.
   double share_nearer(const FaceSpace::Point& point, double mm,
                       std::optional<std::size_t> group = std::nullopt) const;
 

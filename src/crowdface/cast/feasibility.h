@@ -5,30 +5,31 @@
 
 namespace crowdface {
 
-/// What would make a crowd with a shortfall possible.
+/// A change of the limits that would make a crowd with a shortfall possible.
 struct Remedy {
   Reason binding = Reason::kMinDistance;  ///< constraint that rejected most candidates
   /// Largest value of the binding distance, in whole hundredths of a millimetre, with which casting
-  /// succeeded. Empty if the binding constraint is no distance, or if no value was found.
+  /// succeeded. Empty if the binding constraint is not a distance, or if no value succeeded.
   std::optional<double> largest_mm;
   std::uint64_t tried = 0;  ///< number of faces in the trials: the whole count, or its first 400
 };
 
-/// Searches for a remedy by casting again with smaller distances, closing in from both sides until
-/// the smallest value that fails is at most an eighth above the largest that works, or until 20,000
-/// candidates were drawn. The time of a trial grows with the square of its faces, so only the
-/// beginning of a large crowd is tried.
+/// Searches for a remedy: casts again with smaller distances, and bisects until the smallest
+/// distance that fails is at most an eighth above the largest that works, or until 20,000
+/// candidates were drawn. The time of a trial grows with the square of its faces, so the trials of
+/// a large crowd cast only its beginning.
 ///
 /// \param tried  Called after each trial.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {});
 
-/// Checks quickly whether a large spread crowd is hopeless: whether first fit cannot place even 400
-/// faces, less than an eighth of the crowd. Takes seconds, whereas drawing the pool would take
+/// Checks in seconds whether a crowd of more than 3200 faces in spread mode is impossible: places
+/// up to 400 faces by first fit. Spread finds at most twice as many faces as first fit, so if first
+/// fit cannot place 400, the crowd is impossible. Drawing the pool to find that out would take
 /// hours.
 ///
-/// \return  Nothing if the crowd may be possible.
+/// \return  The shortfall of the 400 faces; nothing if the crowd may be possible.
 std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge);
 
 }  // namespace crowdface

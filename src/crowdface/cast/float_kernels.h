@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-// Vectorised kernels. Each product is rounded before it is added, so the results have the bits of
-// plain loops on every instruction set.
+// Vectorised kernels. Each product is rounded before it is added, so the results are bit-identical
+// to those of plain loops on every instruction set.
 
 /// Returns Σ a_i b_i: sixteen sums in single precision within a chunk of 1024 numbers, added in
 /// double precision.
@@ -15,7 +15,7 @@ double fixed_dot(const float* a, const float* b, std::size_t count);
 /// to[i] += factor·from[i].
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 
-/// The same. \return  fixed_dot of the new `to` with itself.
+/// Like add_scaled. \return  fixed_dot of the new `to` with itself.
 double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
 
 /// to[d] += factors[i]·rows[i][d], for one i after the other.
@@ -24,10 +24,10 @@ double add_scaled_and_square(float factor, const float* from, std::size_t count,
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
                      float* to);
 
-/// Adds (query[d] − rows[d][lane])² to the sums of sixteen lanes, for one d after the other.
+/// Adds (query[d] − rows[d][lane])² to the sum of each of sixteen lanes, in ascending order of d.
 ///
 /// \param rows  #dimensions by 16.
-/// \return      Whether any sum is still within the bound.
+/// \return      Whether at least one sum is still within the bound.
 bool add_squares(const float* query, const float* rows, std::size_t dimensions, float bound,
                  float* sums);
 

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// Another face, and its distance.
+/// Another face, and the distance to it.
 struct Neighbour {
   std::size_t face = 0;
   double mm = 0;
@@ -22,8 +22,8 @@ struct Likeness {
 };
 
 /// Finds similar faces. The order is a nearest-neighbour walk: it starts at the face farthest from
-/// the first face, and always continues with the nearest face that is left. So two faces that are
-/// each other's nearest are adjacent. Of equally near faces, the first is taken.
+/// face 0, and always continues with the nearest face that it has not visited. So two faces that
+/// are each other's nearest are adjacent. Of equally near faces, the first is taken.
 ///
 /// \param neighbours  Number of neighbours to keep for each face.
 /// \throws Interrupted.

@@ -7,18 +7,18 @@
 
 namespace crowdface {
 
-/// Measures how unusual a face is among the input heads: the Mahalanobis distance (1936) from their
-/// mean, in units of the distance that a new head typically has. Few heads do not determine the
-/// variance of every direction, so a tenth of the mean variance is added to each (as in
-/// probabilistic PCA, Tipping & Bishop 1999). The unit is the root mean square over the heads, each
-/// measured with the others only.
+/// Measures how unusual a face is among the input heads: its Mahalanobis distance (1936) from the
+/// heads' mean, divided by the distance that a new head typically has. Few heads do not determine
+/// the variance in every direction, so a tenth of the mean variance is added in every direction (as
+/// in probabilistic PCA, Tipping & Bishop 1999). The divisor is the root mean square of the heads'
+/// own distances, where each head is measured against all others.
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);
   double score(const FaceSpace::Point& point) const;
 
  private:
-  /// The squared distance, by all heads or by all but one.
+  /// The quadratic form of the squared distance, from all heads or from all but one.
   struct Metric {
     std::vector<double> mean;                  ///< #D
     std::vector<std::vector<double>> offsets;  ///< head − mean for each head, #D each

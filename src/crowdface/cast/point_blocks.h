@@ -66,8 +66,8 @@ class PointBlocks {
   /// Returns the query with padded_dimensions() values.
   std::vector<float> padded(const Eigen::VectorXf& query) const;
   using Lanes = std::array<float, kLanes>;
-  /// Returns the squared distances of a block's points to a query. If none is within the bound, all
-  /// are infinite. Lanes without a point have arbitrary values.
+  /// Returns the squared distances of a block's points to a query. If no distance is within the
+  /// bound, all returned values are infinite. Lanes without a point have arbitrary values.
   Lanes squared_distances(const std::vector<float>& query, Index block, float bound) const;
   /// Searches one block for points with numbers in [begin, end) that are nearer than `best`. The
   /// result's bits do not depend on the other points.
@@ -77,7 +77,7 @@ class PointBlocks {
  private:
   static constexpr Index kChunk = 16;  ///< coordinates between two checks of the sums
 
-  /// Returns the offset within the chunk of that coordinate.
+  /// Returns the offset of coordinate `dimension` of point `at` within its chunk.
   static std::size_t place(Index at, Index dimension) {
     return static_cast<std::size_t>((at / kLanes * kChunk + dimension % kChunk) * kLanes +
                                     at % kLanes);

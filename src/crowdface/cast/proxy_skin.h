@@ -16,7 +16,7 @@ class ProxySkin {
   ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
             const std::vector<Positions>& heads);
 
-  /// What a face is compared with: the samples of a head or of a mixture.
+  /// The target of a face, with which the face is compared: the samples of a head or of a mixture.
   struct Target {
     TargetTriangles triangles;  ///< for flips and stretch
     NewIntersections intersections;

@@ -11,12 +11,12 @@ namespace crowdface {
 struct ReviewMark {
   enum class Verdict {
     kKeep,    ///< stays as it is
-    kReject,  ///< redrawn, except for what is locked
+    kReject,  ///< redrawn, except for the locked parts
   };
   std::string id;
   Verdict verdict = Verdict::kKeep;
-  /// Parts that stay when the face is redrawn: region · #bands + band. Without bands, parts are
-  /// regions.
+  /// Parts that do not change when the face is redrawn: region · #bands + band. Without bands, a
+  /// part is a region.
   std::vector<std::size_t> locked;
   std::optional<std::string> note;
 };

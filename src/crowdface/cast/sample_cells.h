@@ -9,9 +9,10 @@
 
 namespace crowdface {
 
-/// A partition of the skin into cells around the samples. Each vertex belongs to the nearest sample
-/// along the edges of the mean head (a Voronoi diagram on the graph, by Dijkstra's algorithm from
-/// all samples at once). Distances along edges keep the two lips apart, however near they are.
+/// A partition of the skin into cells around the samples. Each vertex belongs to the sample that is
+/// nearest along the edges of the mean head (a Voronoi diagram on the graph, by Dijkstra's
+/// algorithm from all samples at once). Distances along edges keep the upper and lower lip in
+/// different cells, even where the lips touch.
 struct SampleCells {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::uint32_t> of_vertex;  ///< #V: index of the sample; kNone outside the skin
@@ -27,7 +28,7 @@ std::vector<double> sample_weights(const SampleCells& cells, const FaceSamples& 
                                    const std::vector<double>& areas);
 
 /// Returns the coarse mesh of the cells, an analogue of the Delaunay triangulation: three samples
-/// whose cells meet form a triangle, wound like the mesh. Contains no triangle twice.
+/// whose cells meet form a triangle with the mesh's winding. Contains no triangle twice.
 std::vector<std::array<std::uint32_t, 3>> cell_triangles(const Topology& topology,
                                                          const SampleCells& cells);
 

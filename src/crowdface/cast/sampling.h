@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// A closed range to draw from. Equal ends: a fixed value.
+/// A closed range of values to draw from. Equal ends give a fixed value.
 struct Range {
   double low = 0;
   double high = 0;
@@ -33,16 +33,16 @@ struct PositionDistribution {
   double radius = 0;                   ///< kAround: in units of the plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed
   /// kAnchored: largest step from the anchor towards a random point of the hull, as a fraction of
-  /// the way. 0: stays at the anchor.
+  /// the distance to this point. 0: stays at the anchor.
   double pull = 0.25;
 };
 
-/// Distribution of the amount of smoothing, L.
+/// Distribution of the smoothing level, L.
 struct SmoothnessDistribution {
   enum class Unit {
     kFraction,    ///< fraction of L_max, as the paper's slider
     kIterations,  ///< whole iterations
-    kSize,        ///< millimetres: the wavelength that is halved (docs/method.md)
+    kSize,        ///< millimetres: the wavelength whose amplitude is halved (docs/method.md)
   };
   Unit unit = Unit::kFraction;
   Range range = {0.2, 0.9};
@@ -55,7 +55,8 @@ struct RegionSampling {
   Range extrapolation = {1, 1};  ///< factor e of Fig. 6
 };
 
-/// A band of detail. Empty members: as for its region, or for the crowd.
+/// The parameters of a band of detail. An empty member has the value of the band's region, or of
+/// the crowd.
 struct BandSampling {
   struct Region {
     std::optional<PositionDistribution> position;
@@ -66,7 +67,7 @@ struct BandSampling {
   std::string name;
   std::vector<Region> regions;                       ///< #regions
   std::optional<std::vector<Eigen::Index>> sources;  ///< ascending
-  /// factor of an age's effect on the band, 0 … 1
+  /// factor on the effect that an age has on the band, 0 … 1
   double ageing = 1;
 };
 
@@ -78,7 +79,7 @@ struct WeightedHead {
 
 /// Draws one of several things in proportion to their weights.
 ///
-/// \param drawn  Random number from 0 to 1.
+/// \param drawn  Random number from 0 to 1 that selects the thing.
 template <class Things, class Weight>
 const auto& weighted_choice(const Things& things, double drawn, const Weight& weight) {
   double total = 0;
@@ -88,13 +89,13 @@ const auto& weighted_choice(const Things& things, double drawn, const Weight& we
     if (left < std::invoke(weight, thing)) return thing;
     left -= std::invoke(weight, thing);
   }
-  return things.back();  // rounding used up the last weight
+  return things.back();  // rounding errors: `drawn` exceeds the sum of the weights
 }
 
 /// Whether faces are mirrored as wholes.
 enum class Mirroring {
   kNone,
-  kDrawn,  ///< half of them, at random
+  kDrawn,  ///< half of the faces, at random
 };
 
 /// How sampled faces are drawn.
@@ -104,7 +105,7 @@ struct SamplingOptions {
   /// one for each region (one in all if there are no regions)
   std::vector<RegionSampling> regions;
   std::vector<BandSampling> bands;  ///< coarse to fine; empty: detail is one band
-  /// largest number of heads with weight in a band of a region; empty: all
+  /// largest number of heads with weight in one band of one region; empty: no limit
   std::optional<int> max_sources;
   Range age = {0, 0};        ///< of sampled faces, see apply_age
   Range asymmetry = {1, 1};  ///< see Recipe
@@ -135,16 +136,16 @@ inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampli
   return own ? *sampling.bands[band].sources : sampling.sources;
 }
 
-/// Sampled faces that are drawn with their own parameters.
+/// A group: sampled faces that are drawn with parameters of their own.
 struct Group {
   std::string name;
   /// number of faces; groups with a count come before all groups with a share
   std::optional<std::uint64_t> count;
-  double share = 0;  ///< without `count`: fraction of the remaining faces, 0 … 1
+  double share = 0;  ///< used if `count` is empty: fraction of the remaining faces, 0 … 1
   SamplingOptions sampling;
 };
 
-/// A hand-written face. What it leaves open is drawn as for a sampled face.
+/// A hand-written face. Values that it does not specify are drawn as for a sampled face.
 struct HandRecipe {
   struct Band {
     std::optional<PlanePoint> position;
@@ -152,7 +153,8 @@ struct HandRecipe {
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
-  /// Its own values apply to all bands without own values; smoothness only to the first band.
+  /// The values of the region itself apply to all bands that have no values of their own. Its
+  /// smoothness applies only to the first band.
   struct Region : Band {
     std::vector<Band> bands;  ///< one for each band, or empty
   };

@@ -13,7 +13,8 @@
 
 namespace crowdface {
 
-/// A pool of candidates, each acceptable by itself.
+/// A pool of candidates. Each candidate satisfies all constraints except the distances within the
+/// crowd.
 struct CandidatePool {
   std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
@@ -29,9 +30,9 @@ CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
                         const std::vector<FaceKind>& kinds, std::uint64_t count,
                         std::uint64_t times = 1);
 
-/// Picks candidates from a pool, one after the other: always the one farthest from those picked
-/// before and from the initial crowd (greedy farthest point). No set of equally many candidates has
-/// a closest pair more than twice as far apart (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994),
+/// Picks candidates from a pool, one after the other: always the one farthest from the picked ones
+/// and from the initial crowd (greedy farthest point). In any other set of as many candidates, the
+/// closest pair is at most twice as far apart (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994),
 /// provided that the distance is a metric (every factor 1), there are no groups, and the initial
 /// crowd is empty.
 class FarthestPoints {
@@ -39,9 +40,10 @@ class FarthestPoints {
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
 
   struct Pick {
-    Index candidate = -1;  ///< −1: none left
+    Index candidate = -1;  ///< index of the candidate; −1: none left
     double mm =
-        0;  ///< distance from the nearest face picked before or in the crowd; infinite if none
+        0;  ///< distance to the nearest picked face or face of the initial crowd; infinite if there
+            ///< is none
   };
   /// Returns the farthest candidate of a group (−1: of no group). Does not pick it.
   Pick farthest(int kind) const;

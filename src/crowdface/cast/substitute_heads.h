@@ -8,11 +8,11 @@
 
 namespace crowdface {
 
-/// Substitutes heads outside a group by similar heads of the group: if daughters are made of
-/// women's heads, a woman's head stands for each head of the father. The substitute has the most
-/// tags in common with the original; then it is preferably not a head of a parent; then it is the
-/// nearest in shape, after the difference between the mean of the group and the mean of all other
-/// heads is removed.
+/// Substitutes heads outside a group by similar heads of the group. Example: if daughters may only
+/// be made of women's heads, a woman's head replaces each head of the father. The substitute has
+/// the most tags in common with the original. Ties are decided first in favour of heads that no
+/// parent uses, then in favour of the nearest shape, after subtraction of the difference between
+/// the mean of the group and the mean of all other heads.
 class SubstituteHeads {
  public:
   /// No head is substituted.

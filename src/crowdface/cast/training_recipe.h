@@ -9,11 +9,11 @@
 namespace crowdface {
 
 /// Returns a random recipe with all heads and levels, as casting might draw it. The principal
-/// directions of a face space are computed from such faces, so that they cover every way in which
-/// faces differ. If there are mirror images, faces are mirrored and vary in asymmetry.
+/// directions of a face space are computed from such faces, so that they cover all differences
+/// between faces. If there are mirror images, faces are mirrored and vary in asymmetry.
 ///
 /// \param bands  Number of bands of each region's detail.
-/// \param index  Each index gives another recipe, always the same.
+/// \param index  Number of the recipe; the same index always gives the same recipe.
 Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index);
 
 }  // namespace crowdface
