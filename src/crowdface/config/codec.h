@@ -45,7 +45,7 @@ Codec<LengthUnit> length_unit();
 Codec<double> length(double high_mm);
 /// Like `length`, but refuses 0.
 Codec<double> positive_length(double high_mm);
-/// Like `codec`, but refuses 0. \param expected  for messages, such as "a number above 0".
+/// Like `codec`, but refuses 0. \param expected  text for messages, such as "a number above 0".
 Codec<double> above_zero(const Codec<double>& codec, const std::string& expected);
 /// One value, or a range `[low, high]`.
 Codec<Range> range(const Codec<double>& one);
@@ -65,7 +65,7 @@ Codec<std::vector<Eigen::Index>> head_list();
 /// Like `head_list` (every weight is 1), or a mapping `{head or tag: weight}`.
 Codec<std::vector<WeightedHead>> weighted_heads();
 Codec<PlanePoint> point();
-/// "{head: weight}".
+/// Writes weights as "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing);
 /// A path relative to the config's folder. An empty path is not written.
 /// \param expected  for messages, such as "a folder".

@@ -44,8 +44,8 @@ enum class Gallery {
   kNone,
 };
 
-/// Which weights blend a face's textures: the weights of its shape (`kRecipe`), or weights that are
-/// drawn independently (`kDrawn`).
+/// The weights with which a face's textures are blended: the weights of its shape (`kRecipe`), or
+/// independently drawn weights (`kDrawn`).
 enum class ColourWeights { kRecipe, kDrawn };
 
 /// Which textures a face gets.
@@ -58,7 +58,7 @@ enum class TextureBlend {
 enum class TextureFormat { kPng, kJpeg, kExr };
 /// Whether pictures show textures.
 enum class SheetTexture {
-  kAuto,  ///< if there are any
+  kAuto,  ///< if any head has textures
   kYes,
   kNo,
 };
@@ -132,7 +132,8 @@ struct Config {
     Contacts contacts = Contacts::kAuto;  ///< treatment of lips and other nearly touching skin
   } blending;
 
-  /// How eyes, teeth and lashes follow the skin. A name is a material, a group or "component N".
+  /// How eyes, teeth and lashes follow the skin. Parts are named by a material, a group or
+  /// "component N".
   struct Parts {
     bool follow = true;  ///< false: `parts: none`, everything is blended as skin
     PartShape shape = PartShape::kTarget;

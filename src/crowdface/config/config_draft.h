@@ -19,8 +19,8 @@ struct ConfigDraft {
   Config config;
   Complaints& complaints;
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
-  /// Each flag is false after a complaint about the heads, tags, regions or smoothing. Values that
-  /// refer to them are then not checked, so that one mistake gives one message.
+  /// Each flag becomes false after a complaint about the heads, tags, regions or smoothing. Values
+  /// that refer to invalid names are then not checked, so that one mistake gives one message.
   bool heads_known = false;
   bool tags_known = true;
   bool regions_known = true;

@@ -46,7 +46,7 @@ struct Key {
   std::string takes = {};          ///< accepted values, for docs/config.md
   /// Documents the nested keys, if the value is a mapping. \param section  path of that mapping.
   std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
-  bool shapes_faces = true;  ///< whether a face's files may depend on the value itself
+  bool shapes_faces = true;  ///< false: the value itself never affects a face's files
 
   Key in_starter(const Starter& lines) const {
     Key key = *this;
@@ -70,8 +70,8 @@ struct Key {
     };
     return key;
   }
-  /// Marks a key that no file of a face depends on directly. Other digests cover the input files
-  /// that the key names and the recipes that follow from it.
+  /// Marks a key whose value no face file depends on directly. Other digests cover the input files
+  /// that the key names, and the recipes that the key leads to.
   Key apart_from_faces() const {
     Key key = *this;
     key.shapes_faces = false;

@@ -36,8 +36,8 @@ struct StarterFacts {
 std::string starter_config(const StarterFacts& facts);
 
 /// Adapts the section `attachments` of a file in the folder of the heads: removes the items that no
-/// head may wear and makes file paths relative to the config. Empty if no item is left, or after a
-/// complaint.
+/// head may wear and makes file paths relative to the config. Returns an empty text if no item
+/// remains, or after a complaint.
 /// \param section  the value of `attachments`; its file paths are relative to `heads`.
 /// \param facts    names and tags of the heads.
 /// \param heads, config_folder  absolute folders of the heads and of the config.

@@ -19,8 +19,8 @@ struct YamlPlace {
 
 struct YamlEntry;
 
-/// A checked YAML tree without anchors, aliases, tags or duplicate keys. Every node has its place.
-/// (yaml-cpp's own nodes silently keep the first of two equal keys and read 010 as 8.)
+/// A checked YAML tree without anchors, aliases, tags or duplicate keys. Every node has its
+/// location. (yaml-cpp's own nodes silently keep the first of two equal keys and read 010 as 8.)
 struct YamlNode {
   enum class Kind {
     kNothing,  ///< no value, `~` or `null`
