@@ -56,7 +56,7 @@ bool is_system_error(int error);
 /// \throws IoError if a look at `path` failed because of the machine.
 void require_stat(const std::filesystem::path& path, const std::error_code& error);
 
-/// Whether `path`, with links followed, leads to the open file `file`. False after the file was
+/// Whether `path`, with links followed, still names the open file `file`. False after the file was
 /// removed, renamed or replaced. \throws IoError if the machine fails.
 bool path_leads_to(const std::filesystem::path& path, const Descriptor& file);
 
@@ -87,7 +87,7 @@ inline bool write_all(int fd, std::string_view bytes) {
   return true;
 }
 
-/// Flushes the file to disk (fsync). Files that have no disk, such as pipes, count as a success.
+/// Flushes the file to disk (fsync). Returns true for files that have no disk, such as pipes.
 /// \return whether it succeeded.
 inline bool sync(int fd) {
   while (::fsync(fd) != 0) {

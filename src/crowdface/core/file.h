@@ -13,9 +13,10 @@
 
 namespace crowdface {
 
-/// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false for a path
-/// that cannot be followed: a folder without search permission, a circle of links, a name that is too long.
-/// \throws IoError if the machine fails, which says nothing about the file.
+/// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false for a
+/// path that cannot be resolved: a folder without search permission, a cycle of links, a name that
+/// is too long.
+/// \throws IoError if the machine fails, because the failure says nothing about the file.
 bool path_exists(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);
@@ -35,7 +36,7 @@ struct FileDigest {
 
 /// Reads the file in pieces. \throws MissingInput, IoError like read_file.
 FileDigest hash_file(const std::filesystem::path& path);
-/// Whether the file has this size and hash. False if the file cannot be read.
+/// Whether the file has this size and hash. Returns false if the file cannot be read.
 bool holds(const std::filesystem::path& path, const FileDigest& content);
 
 /// After this call, each new MappedFile maps its file instead of copying it, and a SIGBUS handler
@@ -49,10 +50,10 @@ enum class OnTruncation {
   kFill  ///< the missing pages read as zeros, and `was_truncated` returns true
 };
 
-/// Read-only view of a file's bytes, valid while the object or a copy of it lives. After
-/// watch_mapped_files() the file is memory-mapped, so the kernel can drop and reload its pages and
-/// large inputs do not count as memory of this process. Before, the bytes are copied, because
-/// without the SIGBUS handler a truncated file would kill the process.
+/// Read-only view of a file's bytes, valid while the object or a copy of it lives. After a call of
+/// watch_mapped_files() files are memory-mapped: the kernel can drop and reload their pages, so
+/// large inputs do not count as memory of this process. Without that call the bytes are copied,
+/// because without the SIGBUS handler a truncated file would kill the process.
 class MappedFile {
  public:
   MappedFile() = default;
@@ -60,17 +61,17 @@ class MappedFile {
   /// error, or if the file is truncated while it is copied.
   explicit MappedFile(const std::filesystem::path& path,
                       OnTruncation when_cut = OnTruncation::kEnd);
-  /// Writes the bytes to an unnamed temporary file and maps that file. The bytes then lie on disk
-  /// and are cached in memory as far as there is room. The file vanishes when the process ends,
-  /// even if the process is killed.
+  /// Writes the bytes to an unnamed temporary file and maps that file. The bytes then lie on disk,
+  /// and the kernel caches them in free memory. The file disappears when the process ends, even if
+  /// the process is killed.
   /// \param folder  folder of the temporary file; created if missing. \throws CannotCreate,
-  ///                IoError.
+  ///     IoError.
   static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
   /// Wraps a text in memory, for code that expects a file.
   static MappedFile of_text(std::string text);
   std::string_view bytes() const;
-  /// With kFill: whether the file has been truncated, so that some bytes may be zeros that it never
-  /// held. Without kFill always false.
+  /// With kFill: whether the file was truncated, so that some bytes read as zeros although the file
+  /// held other values. Without kFill always false.
   bool was_truncated() const;
 
  private:

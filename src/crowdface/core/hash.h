@@ -35,7 +35,8 @@ class Hasher {
   Hasher& operator=(const Hasher&) = delete;
 
   Hasher& add(std::string_view text);
-  /// Hashes the bytes without their length. Adding a text in pieces gives its `hash_bytes`.
+  /// Hashes the bytes without their length. Adding a text in pieces gives the same digest as
+  /// `hash_bytes` of the whole text.
   Hasher& add_raw(std::string_view bytes);
   Hasher& add(double value);
   Hasher& add(const Digest& digest);

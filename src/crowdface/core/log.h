@@ -11,7 +11,7 @@ namespace crowdface {
 
 enum class LogLevel { kQuiet, kNormal, kVerbose };
 
-/// Sets what goes to standard error. Log files always receive all lines.
+/// Sets which lines go to standard error. Log files always receive all lines.
 void set_log_level(LogLevel level);
 LogLevel log_level();
 /// Also appends all lines to this file, in addition to earlier log files. \throws CannotCreate.
@@ -23,7 +23,7 @@ void close_log_file() noexcept;
 /// caller checks for an error at the end.
 std::optional<std::string> log_failure();
 
-/// Keeps the last 1000 lines while it lives, for a log file that cannot be opened yet.
+/// Keeps the last 1000 lines during its lifetime, for a log file that cannot be opened yet.
 class LogMemory {
  public:
   LogMemory();

@@ -40,7 +40,7 @@ std::string printable(std::string_view text);
 /// `text` in double quotes, printable. Line ends, quotes and backslashes are escaped too. Only the
 /// first 80 bytes are kept.
 std::string quoted(std::string_view text);
-/// Overloads: without them, overload resolution would choose std::quoted for these types.
+/// These overloads exist because overload resolution would otherwise choose std::quoted.
 inline std::string quoted(const std::string& text) {
   return quoted(std::string_view(text));
 }
