@@ -70,8 +70,8 @@ struct CrowdDirectory {
   /// One USD layer that references the layers of all faces.
   std::filesystem::path stage() const { return root / "crowd.usda"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
-  /// \param part  a level of detail, a shape, or all shapes; '+' separates the id from the part,
-  ///              since no face's id contains '+'
+  /// \param part  a level of detail, a shape, or all shapes. '+' separates the id from the part,
+  ///     because no face's id contains '+'.
   std::filesystem::path mesh(const std::string& id, MeshFormat format,
                              const std::string& part = {}) const;
   /// Arrays that define the polygons of positions-only meshes (MeshFormat::kPoints).
@@ -105,11 +105,12 @@ struct CrowdDirectory {
   std::filesystem::path gallery_attachment(const std::string& name) const {
     return gallery() / "data/attachments" / (name + ".js");
   }
-  /// The name by which the ledger lists a file of the crowd.
+  /// Path of a file relative to the crowd's folder, as the ledger lists it.
   std::string relative(const std::filesystem::path& file) const {
     return file.lexically_relative(root).generic_string();
   }
-  /// Path of sheet number `page`, counted from 1; a subfolder holds as many sheets as faces.
+  /// Path of sheet number `page`, counted from 1. A subfolder holds as many sheets as another
+  /// subfolder holds faces.
   std::filesystem::path sheet(std::size_t page) const;
   /// Subfolder of a face, such as "012", from the number at the end of its id; empty if the crowd
   /// has no subfolders.

@@ -46,8 +46,8 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged = 0;  ///< number of invalid lines
-  /// Whether a run finished, and all its lines exist and list as many files of each kind as the run
-  /// counted.
+  /// Whether a run finished, all its lines still exist, and they list as many files of each kind as
+  /// the run counted.
   bool complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
@@ -72,14 +72,14 @@ class Ledger {
   /// Reads all ledgers of the folder. Drops damaged lines with a warning; their items count as
   /// unfinished.
   /// \param own     the ledger to append to; created if it does not exist.
-  /// \param others  ledgers of other runs, which are only read. If several ledgers list an item, no
-  ///                line takes precedence, because their order in time is unknown; any of the lines
-  ///                may prove that the item is finished.
+  /// \param others  ledgers of other runs, which are only read. If several ledgers list an item,
+  ///     any of their lines may prove that the item is finished: the order of the lines in time is
+  ///     unknown, so none takes precedence.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 
-  /// Returns an entry of the item that has this key and whose files match. With such an entry the
-  /// item is finished.
+  /// Returns a ledger line of the item that has this key and whose files are unchanged. Such a line
+  /// proves that the item is finished.
   std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
 
   /// Appends one line for each entry. `write_file` or `write_files` must have written the files.
@@ -90,16 +90,16 @@ class Ledger {
   /// \param names  paths relative to the folder.
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 
-  /// Writes a file that depends on nothing but its content, unless the file exists with this
-  /// content, and records it.
+  /// Writes and records a file whose key is its content. Does not write if the file exists with
+  /// this content.
   FileDigest write(const std::string& name, const TextPieces& text);
   FileDigest write(const std::string& name, std::string_view bytes);
-  /// Records an existing, correct file that depends on nothing but its content.
+  /// Records an existing, correct file whose key is its content.
   void keep(const LedgerEntry::File& file);
 
-  /// Takes over files that were made again, possibly in another format than the config's. Records
-  /// files whose content has changed under another key, so that the next run makes them again as
-  /// the config says; unchanged files keep their lines.
+  /// Records files that were made again, possibly in a format that the config does not ask for.
+  /// Files whose content has changed get another key, so that the next run makes them again as the
+  /// config demands; unchanged files keep their lines.
   /// \param item, names  an item and its present files
   /// \param folders      files of other items are checked if they are in one of these folders
   void adopt(const std::string& item, const std::vector<std::string>& names,
@@ -114,7 +114,8 @@ class Ledger {
   void require_files() const;
 
  private:
-  /// The lines of an item when this run began, or the one line that this run proved or recorded.
+  /// The lines that an item had when this run began, or the one line that this run proved or
+  /// recorded.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool done = false;
