@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// A request to draw faces for the user to choose from.
 struct DrawRequest {
-  FacePlan from;  ///< supplies the id and all locked parts
+  FacePlan from;  ///< the face to redraw: supplies the id and all locked parts
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
   std::optional<FacePlan> like;  ///< draw variations of this face
@@ -22,8 +22,8 @@ struct DrawRequest {
   std::uint32_t first_attempt = 0;  ///< a different number yields different faces
 };
 
-/// Draws faces that keep the limits of the config. Without `like`, the faces also keep the minimum
-/// distance from the crowd.
+/// Draws faces that satisfy the limits of the config. Without `like`, the faces also keep the
+/// minimum distance from the crowd.
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.
 std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge& judge,

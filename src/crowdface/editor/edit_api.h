@@ -27,10 +27,10 @@ namespace crowdface {
 class EditApi {
  public:
   /// \param session, folder, run  must outlive this object
-  /// \param may_edit_config  whether recipes and regions may be saved to the job's config, which is
-  ///                         so if the config is the user's own file
+  /// \param may_edit_config  whether requests may save recipes and regions to the job's config;
+  ///     true if the config is the user's own file
   /// \param open_again  loads the config and the crowd again; afterwards another object answers
-  ///                    requests
+  ///     requests
   EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
           std::function<void()> open_again);
 

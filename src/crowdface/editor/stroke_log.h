@@ -18,8 +18,8 @@ class StrokeLog {
  public:
   /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
   /// last line.
-  /// \param painted_on  identifies the masks and the preview. Strokes on others are discarded with
-  ///                    a log message.
+  /// \param painted_on  identifies the masks and the preview. Strokes that were painted on other
+  ///     masks are discarded with a log message.
   StrokeLog(std::filesystem::path file, const Digest& painted_on);
 
   /// The strokes in the order of the calls of `add`.
