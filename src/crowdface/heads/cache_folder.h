@@ -13,11 +13,11 @@ namespace crowdface {
 /// ~/.cache/crowdface, else a folder for temporary files.
 std::filesystem::path cache_directory();
 
-/// A cache folder, and how far its files are trusted.
+/// A cache folder, and whether files that were read before count as unchanged.
 struct CacheFolder {
   std::filesystem::path path;  ///< empty: no cache
-  /// Whether head files and cache entries count as unchanged, without hashing them again, if nobody
-  /// has written to them since they were last read completely (see FileFingerprint).
+  /// Whether a head file or cache entry is accepted without being hashed again, if it has not been
+  /// written to since it was last read completely (see FileFingerprint).
   bool trusts_seen_files = false;
 
   CacheFolder() = default;

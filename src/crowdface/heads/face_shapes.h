@@ -27,7 +27,8 @@ class FaceShapes {
   /// The shapes of an input head.
   std::vector<Displacements> of_head(Index head) const;
 
-  /// The shape that `shape` is made to be added to, if there is one (see companions_of).
+  /// Returns the shape that `shape` corrects when both are applied together, if there is one (see
+  /// companions_of).
   std::optional<std::size_t> companion(std::size_t shape) const;
   std::size_t memory_bytes() const;
 

@@ -11,9 +11,9 @@
 
 namespace crowdface {
 
-/// Recalls the hash of a file that is about to be read, if the cache trusts seen files and the file
-/// has not changed since it was last read. A file counts as unchanged if device, inode, size, mtime
-/// and ctime (which no program can set) are the same. This saves hashing gigabytes before the
+/// Finds the stored hash of a file that is about to be read, if the cache trusts seen files and the
+/// file has not changed since it was last read. A file counts as unchanged if device, inode, size,
+/// mtime and ctime (which no program can set) are the same. This saves hashing gigabytes before the
 /// program can show anything.
 class FileFingerprint {
  public:
@@ -22,10 +22,9 @@ class FileFingerprint {
 
   /// Hash of the file's bytes, if seen files are trusted and this one has not changed.
   const std::optional<Digest>& digest() const { return digest_; }
-  /// Stores the hash of the bytes, after the caller has read them (since this object was made) and
-  /// found them valid. Does nothing if seen files are not trusted, if the file has changed
-  /// meanwhile, or if its last change is so recent that a further one might leave the times the
-  /// same.
+  /// Stores the hash of the bytes. The caller must have read the bytes since this object was made
+  /// and found them valid. Does nothing if seen files are not trusted, if the file has changed
+  /// meanwhile, or if its last change is so recent that a later change might leave the times equal.
   void remember(const Digest& digest) const;
 
  private:

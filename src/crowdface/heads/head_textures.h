@@ -16,7 +16,7 @@
 
 namespace crowdface {
 
-/// What identifies an image of a blended texture, besides the face's id.
+/// The parts of an image's name besides the face's id.
 struct PictureName {
   std::string part;  ///< name of the image's material; empty if there is only one
   int tile = 0;      ///< UDIM tile number; 0: none
@@ -25,9 +25,10 @@ struct PictureName {
   bool of_bytes = true, of_floats = false;
 };
 
-/// The heads' textures of one kind, as far as they are needed.
+/// The heads' textures of one kind, for blending or for renders.
 struct HeadTextures {
-  /// The textures from which each face's own are blended; no images if faces have no own textures.
+  /// The textures from which the faces' textures are blended; no images if faces have no textures
+  /// of their own.
   CrowdTextures blended;
   std::vector<PictureName> names;  ///< one per image of the layout
 
@@ -53,7 +54,7 @@ bool any_is_shown(const std::vector<HeadTextures>& maps);
 class FaceTextureSet {
  public:
   /// \param maps     textures of all kinds except colour
-  /// \param target   head whose colours the face has if colours are not blended
+  /// \param target   head whose colours are used if colours are not blended
   /// \param max_px  maximum side length; larger images are downscaled
   FaceTextureSet(const HeadTextures& colours, const std::vector<HeadTextures>& maps, Index target,
                  int max_px);
@@ -85,20 +86,20 @@ void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head,
 /// The texture set of an input head; nothing if the head has no texture.
 std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Index head, int max_px);
 
-/// Loads textures to be rendered as the heads have them. Reads each file once. PNG, TIFF and JPEG
-/// files count as sRGB, floats as linear light.
+/// Loads the heads' textures for renders, without blending. Reads each file once. PNG, TIFF and
+/// JPEG files count as sRGB, floats as linear light.
 /// \param max_px  maximum side length; larger textures are downscaled
 /// \throws InvalidInput that names the file if a file is damaged.
 HeadTextures load_render_textures(HeadsTextures found, int max_px);
 
-/// Loads textures of one kind for blending and converts all to one layout: that of the first head
-/// with a texture. For each head, merges the files of an image into one, which has the size of the
-/// largest file or `size`.
+/// Loads textures of one kind for blending and converts all to one layout, that of the first head
+/// with a texture. For each head, merges the files of an image into one image, whose longer side
+/// has the length `size`.
 /// \param size     texels of the longer side; nothing: as the largest file, at most 4,096
 /// \param scratch  folder for the maps if they would together need more than half of the memory
-///                 left for images
-/// \throws InvalidInput if a file is damaged, or cannot be what its material says, such as a grey
-///         image as a normal map.
+///     left for images
+/// \throws InvalidInput if a file is damaged, or is not of the kind that its material says, such as
+///     a grey image as a normal map.
 HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& materials,
                                    HeadsTextures found, std::optional<std::uint64_t> size,
                                    const std::filesystem::path& scratch);

@@ -96,7 +96,8 @@ struct Inputs {
   std::vector<Digest> head_digests;   ///< #heads, hashes of the positions in use
   Digest topology_digest;
   Digest mask_digest;                 ///< hash of α
-  HeadTextures textures;              ///< colour textures, if they are blended or rendered
+  HeadTextures textures;              ///< colour textures, if they are blended or rendered;
+                                      ///< otherwise empty
   std::vector<HeadTextures> maps;     ///< textures of other kinds, if faces get blended ones
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 

@@ -10,14 +10,14 @@
 
 namespace crowdface {
 
-/// Checks the mask images as far as possible without texture coordinates, which determine the UDIM
-/// tiles in use.
+/// Checks the mask images before texture coordinates are known. The check cannot determine which
+/// UDIM tiles are in use.
 void check_masks(const std::vector<std::string>& files, Problems& problems);
 
-/// Warns about each mask that is one image although the skin lies in several UDIM tiles.
+/// Warns about each mask that is a single image although the skin lies in several UDIM tiles.
 std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs);
 
-/// Warns about masks that have no useful effect.
+/// Warns about masks that have no effect or an unlikely one.
 std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -25,9 +25,9 @@ struct Prepared {
   FaceSamples samples;
   /// the samples, followed by the other vertices that their mirror images depend on
   FaceSamples traced;
-  std::vector<Trajectory> trajectories;     ///< #heads, of `traced`
+  std::vector<Trajectory> trajectories;     ///< #heads, trajectories of the vertices `traced`
   std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
-  std::shared_ptr<const LevelNodes> nodes;  ///< the nodes that `mixing` refers to
+  std::shared_ptr<const LevelNodes> nodes;  ///< the nodes on which the mixing matrices are defined
   CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`
   std::size_t from_cache = 0;               ///< number of heads found in the cache
@@ -39,7 +39,7 @@ struct TruncatedWhileInUse : IoError {
   using IoError::IoError;
 };
 
-/// Call after the fields were used and before the results are. \throws TruncatedWhileInUse.
+/// Call this after using the fields and before using the results. \throws TruncatedWhileInUse.
 void require_whole(const Prepared& prepared);
 
 /// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
@@ -57,8 +57,8 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
 /// The fitted levels in the form that blending needs.
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
 
-/// Runs `work` again, at most three times in all and with a warning, if a cache entry was truncated
-/// while in use. `work` must prepare the heads anew and skip what it has finished before.
+/// Calls `work`. If a cache entry was truncated while in use, warns and calls `work` again, at most
+/// three times in all. `work` must prepare the heads anew and skip what it has already finished.
 template <class Work>
 void retry_if_truncated(const Work& work) {
   constexpr int kMaxTimes = 3;

@@ -21,7 +21,7 @@ struct HeadMesh {
   Digest digest() const;
 };
 
-/// Fills in positions, materials and groups of a head, as they were read before.
+/// Fills in positions, materials and groups of a head from the cache.
 /// \param text  hash of the whole file
 /// \return the hash of the head's mesh, or nothing if the cache does not know the file.
 std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head);

@@ -7,12 +7,12 @@
 
 namespace crowdface {
 
-/// Hash of everything besides its recipe that a mesh depends on: topology, heads, masks, and
-/// smoothing settings. Each recipe of a plan contains it.
+/// Hash of everything that a mesh depends on besides its recipe: topology, heads, masks, and
+/// smoothing settings. Each recipe of a plan contains this hash.
 Digest settings_digest(const Config& config, const Inputs& inputs);
 
-/// Hash of the heads' material files and of those of their textures that no other hash covers: what
-/// a surface looks like besides its colours. Zero if there are none.
+/// Hash of the heads' material files and of those textures that no other hash covers: everything
+/// that determines a surface's look except its colours. Zero if there are no such files.
 Digest materials_digest(const Inputs& inputs);
 
 }  // namespace crowdface

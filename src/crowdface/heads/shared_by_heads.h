@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data computed from all heads together, which takes about a second per million vertices: looked up
-// in the cache first. Nothing is cached for small heads.
+// Data computed from all heads together. The computation takes about a second per million vertices,
+// so the data is looked up in the cache first. Nothing is cached for small heads.
 #pragma once
 
 #include <filesystem>
@@ -15,18 +15,18 @@ namespace crowdface {
 /// The cache folder for heads with this topology; empty if they are too small to cache.
 std::filesystem::path folder_for(const std::filesystem::path& cache, const Topology& topology);
 
-/// Cached build_adjacency and find_components. \param inputs  need the topology and its hash
+/// build_adjacency and find_components, cached. \param inputs  must have the topology and its hash
 void find_neighbours(Inputs& inputs);
 
-/// Cached region_weights of the config's masks; whole_head if there are no regions. \param inputs
-/// need the parts
+/// region_weights of the config's masks, cached; whole_head if there are no regions. \param inputs
+/// must have the parts
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
-/// Cached choose_face_samples and find_sample_cells of the mean head.
+/// choose_face_samples and find_sample_cells of the mean head, cached.
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count);
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples);
 
-/// Cached find_mirror.
+/// find_mirror, cached.
 FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side);
 
 }  // namespace crowdface
