@@ -36,7 +36,7 @@ class EncodedFile {
   bool replace_line(std::string_view word, std::string_view line);
 
   std::uint64_t size() const { return size_; }
-  /// Bytes that this object owns, without the referenced ranges.
+  /// Size of the bytes that this object owns, without the referenced ranges.
   std::size_t memory_bytes() const { return memory_bytes_; }
   /// `hash_bytes` of the whole content.
   Digest digest() const;

@@ -18,8 +18,8 @@
 namespace crowdface {
 
 /// Writes binary glTF 2.0 files of one topology. The data that all faces share (texture
-/// coordinates, triangles, the split of vertices at seams, see `SplitVertices`) is built once and
-/// referenced by each file. Positions keep their unit and axes. The attribute `_VERTEX_ID` holds
+/// coordinates, triangles, the split of vertices at seams, see `SplitVertices`) is built once, and
+/// each file references it. Positions keep their unit and axes. The attribute `_VERTEX_ID` holds
 /// the original vertex of each split vertex, or the value given in the options. The first #V
 /// vertices are the original vertices in order.
 class GlbTemplate {

@@ -55,7 +55,7 @@ class GltfFile {
   Json scene_;
   std::string_view binary_;
   std::map<std::size_t, std::string> own_buffers_, own_views_;
-  std::size_t room_ = 0;  ///< how many more numbers may be read
+  std::size_t room_ = 0;  ///< how many more numbers may be read from this file
 };
 
 /// A matrix from 16 numbers in column-major order.

@@ -30,9 +30,9 @@ struct PictureToEncode {
       nullptr;  ///< row-major; floats for OpenEXR, 16 bits for kWordPng, else bytes
 };
 
-/// Reads and writes some file formats. Does not check limits; image.cpp does. A struct of function
-/// pointers, without virtual functions: OpenImageIO is behind a shared library, and type identity
-/// across libraries is unreliable.
+/// Reads and writes some file formats. image.cpp, not the codec, checks the limits. The struct
+/// consists of function pointers and has no virtual functions, because OpenImageIO is behind a
+/// shared library and type identity across libraries is unreliable.
 struct ImageCodec {
   /// \param format  name of the reader in OpenImageIO.
   /// \param bytes  of the file; must outlive the picture.

@@ -24,7 +24,7 @@ struct MaterialFile {
 
 struct MaterialFiles {
   std::vector<MaterialFile> files;  ///< each destination once
-  /// Names without a file at the source, or perhaps at the destination.
+  /// Textures whose source file is missing, or whose copy may be missing.
   std::vector<std::string> warnings;
 };
 

@@ -38,7 +38,7 @@ enum class FileNormals {
   kAlways,
 };
 
-/// Properties of a format: all that the program needs to plan, name, read and check its files.
+/// Properties of a format, by which the program plans, names, reads and checks its files.
 struct MeshFormatTraits {
   MeshFormat format;
   std::string_view name;        ///< name in the config: "points"

@@ -42,9 +42,9 @@ ObjFile read_obj(const std::filesystem::path& path);
 /// \param outline  of the text.
 ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline);
 
-/// Reads an OBJ file whose polygons and texture coordinates equal those of a file read before.
-/// Topology, texture coordinates and corner normals stay empty.
-/// \param outline  of the text; its `mesh` equals that of the other file.
+/// Reads an OBJ file whose polygons and texture coordinates equal those of an earlier file. The
+/// result's topology, texture coordinates and corner normals stay empty.
+/// \param outline  of the text; its `mesh` equals that of the earlier file.
 ObjFile read_obj_beside(const std::filesystem::path& path, MappedFile file,
                         const ObjOutline& outline);
 

@@ -24,7 +24,7 @@ struct ObjScan {
   Index face_count = 0;
   Index corner_count = 0;
   std::vector<std::string> material_libraries;
-  /// Ascending first_face; empty if the text uses no material.
+  /// In ascending order of first_face; empty if the text uses no material.
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;  ///< groups and objects (`g`, `o`), ascending first_face
   std::vector<std::string> notes;     ///< ignored statements, one sentence each
@@ -33,8 +33,9 @@ struct ObjScan {
 /// Counts and a hash of an OBJ text, from a first fast pass.
 struct ObjOutline {
   std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
-  /// Hash of all but the numbers of `v` and `vn`, comments and the names of groups, objects and
-  /// materials. Texts with the same hash have the same faces and texture coordinates, line by line.
+  /// Hash of the whole text except the numbers of `v` and `vn`, comments, and the names of groups,
+  /// objects and materials. Texts with the same hash have the same faces and texture coordinates,
+  /// line by line.
   Digest mesh;
 };
 ObjOutline outline_obj(std::string_view text);

@@ -13,9 +13,9 @@ namespace crowdface {
 /// The material files of a mesh merged into one, in which textures can be replaced.
 class OwnMaterials {
  public:
-  /// \param mesh, libraries  as for `find_material_files`; unreadable files are left out.
-  /// \param shared  path from the new file to the textures that are not replaced: ".."; empty: the
-  /// same folder.
+  /// \param mesh, libraries  as for `find_material_files`; unreadable files are skipped.
+  /// \param shared  path from the new file to the textures that are not replaced, such as "..";
+  ///     empty: the same folder.
   OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
                const std::string& shared = {});
 

@@ -3,13 +3,13 @@
 
 namespace crowdface {
 
-/// Loads a function from one of the project's own shared libraries. These libraries contain what
-/// only some runs need and what is slow to load, and link the third-party libraries. They are
-/// beside the program, both in the build folder and after installation.
+/// Loads a function from one of the project's own shared libraries. These libraries contain code
+/// that only some runs need, and link third-party libraries that are slow to load. They lie beside
+/// the program, both in the build folder and after installation.
 /// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
-/// \param needs, without  for messages: "images need (OpenImageIO)", "images cannot be read".
+/// \param needs, without  texts for messages: "images need (OpenImageIO)", "images cannot be read".
 /// \throws IoError if the library is not where it was installed, cannot be loaded, or lacks the
-/// function.
+///     function.
 void* project_library_function(const char* library, const char* function, const char* needs,
                                const char* without);
 

@@ -10,7 +10,8 @@
 
 namespace crowdface {
 
-inline constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< bytes of three numbers
+inline constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< size in bytes of three single-
+                                                               ///< precision numbers
 /// Number of rows that a thread encodes at a time.
 inline constexpr Index kRowsPerBlock = 1 << 15;
 

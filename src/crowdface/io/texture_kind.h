@@ -16,8 +16,8 @@ struct TextureStatement {
   std::string_view name;  ///< in file names
 };
 
-/// In the order of TextureKind. `map_Bump`, also spelled `map_bump` and `bump`, names height maps;
-/// many programs use it for normal maps.
+/// One row for each TextureKind, in order. `map_Bump`, also spelled `map_bump` and `bump`, names
+/// height maps; many programs use it for normal maps.
 inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kColour, "map_Kd", "colour"},
     TextureStatement{TextureKind::kNormal, "norm", "normal"},

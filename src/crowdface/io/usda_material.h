@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// The appearance of a material in a USD layer. Files are relative to the layer; an empty name
-/// means no file.
+/// The appearance of a material in a USD layer. File names are relative to the layer; an empty name
+/// means that there is no file.
 struct UsdaSurface {
   std::array<float, 4> colour = {
       1, 1, 1, 1};             ///< linear RGB if there is no picture; opacity if there is no mask
@@ -17,15 +17,16 @@ struct UsdaSurface {
   std::string roughness = {};  ///< roughness map, first channel
   /// Mask file: the surface is opaque where the mask is at least one half.
   std::string holes = {};
-  /// The mask is the file's alpha channel, or else its first channel.
+  /// Whether the mask is the file's alpha channel; otherwise it is the first channel.
   bool holes_in_alpha = false;
-  bool overlay = false;  ///< the primvar is `st1`, clamped; otherwise `st`, repeated
+  bool overlay = false;  ///< textures use the primvar `st1` and are clamped; otherwise they use
+                         ///< `st` and repeat
 };
 
-/// A Scope prim below the root that contains Material prims with preview surfaces; empty without
-/// materials.
+/// A Scope prim below the root that contains Material prims with preview surfaces; an empty text if
+/// there are no materials.
 /// \param scope  name of the Scope prim.
-/// \param names  of the Material prims; materials with an empty name are left out.
+/// \param names  names of the Material prims; materials with an empty name are skipped.
 /// \param surfaces  #names
 std::string usda_materials(const std::string& root, const std::string& scope,
                            const std::vector<std::string>& names,

@@ -21,8 +21,8 @@ namespace crowdface {
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
 /// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
-/// subsets, and UsdSkel blend shapes. Everything but positions, normals and displacements is
-/// formatted once.
+/// subsets, and UsdSkel blend shapes. Formats everything except positions, normals and
+/// displacements only once.
 class UsdaMesh {
  public:
   struct Form {
@@ -30,8 +30,8 @@ class UsdaMesh {
     std::vector<std::string> materials = {};  ///< names; may be empty
     /// #F indices into `materials`; empty: all faces use the first
     std::vector<std::uint32_t> face_materials = {};
-    /// Blend shapes with the vertices that each moves; if a target lists no vertices, the
-    /// displacements of each face list them.
+    /// Blend shapes, each with the vertices that it moves. If a target lists no vertices, each face
+    /// lists the vertices with that face's displacements.
     std::vector<GlbTarget> targets = {};
     std::string lines = {};  ///< additional lines of the prim
   };
@@ -57,7 +57,7 @@ class UsdaMesh {
 
   /// Prim names of the materials; empty for materials that no face uses.
   const std::vector<std::string>& materials() const { return materials_; }
-  /// Quoted names of the targets.
+  /// Names of the targets, in quotes.
   const std::vector<std::string>& tokens() const { return tokens_; }
 
   std::size_t memory_bytes() const;
@@ -76,7 +76,7 @@ class UsdaMesh {
   std::vector<std::string> subsets_;  ///< polygons of each material
   std::vector<std::string> shapes_;   ///< prim names of the targets
   std::vector<std::string> tokens_;
-  std::vector<std::string> indices_;  ///< vertices of the targets
+  std::vector<std::string> indices_;  ///< formatted vertex indices of each target
   std::size_t target_rows_ = 0;       ///< upper bound of the number of displacements in all targets
 };
 

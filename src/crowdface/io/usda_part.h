@@ -12,8 +12,9 @@
 
 namespace crowdface {
 
-/// An additional mesh with its own topology and materials in the USD layers of faces, a sibling of
-/// the face's mesh, moved by the same targets. Like `UsdaTemplate`, it is built once.
+/// An additional mesh with its own topology and materials in the USD layers of faces. It is a
+/// sibling of the face's mesh and has the same blend-shape targets. Like `UsdaTemplate`, the object
+/// is built once.
 class UsdaPart {
  public:
   struct Material {

@@ -23,8 +23,7 @@ namespace crowdface {
 class UsdaTemplate {
  public:
   /// \param uvs  #T by 2; may be empty.
-  /// \param options  as for GLB files, except that images are external files and `vertex_ids` is
-  /// ignored.
+  /// \param options  as for GLB files, but images are external files and `vertex_ids` is ignored.
   UsdaTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options,
                Subdivision subdivision);
 
@@ -53,7 +52,7 @@ class UsdaTemplate {
 
   UsdaMesh mesh_;
   std::string frame_;  ///< the layer's unit and up axis
-  std::string turn_;   ///< transform of the mesh if the stage has other axes
+  std::string turn_;   ///< transform of the mesh if the stage's axes differ from the heads' axes
   std::vector<GlbMaterial> surfaces_;
   std::string shared_;               ///< see `GlbOptions::shared`
   std::vector<std::string> points_;  ///< prim names of the points
