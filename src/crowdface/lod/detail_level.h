@@ -11,7 +11,8 @@
 namespace crowdface {
 
 /// A level of detail: fewer triangles over a subset of the whole mesh's vertices. All faces of a
-/// crowd share one level's topology, so a face or shape at that level is a subset of its rows.
+/// crowd share one level's topology, so a face or shape at that level consists of some rows of the
+/// whole face or shape.
 struct DetailLevel {
   double share = 1;                     ///< requested fraction of the whole mesh's triangles
   std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh, ascending
@@ -26,7 +27,7 @@ struct DetailLevel {
   Displacements of(const Displacements& whole) const;
 };
 
-/// Distances of the whole mesh's vertices from a level's surface.
+/// Statistics of the distances of the whole mesh's vertices from a level's surface.
 struct LevelError {
   double most = 0;
   double root_mean_square = 0;

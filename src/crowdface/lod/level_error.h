@@ -15,16 +15,17 @@ namespace crowdface {
 struct LevelMap {
   /// Vertices of the whole mesh that faces use and the level lacks, ascending.
   std::vector<std::uint32_t> vertices;
-  std::vector<Triangle> triangles;  ///< #vertices: a triangle of the level's vertices for each
+  std::vector<Triangle> triangles;  ///< #vertices: for each, a triangle, given by indices of the
+                                    ///< level's vertices
 };
-/// Finds these triangles.
-/// \param typical  #V by 3: the head on which they are found.
+/// Finds the triangles of a LevelMap.
+/// \param typical  #V by 3: the head on which distances are measured.
 LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const DetailLevel& level,
                       const Positions& typical);
 
-/// Error over all meshes together, in their unit. An upper bound: on another mesh a different
-/// triangle may be nearer than the mapped one. If a vertex is far from its mapped triangle,
-/// neighbouring triangles are searched too.
+/// Returns the error over all meshes together, in their unit. The error is an upper bound, because
+/// on some mesh a triangle other than the mapped one may be nearer. If a vertex is far from its
+/// mapped triangle, neighbouring triangles are searched too.
 /// \param meshes  each #V by 3, at least one.
 LevelError level_error(const DetailLevel& level, const LevelMap& map,
                        std::span<const Positions* const> meshes);
