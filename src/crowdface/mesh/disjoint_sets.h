@@ -27,8 +27,8 @@ class DisjointSets {
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  /// Makes an item its own group again. Call this for all items of a group, or the group is left
-  /// inconsistent.
+  /// Makes an item its own group again. Call this for every item of a group; otherwise the
+  /// remaining items refer to a wrong root.
   void release(std::uint32_t thing) { parent_[thing] = thing; }
 
  private:

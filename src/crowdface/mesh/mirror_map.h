@@ -19,15 +19,16 @@ struct MirrorPlane {
 };
 
 /// Maps each vertex to its mirror point, a point on the surface on the other side of the head. The
-/// mean head defines the left and right sides, so that mirroring is a linear map of a head's
-/// positions, with one plane for all heads.
+/// mirror points and the plane are determined once, on the mean head, so that mirroring is the same
+/// linear map of positions for all heads.
 struct MirrorMap {
   MirrorPlane plane;
   std::vector<Triangle> corners;  ///< #V: the triangle that holds the mirror point of each vertex
   std::vector<std::array<double, 3>>
       shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if it is a vertex
   std::vector<std::uint32_t> without;  ///< vertices without a mirror point, ascending
-  /// #without by 3: offsets added at these vertices, so that the mean head keeps its shape.
+  /// #without by 3: offsets added to the mirror images at these vertices, so that the mean head
+  /// keeps its shape there.
   Positions kept;
 
   bool is_vertex(std::uint32_t v) const { return shares[v][0] == 1; }

@@ -14,7 +14,8 @@ float winding(const Topology& topology, const Positions& positions);
 void turn_faces(Topology& topology);
 
 /// Whether the polygons of a mesh clearly face inwards. The function measures from the
-/// area-weighted centre, so that small parts next to a large open surface do not decide the result.
+/// area-weighted centre, so that small parts next to a large open surface have little effect on the
+/// result.
 bool is_inside_out(const Topology& topology, const Positions& positions);
 
 }  // namespace crowdface
