@@ -36,10 +36,10 @@ RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, do
 
 /// Weights of soft bands of a head, computed from the head's shape.
 /// \param marks  the result of find_face_marks for this head
-/// \param bands  kBrow, kNose and kMouth, and optionally others
+/// \param bands  kBrow, kNose and kMouth, and optionally other bands
 /// \return #V by #bands, not negative; each row sums to one.
 /// \throws InvalidInput if `bands` has kEars and no ears stand out at the sides of the head, or if
-///         `bands` has kNeck and the head ends at the chin.
+///     `bands` has kNeck and the head ends at the chin.
 RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& head,
                                    const FaceMarks& marks, const std::vector<Band>& bands);
 

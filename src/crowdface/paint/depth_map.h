@@ -34,15 +34,15 @@ class DepthMap {
  private:
   /// The squares around a coordinate along one axis of the grid: the square that contains the
   /// coordinate, the last square whose centre is below the coordinate, and the interpolation weight
-  /// of the next square. An index is −1 if there is no such square.
+  /// of the square after that one. An index is −1 if there is no such square.
   struct Lookup {
     Index nearest = -1, below = -1;
     double share = 0;
   };
   Lookup look_up(double offset, double extent, Index count) const;
-  /// Depth at a point of the grid: bilinear between the centres of four squares if all four show
-  /// the surface, otherwise the depth of the square that contains the point. kNoDepth outside the
-  /// grid.
+  /// Depth at a point of the grid: interpolated bilinearly between the centres of the four nearest
+  /// squares if all four show the surface, otherwise the depth of the square that contains the
+  /// point. kNoDepth outside the grid.
   double at(const Lookup& column, const Lookup& row) const;
   std::size_t index(double x, double y) const;
 

@@ -25,7 +25,7 @@ struct FaceMarks {
   double face() const { return eyes - mouth; }
 };
 
-/// The data of a head from which its face is located; usually the mean of all heads.
+/// The data of a head in which a face is searched; usually the mean of all heads.
 struct HeadShape {
   Positions positions;                    ///< #V by 3
   std::vector<bool> skin;                 ///< #V
@@ -33,7 +33,7 @@ struct HeadShape {
 };
 HeadShape shape_of_mean(const HeadSet& faces);
 
-/// Position of the symmetry plane along HeadAxes::side(): the middle of the skin.
+/// Position of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
 double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
 /// Finds the face by its relief, see match_relief.
@@ -48,7 +48,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes);
 
-/// The directions in which a head points.
+/// The up and front directions of a head.
 struct Bearing {
   Axis up, front;
   bool operator==(const Bearing&) const = default;

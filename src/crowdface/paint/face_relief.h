@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-inline constexpr Index kSkinSamples = 150'000;  ///< enough to find a face on a bust
+inline constexpr Index kSkinSamples = 150'000;  ///< number of samples with which a face is found
+                                                ///< even on a bust
 
 /// Samples the skin evenly by area, so that measurements on the samples do not depend on the
 /// tessellation of the mesh.
@@ -27,18 +28,19 @@ struct ReliefMatch {
   /// The agreement, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15 if
   /// they are elsewhere.
   double votes = -1;
-  std::size_t view = 0;    ///< index of the requested axes that are nearest to the axes of the face
+  std::size_t view = 0;    ///< index of those of the requested axes that are nearest to the face's
+                           ///< axes
   double degrees_off = 0;  ///< angle between these requested axes and the axes of the face
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
-  /// Axes in which the face is symmetric and as upright as the mean face. `axes` ignore small angles
-  /// between these and the requested axes, which come from the posture and the form of the face.
+  /// Axes in which the face is symmetric and as upright as the mean face. Small angles between
+  /// these and the requested axes come from the posture and form of the face; `axes` ignores them.
   HeadAxes frame;
   Eigen::Vector3d between;  ///< point on the surface between the eyes
   double scale = 1;    ///< units of the positions per millimetre of the mean face, horizontally
   double stretch = 1;  ///< vertical scale as a multiple of `scale`
 };
 
-/// A match with fewer votes is not a face.
+/// A match with fewer votes does not count as a face.
 inline constexpr double kMinVotes = 0.65;
 /// A match whose axes differ by more degrees from the requested axes is rejected.
 inline constexpr double kMaxDegreesOff = 45;

@@ -20,7 +20,8 @@ enum class BrushMode : std::uint8_t {
 
 struct Brush {
   BrushMode mode = BrushMode::kAdd;
-  double radius = 1;    ///< distance along the surface, in the unit of the positions, above 0
+  double radius = 1;    ///< radius of the brush along the surface, in the unit of the positions,
+                        ///< above 0
   double strength = 1;  ///< change at the centre of the brush, 0 to 1
   /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
   double falloff = 1;
@@ -43,18 +44,18 @@ class MaskPainter {
   const Alpha& alpha() const { return alpha_; }
   const SurfaceDistance& surface() const { return surface_; }
 
-  /// Applies one brush stroke at several places. The strength at a vertex is the largest strength
-  /// from any of the places.
-  /// \param goes_on  whether the stroke continues the previous stroke, so that one undo covers
-  ///                 both.
+  /// Applies one brush stroke at several places. Where the places overlap, the largest strength
+  /// counts.
+  /// \param goes_on  whether the stroke continues the previous stroke, so that one undo reverts
+  ///     both.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
                                    const Brush& brush, bool goes_on = false);
 
-  /// The weights without a region. The other regions at a vertex take over its weight in
-  /// proportion. Where the region was alone, the regions of the neighbouring vertices take over, or
-  /// else the first region does.
+  /// The weights after removal of a region. At each vertex, the weight of the region goes to the
+  /// vertex's other regions in proportion to their weights. A vertex without other regions takes
+  /// the regions of its neighbours, or else the first region.
   /// \throws BrokenPrecondition if there is no other region.
   Alpha alpha_without(Index region) const;
 
@@ -64,7 +65,7 @@ class MaskPainter {
   bool undo();
 
  private:
-  /// The weights before a step: rows of α by vertex.
+  /// The weights before a step: for each vertex that the step changed, its row of α.
   using Step = std::map<std::uint32_t, Eigen::RowVectorXd>;
 
   MirrorPlane mirror_;

@@ -15,13 +15,13 @@ namespace crowdface {
 std::vector<Band> parse_bands(std::string_view text);
 std::vector<std::string> names_of(const std::vector<Band>& bands);
 
-/// Width and height in texels that suffice for masks of soft regions on a mesh with this number of
-/// vertices: 1024 or 2048.
+/// Width and height in texels that are sufficient for masks of soft regions on a mesh with this
+/// number of vertices: 1024 or 2048.
 int mask_size(Index vertices);
 
 /// Computes regions from the shape of the mean head: #V by #bands.
-/// \throws InvalidInput as propose_bands does, and if there is no face along the front; then the
-///         message names the axes along which there is a face, if there are any.
+/// \throws InvalidInput as propose_bands does, and if no face is found in the front direction; the
+///     message then names the directions in which a face is found, if there are any.
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
                                      const Bearing& bearing, const std::vector<Band>& bands);
 

@@ -8,16 +8,17 @@
 
 namespace crowdface {
 
-/// The mean face has one depth for each cell of a grid. Columns run from side to side, rows from 32
-/// mm above the eyes to 96 mm below.
+/// The depths of the mean face form a grid. Columns run from side to side, rows from 32 mm above
+/// the eyes to 96 mm below them.
 inline constexpr int kReliefRows = 17, kHalfReliefColumns = 6,
                      kReliefColumns = 2 * kHalfReliefColumns - 1,
                      kReliefCells = kReliefRows * kReliefColumns;
 inline constexpr double kReliefSpacingMm = 8, kReliefTopMm = 32;
-/// Index of the cell between the eyes.
+/// Index of the cell that lies between the eyes.
 inline constexpr int kBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
 
-/// Position of a cell: across_mm from the middle of the face to the side, height_mm above the eyes.
+/// Position of a cell: across_mm is the distance from the middle of the face to the side, height_mm
+/// the height above the eyes.
 constexpr double across_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }

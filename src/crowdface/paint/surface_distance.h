@@ -10,10 +10,10 @@
 
 namespace crowdface {
 
-/// Distances along the surface of a mesh, not through the air: from lip to lip they lead around the
-/// corner of the mouth. Components whose boundaries coincide vertex by vertex count as one surface,
-/// because a face and the back of its head may be separate components. Coinciding boundary vertices
-/// of one component stay separate.
+/// Distances along the surface of a mesh, not through the air: the path from lip to lip leads
+/// around the corner of the mouth. Components whose boundaries coincide vertex by vertex count as
+/// one surface, because a face and the back of its head may be separate components. Coinciding
+/// boundary vertices of the same component stay separate.
 class SurfaceDistance {
  public:
   /// \param positions  #V by 3. Topology and positions must outlive this object.
