@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// Attaches the vertices of bound parts to the skin. Each vertex is anchored to a point on the
 /// nearest triangle of the skin. Its offset from this point is expressed in a frame that rotates
-/// with the skin around the triangle: two axes are weighted sums of the surrounding vertices (with
-/// fixed weights), made orthonormal.
+/// with the skin around the triangle. Two axes of the frame are weighted sums of the surrounding
+/// vertices (with fixed weights), made orthonormal.
 class Anchors {
  public:
   Anchors() = default;
@@ -31,8 +31,8 @@ class Anchors {
 
   /// Returns the vertices' offsets in their frames on a head, #bound.
   std::vector<Eigen::Vector3d> places(const Positions& head) const;
-  /// Moves the bound vertices of `result` to offsets that `places` returned for the target.
-  /// Vertices whose surrounding skin is unmoved get exactly the target's positions.
+  /// Moves the bound vertices of `result` to the offsets that `places` returned for the target.
+  /// Where the surrounding skin has not moved, a vertex gets exactly the target's position.
   void put(const Positions& target, std::span<const Eigen::Vector3d> places,
            Positions& result) const;
 
@@ -40,7 +40,7 @@ class Anchors {
   using Frame = std::array<Eigen::Vector3d, 3>;  ///< orthonormal axes
   struct RingVertex {
     std::uint32_t vertex;
-    double along, across;  ///< weights in the sums for the first two axes
+    double along, across;  ///< weights of the vertex in the sums for the first and the second axis
   };
 
   Frame frame_at(std::size_t site, const Positions& positions) const;
@@ -54,20 +54,20 @@ class Anchors {
   CompressedRows<RingVertex> rings_;           ///< #sites: the skin around each triangle
 };
 
-/// Ties bound vertices to the rigid parts next to them: gums follow the teeth in them.
+/// Ties bound vertices to nearby rigid parts: gums follow the teeth.
 class Ties {
  public:
   Ties() = default;
   /// \param positions  The head on which distances are measured.
   /// \param rigid      Vertices of each rigid part.
   /// \param bound      Vertices that may be tied.
-  /// \param reach      Vertices at this distance from a part are free; vertices at the part follow
-  ///                   it fully.
+  /// \param reach      Distance at which a tie ends: vertices farther from a part than this are
+  ///     free; vertices at the part follow it completely.
   Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
        std::span<const std::uint32_t> bound, double reach);
 
-  /// Moves the tied vertices of `result` towards the positions to which the rigid motions carry
-  /// them.
+  /// Moves the tied vertices of `result` towards the positions that the motions of the rigid parts
+  /// give them.
   ///
   /// \param target   The head that the face is built on.
   /// \param motions  #rigid: motion of each part from `target`.
@@ -76,7 +76,7 @@ class Ties {
  private:
   struct Tie {
     std::uint32_t vertex, part;
-    double share;  ///< shares of a vertex sum to at most one
+    double share;  ///< weight of the part's motion; the weights of a vertex sum to at most one
   };
   std::vector<Tie> ties_;  ///< ties of one vertex are consecutive
 };

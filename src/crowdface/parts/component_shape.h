@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Distances from the skin are measured up to this fraction of the skin's extent; larger ones are
-/// reported as this.
+/// Upper limit of measured distances from the skin, as a fraction of the skin's extent. A larger
+/// distance is reported as this limit.
 constexpr double kFarFromSkin = 0.05;
 
 /// Geometric properties of a connected component that distinguish skin, eyes and lashes.
@@ -28,7 +28,7 @@ struct ComponentShape {
   /// 90th percentile of the vertices' distances from the skin, at most kFarFromSkin.
   double skin_distance = 0;
   /// The least-squares sphere through the vertices. `roughness` is the root mean square distance of
-  /// vertices and face centres from it.
+  /// the vertices and face centres from this sphere.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
   double roughness = 0;
@@ -47,7 +47,8 @@ std::vector<std::vector<std::uint32_t>> members_of(const Components& components)
 /// Returns the index of a vertex in an ascending list, or kNoIndex if it is not in the list.
 std::uint32_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
 
-// The following functions need at least one vertex.
+// Returns the bounding box of some vertices. This function and the following ones need at least one
+// vertex.
 Eigen::AlignedBox3d bounding_box(const Positions& positions,
                                  std::span<const std::uint32_t> vertices);
 /// Returns the mean position of the vertices.

@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// Keeps a rigid part out of the skin next to it: teeth behind lips and cheeks. Stores pairs of a
-/// vertex of the part and a triangle of the skin.
+/// Keeps a rigid part, such as the teeth, out of the skin in front of it, such as lips and cheeks.
+/// Stores pairs of a vertex of the part and a triangle of the skin.
 class Contact {
  public:
   Contact() = default;
@@ -36,9 +36,9 @@ class Contact {
   };
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// Returns the motion nearest to the given one after which no vertex is deeper inside the skin
-  /// than in the head where it is deepest, and no vertex is inside that is outside in all heads.
-  /// The part is translated, rotated and scaled slightly.
+  /// Returns a motion as near as possible to the given one, after which no vertex is deeper inside
+  /// the skin than in the head where this vertex is deepest, and no vertex is inside the skin that
+  /// is outside it in all heads. The part is translated, rotated and scaled slightly.
   ///
   /// \param target  The head with the part before the motion.
   /// \param motion  Motion of the surrounding skin.
@@ -56,14 +56,15 @@ class Contact {
     std::uint32_t vertex;
     Triangle corners;
     std::array<double, 3> shares;
-    /// Vertices at which the search for the nearest skin starts: on both lips where both are near.
+    /// Vertices at which the search for the nearest skin starts: one on each lip if both lips are
+    /// near.
     Starts starts;
-    double least;  ///< smallest height in all heads
+    double least;  ///< smallest height of the pair in all heads
   };
-  /// Pairs that are close together. `slack` is the largest amount by which a pair's height may be
-  /// below that of the middle pair.
+  /// Pairs that are close together. The pair in the middle represents all pairs: the height of any
+  /// pair is at least that of the middle pair minus `slack`.
   struct Cluster {
-    std::size_t begin, end;  ///< range of `pairs_`; the pair in the middle represents all
+    std::size_t begin, end;  ///< range of `pairs_`
     double slack;
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
@@ -74,7 +75,7 @@ class Contact {
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// Improves `motion` by one step.
   ///
-  /// \param near  Pairs to check; removes pairs that are far from the skin.
+  /// \param near  Indices of pairs to check; the function removes pairs that are far from the skin.
   /// \return      false if no pair violates a limit.
   bool step(const Positions& target, const RigidMotion& start, const Positions& after,
             double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;

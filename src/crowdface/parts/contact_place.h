@@ -18,11 +18,11 @@ namespace crowdface {
 /// A point on an edge of a mesh, at the same fraction of the edge in every head.
 struct EdgePoint {
   std::uint32_t a, b;
-  double share;  ///< weight of b
+  double share;  ///< weight of b; the weight of a is 1 − share
 };
 
-/// A place where the gap between two facing sides is measured: two short profiles, cut across both
-/// sides on the mean head, and the direction from one side to the other.
+/// A place at which the gap between two facing sides is measured: two short profiles, one on each
+/// side, cut by a plane on the mean head, and the direction from one side to the other.
 struct ContactPlace {
   /// position on the mean head; unit vector from the low side to the high side
   Eigen::Vector3d middle, up;
@@ -32,14 +32,14 @@ struct ContactPlace {
   /// Returns the height of the lowest point of the high profile above the highest point of the low
   /// profile; negative if they overlap.
   double gap(const Positions& positions) const;
-  /// Returns the unit vector into the contact, within the cutting plane.
+  /// Returns the unit vector into the contact, perpendicular to `up` in the cutting plane.
   Eigen::Vector3d deep() const { return along.cross(up); }
 };
 
-/// Returns places spread evenly over a group, without profiles.
+/// Returns places spread evenly over a group, with profiles that are still empty.
 ///
-/// \param spacing  Places are at least this far apart, and no pair of the group is farther than
-///                 this from all places.
+/// \param spacing  Minimum distance between two places; every pair of the group is within this
+///     distance of some place.
 std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing);
 
 /// Cuts the profiles of a place. Either profile may be empty.
@@ -59,8 +59,8 @@ inline double height_of(const EdgePoint& point, const Eigen::Vector3d& up,
 }
 
 /// Measures the smallest gap between the two profiles of a place, where one is above the other. If
-/// the inner rim of the upper lip hangs behind the lower lip, its lowest point is hidden; this
-/// measures the visible slit in front. Const members may be called from several threads.
+/// the inner rim of the upper lip hangs behind the lower lip, the lowest point of the rim is
+/// hidden; the gap is then measured at the visible slit in front.
 class Clearance {
  public:
   Clearance(const ContactPlace& place, const Adjacency& adjacency);
@@ -79,13 +79,13 @@ class Clearance {
     }
   };
   /// Returns the depths at which a segment of one profile begins or ends above a segment of the
-  /// other. Segments are straight, so the gap is smallest at one of these. If no segments overlap
-  /// in depth, returns the pair nearest in depth.
+  /// other. Segments are straight, so the gap is smallest at one of these depths. If no segments
+  /// overlap in depth, returns the pair of points that is nearest in depth.
   ///
   /// \param depths  Depths of all points.
   std::vector<Opposite> opposites(std::span<const double> depths) const;
-  /// Return the coordinates of all points, low ones first: along the place's `up`, and along its
-  /// `deep()`.
+  /// Return the coordinates of all points, those of the low profile first: along the place's `up`,
+  /// and along its `deep()`.
   std::vector<double> heights(const Positions& positions) const { return along(up_, positions); }
   std::vector<double> depths(const Positions& positions) const { return along(deep_, positions); }
   /// Returns the smallest gap of the given opposites; negative if the profiles intersect.
@@ -98,7 +98,7 @@ class Clearance {
 
   std::vector<double> along(const Eigen::Vector3d& direction, const Positions& positions) const;
 
-  std::vector<EdgePoint> points_;  ///< low ones first
+  std::vector<EdgePoint> points_;  ///< points of the low profile, then of the high profile
   std::vector<Piece> low_, high_;
   Eigen::Vector3d up_, deep_;
 };

@@ -29,7 +29,8 @@ struct Lids {
 Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen::Vector3d& centre,
                double radius, const HeadAxes& axes, std::span<const std::uint32_t> skin);
 
-/// The position of an eyeball behind its lids in each head, and the fit of this position on a face.
+/// The position of an eyeball behind its lids in each head. Fits the eyeball in the same position
+/// behind the lids of a face.
 class EyeSocket {
  public:
   EyeSocket() = default;
@@ -37,13 +38,14 @@ class EyeSocket {
   EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads);
 
   const Lids& lids() const { return lids_; }
-  /// Returns the gaps at the rim in a head; negative inside the eyeball.
+  /// Returns the gaps between the rim and the eyeball in a head; negative if the rim is inside the
+  /// eyeball.
   const std::vector<double>& gaps(std::size_t head) const { return gaps_[head]; }
 
-  /// Fits the eyeball of `target` behind the lids of a face. The eyeball is translated and scaled
+  /// Fits the eyeball of `target` behind the lids of a face. Translates the eyeball and scales it
   /// slightly, so that its mean gap to each lid equals the target's, and the gaps at the rim are as
-  /// near to the target's as possible. No lid is deeper inside the eyeball than in the head where
-  /// it is deepest, and no lid is inside that is outside in all heads.
+  /// near to the target's as possible. No lid vertex is deeper inside the eyeball than in the head
+  /// where it is deepest, and no lid vertex is inside that is outside in all heads.
   ///
   /// \param motion  Motion of the skin around the eye.
   /// \param after   The face with the moved skin.

@@ -29,14 +29,15 @@ class MirroredWalk {
   /// \param around    Must outlive this object.
   MirroredWalk(const Topology& topology, const FacesAround& around);
 
-  /// Walks from face to face on both sides, in opposite winding on the second side, as long as
-  /// corresponding faces have equally many corners and each vertex meets the same partner again.
+  /// Walks from face to face on both sides simultaneously, with opposite winding on the second
+  /// side, as long as corresponding faces have equally many corners and each vertex always gets the
+  /// same partner.
   ///
   /// \param edge     An edge of a face on the first side.
   /// \param other    Its mirror image on the second side: from the partner of edge.to to the
-  ///                 partner of edge.from.
+  ///     partner of edge.from.
   /// \param goes_on  Called once for each new pair. If it returns false, the walk ends without
-  ///                 result.
+  ///     result.
   /// \return         All pairs found, or nothing if the two sides do not match.
   std::optional<std::vector<MirroredPair>> from(
       DirectedEdge edge, DirectedEdge other,

@@ -17,17 +17,17 @@ struct FacingPair {
   Eigen::Vector3d up;               ///< unit vector from the low side to the high side
 };
 
-/// Pairs near each other; the low sides of all pairs are on the same side.
+/// Pairs near each other. The low vertices of all pairs lie on one side of the gap.
 using FacingGroup = std::vector<FacingPair>;
 
-/// Finds where skin nearly touches skin: vertices nearer to each other than about a hundredth of
-/// the skin's extent, with opposite normals, air between them instead of flesh, and at least three
-/// times as far apart along the surface. A closed mouth is one group; nostrils and open eyes are
-/// none.
+/// Finds where skin nearly touches skin. The two vertices of a pair are nearer to each other than
+/// about a hundredth of the skin's extent, have opposite normals, have air between them instead of
+/// flesh, and are at least three times as far apart along the surface. A closed mouth gives one
+/// group; nostrils and open eyes give none.
 ///
 /// \param positions  #V by 3; preferably the mean head.
 /// \param skin       The skin's vertices, ascending; at least one. A dense skin is subsampled
-///                   evenly.
+///     evenly.
 std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjacency& adjacency,
                                           const Positions& positions,
                                           std::span<const std::uint32_t> skin);

@@ -9,8 +9,9 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  Index vertices = 0;  ///< number of vertices whose partner is a vertex, mutually
-  /// number of vertices whose partner is another point on the surface; the rest have none
+  Index vertices = 0;  ///< number of vertices whose partner is another vertex that has them as its
+                       ///< partner
+  /// number of vertices whose partner is a point on the surface; the remaining vertices have none
   Index on_surface = 0;
   /// Distance of the mean head from its mirror image, in its unit: root mean square and maximum
   /// over all vertices.
@@ -24,12 +25,12 @@ struct FoundMirror {
 /// preferred if it fits nearly as well.
 ///
 /// Components are matched by position: the left eye with the right one. If two matched components
-/// have the same faces, mirrored, a walk over the faces gives the partners, however asymmetric the
-/// mean head is. Otherwise, two vertices are partners if each is nearest to the other's mirror
-/// image and close to it. All other vertices get the nearest point on the surface.
+/// have mirrored faces, a walk over the faces gives the partners, however asymmetric the mean head
+/// is. Otherwise, two vertices are partners if each is nearest to the other's mirror image and
+/// close to it. All other vertices get the nearest point on the surface.
 ///
 /// \param mean  #V by 3.
-/// \param side  Unit vector between the head's right and left, in either direction.
+/// \param side  Unit vector along the axis from the head's right to its left, in either direction.
 FoundMirror find_mirror(const Topology& topology, const Components& components,
                         const Positions& mean, const Eigen::Vector3d& side);
 

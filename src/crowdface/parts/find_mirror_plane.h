@@ -28,14 +28,14 @@ class PlaneFit {
 };
 
 /// Finds the plane in which a surface is most nearly symmetric, by iterative closest points (Besl &
-/// McKay 1992) with a reflection. There are two starts: the given plane, and the plane found by
-/// matching nearest vertices, which is exact for a symmetric mesh. Returns the best plane of all
-/// steps.
+/// McKay 1992) with a reflection. The iteration runs twice: from the given plane, and from the
+/// plane found by matching nearest vertices, which is exact for a symmetric mesh. Returns the best
+/// plane of all steps.
 ///
 /// \param mean   #V by 3.
 /// \param skin   The surface's vertices; at least one.
-/// \param start  First guess. Its normal is a unit vector between the head's right and left, in
-///               either direction.
+/// \param start  First guess. Its normal is a unit vector along the axis from the head's right to
+///     its left, in either direction.
 MirrorPlane find_mirror_plane(const Topology& topology, const FacesAround& around,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start);

@@ -10,15 +10,16 @@
 
 namespace crowdface {
 
-/// Moves the parts of a head with its skin after blending. The constructor finds the binding on the
-/// mean head and measures it on each head (docs/parts.md has costs).
+/// Moves the parts of a head with its skin after blending. The constructor determines on the mean
+/// head how parts are bound to the skin, and measures their positions on each head (docs/parts.md
+/// has costs).
 ///
-/// - A rigid part moves by the best rotation, translation and uniform scale that carries the skin
-///   around it from the target to the face. An eyeball is then shifted and rescaled until its gaps
-///   to the lids equal the target's; other parts are moved out of lips and cheeks.
+/// - A rigid part moves by the rotation, translation and uniform scale that best fits the motion of
+/// the skin around it from the target to the face. An eyeball is then shifted and rescaled until
+/// its gaps to the lids equal the target's; other parts are moved out of lips and cheeks.
 /// - A vertex of a bound part keeps its position relative to the nearest skin.
 ///
-/// If the skin around a part is unmoved, the part keeps exactly the target's positions.
+/// If the skin around a part has not moved, the part keeps exactly the target's positions.
 class PartFollower {
  public:
   /// \param faces  Must outlive this object.

@@ -23,9 +23,10 @@ struct Part {
   PartClass part_class = PartClass::kRigid;
   bool eyeball = false;                   ///< round, and as large as an eye
   std::vector<std::uint32_t> components;  ///< ascending
-  std::vector<std::uint32_t> vertices;    ///< ascending
-  std::uint32_t ball = kNoIndex;          ///< of an eyeball: its largest component
-  std::vector<std::uint32_t> surface;     ///< of an eyeball: the vertices of that component
+  std::vector<std::uint32_t> vertices;    ///< vertices of all components, ascending
+  std::uint32_t ball = kNoIndex;          ///< only for an eyeball: index of its largest component
+  std::vector<std::uint32_t> surface;     ///< only for an eyeball: the vertices of its largest
+                                          ///< component
 };
 
 /// The parts of a mesh.
@@ -44,22 +45,22 @@ struct PartOverrides {
 /// Classifies the components of a mesh by their shapes and joins them into parts:
 ///
 /// - skin: the largest component, components longer than half of its extent, and vertices without
-///   faces;
+/// faces;
 /// - bound: open strips and shells near the skin;
-/// - rigid: all others. Round components as large as an eye are eyeballs; components with their
-///   centre inside an eyeball belong to it. Other components that nearly touch form one part,
-///   unless they stand in two rows one above the other; then the teeth of each jaw are one part.
+/// - rigid: all other components. Round components as large as an eye are eyeballs; components
+/// whose centre is inside an eyeball belong to it. Other components that nearly touch form one
+/// part, unless they form two rows, one above the other; then the teeth of each jaw are one part.
 ///
 /// \param positions  #V by 3, any unit; preferably the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,
                     const Components& components, const Positions& positions,
                     const PartOverrides& overrides = {}, const HeadAxes& axes = {});
 
-/// Returns the components with all skin joined into one, numbered like its first component.
-/// Components that are joined into it have size 0.
+/// Returns the components with all skin components joined into the first of them. The other joined
+/// components have size 0.
 Components join_skin(const Components& components, const PartList& parts);
 
-/// Returns the vertices that belong to no part but to some face, ascending.
+/// Returns the vertices that belong to a face but to no part, ascending.
 std::vector<std::uint32_t> skin_of(const PartList& parts, const FacesAround& around);
 
 }  // namespace crowdface

@@ -17,8 +17,8 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// Returns false only if no vertex lies within `reach` of the point; may return true in that
-  /// case, too.
+  /// Returns false only if no vertex lies within `reach` of the point. May return true although no
+  /// vertex lies within `reach`.
   bool in_reach(const Eigen::Vector3d& point, double reach) const;
 
   struct Nearest {

@@ -20,7 +20,7 @@ class ProximityJoiner {
  public:
   /// The points, the components and the groups must outlive the tree. Other code may join groups,
   /// too.
-  /// \param points      rows outside `rows` may hold anything; the others must be finite.
+  /// \param points      rows listed in `rows` must be finite; the others are not read.
   /// \param rows        rows of the points in the tree; may be empty.
   /// \param components  #points: the component of each point.
   ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,
@@ -42,7 +42,8 @@ class ProximityJoiner {
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
   std::vector<std::uint32_t>
-      /// For each node, a component of its only group; kNoIndex: not known to have one group only.
+      /// For each node whose points are known to belong to one group, a component of this group;
+      /// otherwise kNoIndex.
       only_groups_;
 };
 

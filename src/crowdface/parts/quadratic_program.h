@@ -8,9 +8,9 @@
 namespace crowdface {
 
 /// A convex quadratic program in a few unknowns with up to thousands of constraints. Used to find
-/// the pose of a part that is nearest to the wanted one and violates no constraint.
+/// the pose of a part that violates no constraint and is nearest to a desired pose.
 ///
-///   minimise  Σ w/2 (a·x − wanted)² + Σ penalty·x_i   subject to  a·x ≥ least
+/// minimise  Σ w/2 (a·x − wanted)² + Σ penalty·x_i   subject to  a·x ≥ least
 ///
 /// Plain arithmetic in a fixed order: the result has the same bits on every machine.
 class QuadraticProgram {
@@ -26,13 +26,13 @@ class QuadraticProgram {
   /// Adds the constraint a·x ≥ least.
   void add_lower_bound(const Vector& a, double least);
   void add_bounds(std::size_t unknown, double least, double most);
-  /// Makes an unknown a slack variable: not negative, with a penalty per unit. Constraints that name
-  /// it may be violated by its value.
+  /// Makes an unknown a slack variable: not negative, with a penalty per unit. A constraint with a
+  /// coefficient for this unknown may be violated by up to the unknown's value.
   void add_slack(std::size_t unknown, double penalty);
 
   /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown
-  /// needs at least one term of positive weight. If no x satisfies all constraints, the solution
-  /// satisfies some of them.
+  /// must occur in at least one target of positive weight. If no x satisfies all constraints, the
+  /// solution satisfies some of them.
   ///
   /// \param tolerance  Largest violation of a constraint, measured along its normal.
   Vector solve(double tolerance) const;

@@ -45,8 +45,8 @@ inline HeadAxes moved(const HeadAxes& axes, const RigidMotion& by) {
 RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
                    const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth);
 
-/// Returns the motion that carries rows of `from` nearest to the same rows of `to`, by weighted
-/// least squares (Umeyama 1991), with the rotation as quaternion (Horn 1987).
+/// Returns the motion that best maps rows of `from` to the same rows of `to`, by weighted least
+/// squares (Umeyama 1991), with the rotation as quaternion (Horn 1987).
 ///
 /// \param vertices  Rows; at least three that are not collinear.
 /// \param weights   #vertices; not negative, with a positive sum.

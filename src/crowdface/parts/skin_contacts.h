@@ -13,8 +13,8 @@
 namespace crowdface {
 
 /// Preserves the gaps between skin that nearly touches skin. Lips are close in space but far apart
-/// along the surface, so blending moves them apart or through each other. The gap is measured at
-/// places a few millimetres apart, and adjusted by a smooth displacement of the skin around them.
+/// along the surface, so blending moves them apart or through each other. Gaps are measured at
+/// places a few millimetres apart, and corrected by a smooth displacement of the surrounding skin.
 class SkinContacts {
  public:
   /// \param faces  Heads of one topology; at least one.
@@ -31,8 +31,8 @@ class SkinContacts {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// Returns by how much a gap exceeds that of every head at the same place, at most; 0 if none
-  /// does.
+  /// Returns the largest difference, over all places, between a gap and the widest gap of any head
+  /// at the same place; 0 if no gap is wider than in the heads.
   double wider(const Positions& positions) const;
 
   /// Returns the vertices that bring_into may move.
@@ -41,20 +41,22 @@ class SkinContacts {
   struct Range {
     double least, most;
   };
-  /// Moves the skin so that every gap lies in its range. If all do, nothing moves.
+  /// Moves the skin so that every gap lies in its range. If all gaps already lie in their ranges,
+  /// nothing moves.
   ///
   /// \param ranges     #places.
   /// \param positions  #V by 3; adjusted.
   void bring_into(std::span<const Range> ranges, Positions& positions) const;
 
  private:
-  /// The smooth displacement is a sum of one kernel per place, each with an amplitude. A share is
-  /// the value of a place's kernel at a vertex.
+  /// The smooth displacement is a sum of one kernel per place, each with an amplitude. A Share is
+  /// the value of one place's kernel at one vertex.
   struct Share {
     std::uint32_t place;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// Movement of a contact's profile points, place after place, per unit of one place's amplitude.
+  /// How far the profile points of a contact move, place after place, if the amplitude of one place
+  /// grows by one.
   struct Motions {
     std::vector<double> heights, depths;
   };
@@ -85,12 +87,13 @@ class SkinContacts {
     std::size_t place;  ///< index within the contact
     double by;
   };
-  /// Solves for the amplitudes, see the definition.
+  /// Finds the amplitudes that bring the gaps into their ranges (skin_contacts.cpp explains the
+  /// method).
   ///
   /// \param most   Largest amplitude.
   /// \param asked  Amplitudes of the contact's places; updated.
   /// \return       Changes in the order in which they were made. The depths of `profiles` are not
-  ///               updated.
+  ///     updated.
   std::vector<Change> ask(const Contact& contact, std::span<const Range> ranges, double most,
                           Profiles& profiles, std::vector<double>& asked) const;
   static void move_depths(const Contact& contact, std::span<const Change> changes,

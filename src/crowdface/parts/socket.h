@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// The skin around a rigid part or a point. Its motion determines theirs.
+/// The skin around a rigid part or a point, whose motion the part or point follows.
 struct Socket {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<double> weights;          ///< #vertices: area × nearness

@@ -28,13 +28,14 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
                             const Eigen::Vector3d& point);
 
 /// Walks from `start` over the mesh as long as a vertex of an adjacent face is nearer to the point.
-/// Cheaper than nearest_from; its result is a good start for it.
+/// This is cheaper than nearest_from, and the result is a good start for nearest_from.
 std::uint32_t descend(const Topology& topology, const FacesAround& faces,
                       const Positions& positions, std::uint32_t start,
                       const Eigen::Vector3d& point);
 
-/// Returns a point near the query point by walking from `start` from triangle to triangle as long
-/// as the distance decreases. Allocates no memory. For query points near a known vertex.
+/// Returns a point of the surface near the query point. Walks from `start` from triangle to
+/// triangle as long as the distance decreases. Allocates no memory. Meant for query points near a
+/// known vertex.
 SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point);
