@@ -22,7 +22,7 @@ struct LandmarkFile {
   std::map<std::string, Place> of_template, of_scan;
 };
 
-/// Which mesh the landmarks belong to if the file does not say.
+/// The mesh that the landmarks belong to if the file does not say it.
 enum class LandmarksOf { kTemplate, kScan };
 
 /// Reads a landmark file: YAML with the keys `template: {chin: 966}` and `scan: {chin: [x, y, z]}`,

@@ -13,11 +13,11 @@ namespace crowdface {
 
 /// Reads landmarks of one mesh that another program has written: MeshLab's picked points (.pp),
 /// tables of names and numbers (CSV, text), JSON ({name: [x, y, z]}, lists of points, 3D Slicer
-/// markups), NumPy arrays (n by 3 points, or n vertex numbers). Points without a name are named by
-/// their position in the list, from 1.
+/// markups), NumPy arrays (n by 3 points, or n vertex numbers). The name of a nameless point is its
+/// position in the list, from 1.
 /// \return nothing if the file has the form that read_landmarks reads (keys `template` and `scan`)
-///         or if its format is unknown.
-/// \throws UsageError naming the place that is wrong.
+///     or if its format is unknown.
+/// \throws UsageError that names the faulty place.
 std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     std::string_view bytes, const std::filesystem::path& path);
 

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// A point that can be located on every face. Left and right are those of the head.
+/// A point that can be located on every face. Left and right are the head's own left and right.
 struct LandmarkName {
   std::string_view name;
   std::string_view where;  ///< description for the user

@@ -24,7 +24,7 @@ class PickApi {
   /// \param max_triangles  maximum number of triangles of each mesh that the page shows
   PickApi(PickScans& scans, std::optional<std::filesystem::path> pages, std::size_t max_triangles);
 
-  /// Turns errors in a request into answers {"error": sentence}; does not throw for them.
+  /// Answers a faulty request with {"error": sentence} and does not throw.
   HttpAnswer answer(const HttpRequest& request);
 
  private:

@@ -40,7 +40,7 @@ class PickableMesh {
   /// \param beside     in the unit of the mesh
   std::optional<PickedPlace> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                   double beside) const;
-  /// First hit of a ray. `triangle` counts the rows of `skin`, then those of `others`.
+  /// First hit of a ray. `triangle` numbers the rows of `skin` first, then those of `others`.
   struct Met {
     std::uint32_t triangle = 0;
     bool is_skin = false;
