@@ -42,7 +42,7 @@ class AttachmentSurfaces {
   mutable LazyMap<std::filesystem::path, std::shared_ptr<const Texture>> opacity_maps_;
 };
 
-/// Memory in bytes that the textures of some attachments take once read.
+/// Memory in bytes that the textures of some attachments use after they are read.
 std::uint64_t attachment_texture_bytes(std::span<const Attachment* const> items, int max_px);
 
 }  // namespace crowdface

@@ -57,8 +57,8 @@ class CrowdRenders {
   /// \param target     the head whose textures the face shows if `own` is null.
   /// \param positions  in single precision, as in mesh files.
   /// \param moves      displacements of each shape, for the gallery.
-  /// \param own        textures of the face itself, from face_texture_set, or null.
-  /// \param placed     its attachments.
+  /// \param own        the face's blended textures, from face_texture_set, or null.
+  /// \param placed     the attachments that the face wears.
   /// \param colours    vertex colours, shown if there are no textures; may have no rows.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
                     std::span<const Displacements> moves, const FaceTextureSet* own,
@@ -67,12 +67,12 @@ class CrowdRenders {
 
   /// Textures of a head; nothing if it has none or if textures are not shown.
   std::optional<TextureSet> texture_set_of(Index head) const;
-  /// Vertex colours of a head; nothing if it has none or if textures cover them.
+  /// Vertex colours of a head; nothing if the head has none or if textures hide them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
   /// An empty set of textures for a face, to be filled; nothing if faces have no textures of their
   /// own or if textures are not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
-  /// The same, filled with the textures of a face.
+  /// Returns a face_texture_set filled with the textures of a face.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
                                                  const Recipe& recipe) const;
 
@@ -81,7 +81,7 @@ class CrowdRenders {
                          const Recipe& recipe) const;
   /// \param head  the head whose textures the face shows, if there are any.
   std::string render_png(const Positions& positions, Index head) const;
-  /// \param colours  vertex colours, or null: those of the surfaces.
+  /// \param colours  vertex colours; if null, each surface has its own colour.
   /// \param texture_set  textures, or null.
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureSet* texture_set = nullptr,

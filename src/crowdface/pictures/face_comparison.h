@@ -11,15 +11,15 @@
 
 namespace crowdface {
 
-/// A face and the distance of each of its vertices to the same vertex of another mesh, after a
-/// rigid fit of that mesh to the face. All distances are 0 if there is no other mesh, as for the
-/// only face of a crowd.
+/// A face and the distance of each of its vertices to the same vertex of another mesh, after that
+/// mesh is fitted rigidly to the face. If there is no other mesh, as for the only face of a crowd,
+/// all distances are 0.
 struct ComparedFace {
   Positions mesh;
   Eigen::VectorXd mm;  ///< #V distances
 };
 
-/// Compares the faces of a crowd with other meshes, as `compare` of the contact sheet says.
+/// Compares the faces of a crowd with other meshes, which the contact sheet's key `compare` names.
 class FaceComparison {
  public:
   /// \throws Error if a file to compare with cannot be read.

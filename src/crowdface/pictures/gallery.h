@@ -19,8 +19,8 @@
 
 namespace crowdface {
 
-/// The meshes of a gallery: reduced, and encoded as scripts, because a page opened from disk may
-/// load only scripts. The data that all faces share is computed once.
+/// The meshes of a gallery, reduced and encoded as scripts: a page opened from disk can load
+/// scripts but no other files. The data that all faces share is computed once.
 class GalleryMeshes {
  public:
   /// \param inputs  must outlive this object.
@@ -31,9 +31,10 @@ class GalleryMeshes {
   std::string shared_script() const;
   /// The file data/faces/NAME.js or data/heads/NAME.js.
   /// \param moves    displacements of each shape of the face.
-  /// \param texture_set  textures of the face, or null: it has its vertex colours, or the colours shared by all faces.
+  /// \param texture_set  textures of the face; if null, it shows vertex colours or the colours
+  ///     shared by all faces.
   /// \param colours  vertex colours of the face, or null.
-  /// \param placed   its attachments.
+  /// \param placed   the attachments that the face wears.
   std::string face_script(const std::string& name, const Positions& positions,
                           std::span<const Displacements> moves, const TextureSet* texture_set,
                           const VertexColours* colours,
@@ -42,9 +43,9 @@ class GalleryMeshes {
   std::string attachment_script(const std::string& name, const AttachmentSurfaces& surfaces) const;
 
  private:
-  /// Three bytes (sRGB) per vertex, darkened where little of the sky is visible.
+  /// Three bytes (sRGB) per vertex, darkened where the vertex sees little of the sky.
   std::string shades(const VertexColours& colours) const;
-  /// The textures of a set, and which texture each look of the reduced mesh shows, as JSON.
+  /// The textures of a set as JSON, and the index of the texture for each look of the reduced mesh.
   std::string skin(const TextureSet& texture_set) const;
   /// One byte per vertex; empty if the set has no roughness maps.
   std::string roughness(const TextureSet& texture_set) const;

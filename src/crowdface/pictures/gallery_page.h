@@ -14,7 +14,7 @@ namespace crowdface {
 /// the program is unknown.
 std::optional<std::filesystem::path> gallery_page_folder();
 
-/// The same folder, or nothing if it does not contain the gallery's page.
+/// Returns gallery_page_folder(), or nothing if that folder does not contain the gallery's page.
 std::optional<std::filesystem::path> find_gallery_page();
 
 /// Whether a crowd with this config gets a gallery with this installation.

@@ -33,7 +33,7 @@ class CrowdPictures {
   void write_founder(const std::string& family, const Positions& positions,
                      const Recipe& recipe) const;
 
-  /// Writes the contact sheets and the gallery from the renders in the folder.
+  /// Writes the contact sheets and the gallery from the renders in the crowd's folder.
   WrittenSheets finish(const std::vector<FacePlan>& crowd, const CrowdLikeness& likeness) const;
 
  private:

@@ -16,8 +16,8 @@ namespace crowdface {
 /// once; each face only adds positions. Thread-safe.
 class ShownAttachments {
  public:
-  /// The part that does not depend on the face, as JSON: triangles and appearance for each
-  /// material.
+  /// The part of an attachment that does not depend on the face, as JSON: triangles and appearance
+  /// for each material.
   std::string look(const Attachment& item, const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
   /// of the face the vertices that move and their displacements.
