@@ -11,8 +11,8 @@ namespace crowdface {
 /// position m.
 using PlanePoint = Eigen::Vector2d;
 
-/// Eq. 4, normalised: 1/‖m − t_i‖² divided by the sum over all i. At an anchor, its head gets all
-/// the weight; heads that share the anchor share the weight equally.
+/// Eq. 4, normalised: 1/‖m − t_i‖² divided by the sum over all i. At an anchor, the anchor's head
+/// gets weight one; heads with the same anchor get equal parts of this weight.
 /// \param anchors   #heads, at least one.
 /// \return          #heads, not negative, summing to one.
 std::vector<double> inverse_square_weights(const std::vector<PlanePoint>& anchors,
