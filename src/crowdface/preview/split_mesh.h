@@ -37,8 +37,8 @@ struct SplitMesh {
 SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
                      std::span<const std::uint32_t> looks);
 
-/// Groups triangles of the split mesh by look. Drops triangles that use one vertex twice, which
-/// occur where a seam collapsed.
+/// Groups triangles of the split mesh by look. Drops triangles with two equal vertices, which
+/// result from edge collapses along seams.
 std::vector<Triangle> grouped_by_material(std::vector<Triangle> triangles, const SplitMesh& split);
 
 }  // namespace crowdface
