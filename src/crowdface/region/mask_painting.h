@@ -12,12 +12,12 @@
 
 namespace crowdface {
 
-/// Regions per mask image: one each in red, green and blue.
+/// Number of regions in one mask image: red, green and blue hold one region each.
 inline constexpr Index kRegionsOfImage = 3;
 
 /// Mask images by tile. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to images of
 /// `size` × `size` × 3 bytes, first row at v = 1. Image i holds regions 3·i to 3·i + 2. At a
-/// painted texel the values of all images add up to 255; other texels are black.
+/// painted texel the channel values of all images sum to 255; other texels are black.
 struct PaintedMasks {
   int size = 0;
   std::map<int, std::vector<std::vector<std::uint8_t>>> tiles;

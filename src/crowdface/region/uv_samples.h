@@ -27,7 +27,8 @@ using UvSamples = CompressedRows<UvSample>;
 /// polygon decides.
 double tile_step(double coordinate, double polygon_mean);
 
-/// kOne: one picture for all coordinates, every sample's tile is kFirstTile. kUdim: UDIM tiles.
+/// kOne: one picture covers all coordinates, and every sample's tile is kFirstTile. kUdim: UDIM
+/// tiles.
 enum class Tiles { kOne, kUdim };
 
 /// Collects the texture coordinates of every vertex; a vertex that no face uses has none.
