@@ -18,11 +18,11 @@ struct AttachmentMaterial {
   Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
   std::shared_ptr<const Texture> texture = {};  ///< colours, or null
   std::shared_ptr<const Texture> opacity = {};  ///< opacity in the first channel, or null: opaque
-  float share = 1;                              ///< factor of the opacity
+  float share = 1;                              ///< factor on the opacity
 };
 
-/// The mesh of an attachment, such as hair or glasses, drawn with a face. It looks the same from
-/// both sides and may be transparent.
+/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. It looks the
+/// same from both sides and may be transparent.
 class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.

@@ -44,11 +44,12 @@ struct FramingOptions {
   std::vector<Eigen::Vector3d> beside = {};
 };
 
-/// The nearest camera that shows all vertices of all heads and `beside`, except the part that
-/// `cut_below` gives up. One camera serves all faces of a set, so that their sizes are comparable.
+/// The camera at the smallest distance at which all vertices of all heads and `beside` are visible,
+/// except the part that `cut_below` allows to lie outside the image. One camera serves all faces of
+/// a set, so that their sizes are comparable.
 /// \param heads  at least one; each #V by 3 in the unit of the files, with at least one vertex.
 /// \throws BrokenPrecondition if there is no vertex, or if up and front are the same axis;
-///         InvalidInput if a coordinate is not finite.
+///     InvalidInput if a coordinate is not finite.
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
                   const FramingOptions& options = {});
 

@@ -32,10 +32,10 @@ struct CameraHit {
 
 /// Computes the surface data at a hit on the face. \param direction  of the camera ray.
 CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
-/// The same for a hit on an attachment, which looks the same from both sides.
+/// Computes the surface data at a hit on an attachment, which looks the same from both sides.
 CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
 
-/// Prefetches the data that `meet` needs for the hits shortly after `here`; large meshes do not fit
+/// Prefetches the data that shading needs for the next hits after `here`; large meshes do not fit
 /// into the CPU caches.
 void prefetch_hits(const Stage& stage, std::span<const std::optional<RayHit>> hits,
                    std::size_t here);

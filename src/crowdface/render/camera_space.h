@@ -31,7 +31,7 @@ Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
 
-/// Computes normals with memory that can be reused.
+/// Memory for computing normals, which can be reused from face to face.
 struct CameraNormals {
   std::vector<Eigen::Vector3f> areas;    ///< #F area vectors: twice the area times the normal
   std::vector<Eigen::Vector3f> normals;  ///< #V

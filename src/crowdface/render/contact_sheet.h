@@ -60,7 +60,7 @@ struct CellSize {
 /// \throws BrokenPrecondition if there are no cells, or more cells than columns · rows;
 ///         InvalidInput if the sheet would exceed 65,500 pixels on a side or 5·10⁸ pixels in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
-/// The same for given cells. \throws InvalidInput also if their images differ in size.
+/// Computes the layout for given cells. \throws InvalidInput also if their images differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Largest number of rows that a sheet of such cells can have; 0 if not even one row fits.
@@ -70,16 +70,16 @@ int max_rows(const CellSize& cell, const SheetOptions& options);
 /// \throws InvalidInput like layout_sheet; MissingInput if the font is not installed.
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// Like contact_sheet, for pictures of different heights: each goes into the column that is
-/// shortest so far. Ignores `rows` and `legend` of the options.
+/// Like contact_sheet, for pictures of different heights: each picture goes into the column that is
+/// shortest at that time. Ignores `rows` and `legend` of the options.
 Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Scales a picture down by box filtering in linear light.
 /// \param width_px  1 … image.width; the height keeps the aspect ratio.
 Rgb8Image shrunk(const Rgb8Image& image, int width_px);
 
-/// The picture in the upper left corner of a larger one, which has the background colour of the
-/// sheets.
+/// Returns the picture placed in the upper left corner of a larger picture with the background
+/// colour of the sheets.
 Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px);
 
 /// Joins pictures of one height from left to right, for several views of a face in one cell.

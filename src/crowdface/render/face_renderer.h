@@ -17,12 +17,12 @@ namespace crowdface {
 
 struct RenderOptions {
   int size_px = 256;  ///< side of the square image, in pixels
-  /// Antialiasing: samples_per_side² samples per pixel, at fixed positions, where the picture has
-  /// edges, and fewer elsewhere.
+  /// Antialiasing: samples_per_side² samples at fixed positions in each pixel with edges, and fewer
+  /// samples in other pixels.
   int samples_per_side = 3;
   /// Rays per pixel towards the key light. Neighbouring pixels share their results.
   int key_rays = 3;
-  /// The same for the sky, whose light has no sharp shadows.
+  /// Rays per pixel towards the sky, whose light has no sharp shadows.
   int sky_rays = 2;
   bool occlusion = true;  ///< whether the sky's light is occluded (ambient occlusion)
   Axis front = {2, 1};    ///< viewing direction of the eyes, for painted irises
@@ -34,10 +34,9 @@ struct RenderOptions {
 /// their first corner; faces with fewer than three corners are skipped.
 class FaceRenderer {
  public:
-  /// \param typical  #V by 3, an average face. The ray tracer's tree is then built once for it and
-  ///                 refitted to each face, which saves most of the time on large meshes; and all
-  ///                 faces are assumed to have its winding. Without it the tree is rebuilt for
-  ///                 every face.
+  /// \param typical  #V by 3, an average face. If given, the ray tracer's tree is built once for it
+  ///     and refitted to each face, which saves most of the time on large meshes; and all faces are
+  ///     assumed to have its winding. Otherwise the tree is rebuilt for every face.
   /// \throws BrokenPrecondition if sizes or options are invalid.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);

@@ -26,7 +26,8 @@ inline constexpr std::size_t kMaxLanes = 16;
 /// A vertex projected to the image.
 struct alignas(16) PlacedVertex {
   float x, y;  ///< in pixels; x is infinite for vertices behind the camera
-  /// Reciprocal of the distance, measured in lengths of the ray from the camera to the plane z = 0.
+  /// Reciprocal of the distance. The unit of distance is the length of the ray from the camera
+  /// through this vertex to the plane z = 0.
   float nearness;
 };
 
@@ -55,7 +56,7 @@ class PixelPlaces {
 
   const std::vector<Eigen::Vector2f>& list() const { return list_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(list_.size()); }
-  /// All x, followed by kMaxLanes NaNs as padding. `y` likewise.
+  /// All x coordinates, followed by kMaxLanes NaNs as padding. `y` likewise.
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
 
@@ -64,7 +65,8 @@ class PixelPlaces {
   std::vector<float> x_, y_;
 };
 
-/// The samples to take in a pixel, and the index of the first among the samples of all pixels.
+/// The samples of a pixel: their positions, and the index of the first of them among the samples of
+/// all pixels.
 struct LookedPixel {
   const PixelPlaces* places = nullptr;  ///< null: no samples in this pixel
   std::uint32_t first = 0;
@@ -82,8 +84,8 @@ struct FrontQuads {
 /// Corners of the two triangles into which Embree splits a quad.
 inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1, 3}, {2, 3, 1}}};
 
-/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the first stays.
-/// Gives the same bits with every instruction set.
+/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier one
+/// stays. The result has the same bits with every instruction set.
 /// \param corner  image pixel at the corner of the square's rim
 /// \param pixels  kRimmed² pixels of the square and its rim, row by row
 void put_in_front(std::span<const QuadOnPixels> some, std::span<const Quad> quads,

@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-/// Points of the surface with the results of their shadow rays, as one list per field: position,
-/// normal, and for each light the number of rays that reached the light and the number traced.
+/// Surface points with the results of their shadow rays, as one list per field: position, normal,
+/// and for each light the number of rays that reached the light and the number traced.
 struct PointLights {
   enum Field {
     kPoint,
@@ -24,8 +24,8 @@ struct PointLights {
   std::array<const float*, kFields> lists;
 };
 
-/// The same fields for the pixels of a square and a rim of one pixel: means of positions and
-/// normals (shorter than 1 where normals differ), and sums of rays.
+/// The fields of PointLights for the pixels of a square and a rim of one pixel: means of positions
+/// and normals (a mean normal is shorter than 1 where normals differ), and sums of rays.
 class PixelLights {
  public:
   static constexpr std::size_t kStride =
@@ -48,9 +48,10 @@ class PixelLights {
   std::vector<float> numbers_;
 };
 
-/// Estimates the visible fraction of the key light and of the sky at points, by a bilateral filter:
-/// rays of the 3 by 3 pixels around the point, weighted by how well the pixel's normal and position
-/// match the point's surface. Gives the same bits with every instruction set.
+/// Estimates, for each point, the visible fraction of the key light and of the sky, by a bilateral
+/// filter: averages the rays of the 3 by 3 pixels around the point, weighted by how well each
+/// pixel's normal and position match the point's surface. The result has the same bits with every
+/// instruction set.
 /// \param points     lists padded by kMaxLanes entries of any value
 /// \param pixel      index of the pixel of all points, or with `in_a_row` of the first point
 /// \param in_a_row   whether the points lie in consecutive pixels of a row

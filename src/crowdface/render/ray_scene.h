@@ -32,9 +32,9 @@ struct Ray {
   Eigen::Vector3f direction;
   float nearest = 0;
   float furthest = 1e30F;
-  /// Number in 0 … 65535 for stochastic transparency: a surface with opacity α lets the fraction
-  /// 1−α of the numbers through, always the same numbers. The rays of a pixel have evenly spread
-  /// numbers.
+  /// Number in 0 … 65535 for stochastic transparency: a surface with opacity α lets rays with a
+  /// fraction 1−α of all numbers through, always the same numbers. The rays of a pixel have evenly
+  /// spread numbers.
   std::uint32_t opacity_seed = 0;
 };
 
@@ -54,8 +54,8 @@ using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 /// Quads for ray queries. Queries are thread-safe; move_points is not.
 class RayScene {
  public:
-  /// kForOnce: a tree of high quality. kForMoves: a tree that move_points can refit quickly; but
-  /// rays may slip between quads, and only `occluded` is available.
+  /// kForOnce: a tree of high quality. kForMoves: a tree that move_points can refit quickly; with
+  /// this tree, rays may slip between quads, and only `occluded` is available.
   enum class Tree { kForOnce, kForMoves };
 
   /// \param points  x, y, z of each vertex; the scene keeps them.
@@ -71,8 +71,8 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   /// Moves the vertices and refits the tree. At 1.2 million vertices this takes a fifteenth of the
-  /// time of building it. Rays stay as fast if the new points resemble the first. The structure of
-  /// the tree depends only on the first points, not on earlier calls.
+  /// time of building the tree. Tracing stays as fast as before if the new points resemble the
+  /// first. The structure of the tree depends only on the first points, not on earlier calls.
   /// \param points  as many as before; on return holds the previous points' memory.
   void move_points(std::vector<float>& points);
 

@@ -8,16 +8,17 @@
 
 namespace crowdface {
 
-/// `side`² sample positions in [0, 1)². No two share a row or a column of a grid of side² by side²
-/// cells (Kensler 2013, "Correlated multi-jittered sampling", canonical arrangement).
+/// Returns `side`² sample positions in [0, 1)². No two of them lie in one row or one column of a
+/// grid of side² by side² cells (Kensler 2013, "Correlated multi-jittered sampling", canonical
+/// arrangement).
 std::vector<Eigen::Vector2f> places_in_pixel(int side);
 
 /// Period of the interleaved ray directions: the pixels of a kInterleave by kInterleave square use
 /// different directions, and the pattern repeats (Keller & Heidrich 2001, "Interleaved sampling").
 inline constexpr int kInterleave = 3;
 
-/// Ray directions as points of the unit disc, uniform by area. Each pixel has `rays` of them. Every
-/// block of 3 by 3 pixels together has the same 9 · `rays` points.
+/// Ray directions as points of the unit disc, uniform by area. Each pixel has `rays` directions.
+/// Every block of 3 by 3 pixels has the same set of 9 · `rays` points.
 class InterleavedDisc {
  public:
   explicit InterleavedDisc(int rays);

@@ -28,11 +28,11 @@ struct PixelRectangle {
 
 /// A rasterizer for quads, seen by a camera at (0, 0, distance) that looks along −z at the square
 /// [−1, 1]² of the plane z = 0. `put` projects the quads; then any thread may query squares of the
-/// image. Gives the same hits as a RayScene of quads. Faster than refitting a tree where quads are
-/// smaller than pixels.
+/// image. Finds the same hits as a RayScene of quads. Where quads are smaller than pixels, this is
+/// faster than refitting a tree.
 class ScreenQuads {
  public:
-  /// Replaces the quads. Quads that reach behind the camera are not drawn.
+  /// Replaces the quads. Quads that extend behind the camera are skipped.
   /// \param points  x, y, z of each vertex. Like `quads`, they must outlive the queries.
   /// \param size    side of the image, in pixels
   void put(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
@@ -53,9 +53,9 @@ class ScreenQuads {
 
   const float* points_ = nullptr;
   std::span<const Quad> quads_;
-  int a_row_ = 0;                     ///< squares in a row
+  int a_row_ = 0;                     ///< number of squares in a row
   std::vector<PlacedVertex> placed_;  ///< #V
-  std::vector<SquareLists> blocks_;   ///< for consecutive blocks of quads
+  std::vector<SquareLists> blocks_;   ///< one entry per block of consecutive quads
 };
 
 }  // namespace crowdface

@@ -19,12 +19,12 @@ struct ShadePoint {
   bool inside = false;   ///< the back face is visible, as in nostrils or eye sockets
   float sky = 1;         ///< visible fraction of the sky
   float key = 1;         ///< visible fraction of the key light
-  float roughness = -1;  ///< 0 … 1; negative: that of the material
+  float roughness = -1;  ///< 0 … 1; negative: the roughness of the material
 };
 
 /// Radiance from a point in the studio. Diffuse light is wrapped: skin scatters light past the edge
-/// of shadows, red furthest. Highlights use a microfacet model (Walter et al. 2007).
-/// \param specular  factor of the specular reflection.
+/// of shadows, red light farthest. Highlights use a microfacet model (Walter et al. 2007).
+/// \param specular  factor on the specular reflection.
 Light shade(const ShadePoint& point, float specular = 1);
 
 /// Shades many points with SIMD, like `shade`. The result of a point is the same with every
@@ -52,7 +52,7 @@ class ShadeBatch {
     kKey,
     kSky,
     kSpecularTable,
-    kShown,  ///< factor of the total radiance
+    kShown,  ///< factor on the total radiance
     kFields
   };
   static constexpr std::size_t kBlock = 16;

@@ -29,8 +29,10 @@ struct TexturedQuad {
 struct Stage {
   const std::vector<float>& points;             ///< x, y, z of each vertex
   const ScreenQuads& screen;                    ///< rasterizer of all quads
-  const RayScene& occluders;                    ///< occluders for light: the full or a reduced mesh
-  float clearance;                              ///< distance of ray origins from the surface
+  const RayScene& occluders;                    ///< meshes that occlude light: the full mesh or a
+                                                ///< reduced one
+  float clearance;                              ///< distance between a surface and the origins of
+                                                ///< rays that start there
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
   float winding;                                ///< +1, or −1 if the winding is inside out
   const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
@@ -52,8 +54,8 @@ struct Stage {
   }
 };
 
-/// Distance of ray origins from a surface that is its own occluder, in camera space (half the side
-/// of the image is 1).
+/// Distance between a surface and the origins of rays that start there, if the surface itself may
+/// occlude these rays. In camera space (half the side of the image is 1).
 inline constexpr float kRayClearance = 2e-4F;
 
 }  // namespace crowdface

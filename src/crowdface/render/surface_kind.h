@@ -15,12 +15,12 @@ namespace crowdface {
 /// Material of a face of the mesh, for renders without textures.
 enum class SurfaceKind : std::uint8_t {
   kSkin,
-  kEye,  ///< the white of the eye
+  kEye,  ///< white of the eye
   kIris,
   kTeeth,
-  kGums,        ///< and tongue
+  kGums,        ///< gums and tongue
   kAttachment,  ///< attachment with colours of its own: hair, glasses
-  /// Not drawn: lashes, tear fluid and shells that would need textures to be transparent.
+  /// Not rendered: lashes, tear fluid and shells that would need textures to be transparent.
   kHidden,
 };
 

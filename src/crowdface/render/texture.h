@@ -45,10 +45,10 @@ struct TextureLayer {
   std::vector<std::uint32_t> of_face;
 };
 
-/// Colour textures, normal maps and roughness maps of one head. Faces with kNone keep their own
-/// colour.
+/// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the colour of
+/// their surface.
 struct TextureSet : TextureLayer {
-  /// Slopes from tangent-space normal maps: to the right and upwards.
+  /// From tangent-space normal maps: slopes to the right and upwards.
   TextureLayer slopes = {};
   TextureLayer roughness = {};  ///< in the first channel
 };

@@ -14,7 +14,8 @@ namespace crowdface {
 struct Sampling {
   /// One sample in the centre of the pixel.
   PixelPlaces middle;
-  /// For pixels with relief, and for all pixels if there are attachments, which may be transparent.
+  /// For pixels with relief; also for all other pixels if there are attachments, which may be
+  /// transparent.
   PixelPlaces coarse;
   PixelPlaces fine;          ///< for pixels with edges
   InterleavedDisc key, sky;  ///< rays of a pixel towards each light
@@ -28,8 +29,8 @@ struct Sampling {
 };
 
 /// Renders one square of an image, independently of the other squares. Each pixel traces a few
-/// shadow rays in other directions than its neighbours; pixels that show the same surface share
-/// their results, which removes noise.
+/// shadow rays, in other directions than its neighbours. Pixels that show the same surface use each
+/// other's rays, which reduces noise.
 /// \param left, top  upper left corner of the square; parts outside the image are skipped.
 void render_tile(const Stage& stage, const Sampling& sampling, int left, int top, Rgb8Image& image);
 

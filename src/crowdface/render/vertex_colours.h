@@ -29,9 +29,9 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
                               const Positions& positions, Axis front);
 
-/// #V by 3 coordinates of eyeball vertices relative to the eyeball's centre, in its radii: two
-/// perpendicular to the gaze, the third along it. They are linear in the position, so that an iris
-/// drawn from their interpolation is round even on a coarse mesh.
+/// #V by 3: coordinates of eyeball vertices relative to the eyeball's centre, in units of its
+/// radius: two perpendicular to the gaze, the third along it. They are linear in the position, so
+/// that an iris painted from their interpolation is round even on a coarse mesh.
 using EyeCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 inline constexpr float kNoEye = -2;  ///< third coordinate of vertices that belong to no eyeball
 
