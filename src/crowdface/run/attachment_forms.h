@@ -20,8 +20,8 @@ namespace crowdface {
 template <class Form>
 class AttachmentForms {
  public:
-  /// \param make  returns the form of an attachment; receives its level of detail, which is null if
-  ///              the attachment is not reduced.
+  /// \param make  returns the form of an attachment. Its second argument is the attachment's level
+  ///     of detail, or null if the attachment is not reduced.
   template <class Make>
   AttachmentForms(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
     for (const Attachment* item : level.items(set)) {
@@ -46,7 +46,8 @@ class AttachmentForms {
     for (const auto& [item, form] : forms_) bytes += std::invoke(&Form::memory_bytes, form);
     return bytes;
   }
-  /// Maximum memory for encoding the attachments of one face (one of each kind), in bytes.
+  /// Maximum memory, in bytes, for encoding the attachments of one face, which wears at most one of
+  /// each kind.
   /// \param files  returns the number of files that contain an attachment
   template <class Files>
   std::size_t encode_bytes(const Files& files) const {

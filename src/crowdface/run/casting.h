@@ -34,17 +34,17 @@ struct CrowdDistances {
   double ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
 };
 
-/// How similar the members of a family are.
+/// Statistics of how similar the members of a family are.
 struct FamilyReport {
   std::string name;
   std::uint64_t members = 0;
   Quartiles within;      ///< between members
   Quartiles to_founder;  ///< from each member to the founder
-  /// smallest distance from a member to a face outside; 0 if there is none
+  /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_other_mm = 0;
   double silhouette = 0;
-  /// if the family has parents: the largest share of strangers nearer to a child than one of its
-  /// parents
+  /// if the family has parents: the largest fraction, over all children, of strangers that are
+  /// nearer to the child than one of its parents
   std::optional<double> strangers_nearer;
 };
 
@@ -68,8 +68,8 @@ AttachmentDraw attachment_draw(const Config& config);
 /// Casts the crowd.
 /// \param defects  judges a candidate's whole mesh; empty: meshes are not judged
 /// \param cache    see casting_space
-/// \throws Unsatisfiable if the constraints cannot be met; the message tells the binding
-///         constraint, how many faces were cast, and which change would help.
+/// \throws Unsatisfiable if the constraints cannot be met; the message names the binding
+///     constraint, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
                      const MeshDefects& defects, const std::filesystem::path& cache);
 

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// Warns about drawn faces that look too much like one of the heads.
+/// Warns about sampled faces that look too much like one of the heads.
 std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
                                     const std::vector<std::string>& heads);
 

@@ -25,8 +25,8 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
                         const CrowdPlan& crowd_plan, const std::vector<FaceResult>& faces,
                         Lazy<FaceBuilder>& builder, Lazy<CrowdPictures>& pictures, Ledger& ledger);
 
-/// Makes the contact sheets of a finished crowd again, from its mesh files; blends only the
-/// founders of families, which have no mesh files.
+/// Makes the contact sheets of a finished crowd again from its mesh files. Only the founders of
+/// families, which have no mesh files, are blended.
 /// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8"
 /// \param cache  folder of prepared heads, from which founders are blended
 void remake_sheets(const std::filesystem::path& crowd_directory,

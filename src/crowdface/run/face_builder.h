@@ -28,7 +28,7 @@ class FaceBuilder {
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions build(const Recipe& recipe) const;
 
-  /// The previous face, from which `rebuild` starts.
+  /// The face that the previous call of `rebuild` built, from which the next call starts.
   struct Kept {
     std::optional<Recipe> recipe;
     Positions blended;
@@ -42,7 +42,8 @@ class FaceBuilder {
   /// become invalid.
   void use_masks(const Config& config, const RegionWeights& regions);
 
-  /// The masks for blending: zero at vertices of parts that get other positions anyway.
+  /// The masks for blending: zero at vertices of parts, because other steps determine their
+  /// positions.
   const RegionWeights& regions() const { return regions_; }
 
   /// Defects in the skin of a face built from this recipe, compared with its target head.
@@ -60,8 +61,8 @@ class FaceBuilder {
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed at the first call. Thread-safe.
   const MirrorMap& mirror() const;
-  /// For each contact, the range between the target's gap and the weighted mean of the sources'
-  /// gaps.
+  /// Returns, for each contact, the allowed range of the gap: between the target's gap and the
+  /// weighted mean of the sources' gaps.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   void allow_other_side(std::vector<SkinContacts::Range>& ranges) const;
 
@@ -70,14 +71,14 @@ class FaceBuilder {
   const Prepared& prepared_;
   mutable std::once_flag mirror_once_;
   mutable std::shared_ptr<const MirrorMap> mirror_;
-  /// The masks, zero at vertices of parts that get other positions anyway.
+  /// The masks for blending; see regions().
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;             ///< unless `levels: exact`
+  std::optional<CrowdBlender> blender_;             ///< empty with `levels: exact`
   std::optional<SkinContacts> contacts_;            ///< always set after construction
   std::vector<std::vector<double>> contact_masks_;  ///< #contacts by #regions; rows sum to one
   bool keeps_contacts_;
   double mm_per_unit_;
-  std::optional<PartFollower> follower_;  ///< if there are parts besides the skin
+  std::optional<PartFollower> follower_;  ///< empty if there are no parts besides the skin
 };
 
 }  // namespace crowdface

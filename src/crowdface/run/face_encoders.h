@@ -74,8 +74,8 @@ class FaceEncoders {
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
                std::span<const FacePlan> crowd, const std::string& shared = {});
 
-  /// `holds_shapes`: whether files have shapes. `holds_textures`: whether faces' own textures are
-  /// written, in mesh files or next to them.
+  /// `holds_shapes`: whether any file contains shapes. `holds_textures`: whether the faces' own
+  /// textures are written, in mesh files or next to them.
   bool holds_shapes() const;
   bool holds_textures() const { return own_ && !formats_.empty(); }
   const OwnTextures& textures() const { return *own_; }
@@ -112,8 +112,9 @@ class FaceEncoders {
   /// #levels; empty if attachments have no files
   std::vector<AttachmentForms<MeshEncoder>> attachments_;
   std::optional<OwnTextures> own_;               ///< empty if faces have no textures of their own
-  std::optional<PointCarrier> points_, joints_;  ///< if there are points or joints
-  std::optional<NormalFans> fans_;  ///< fans of the vertices, if a format needs normals
+  std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
+  std::optional<NormalFans> fans_;  ///< normal fans of the vertices; empty if no format needs
+                                    ///< normals
 };
 
 /// The shapes for which an attachment has files: those for which the faces have files, if the

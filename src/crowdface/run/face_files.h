@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of a face's files, used by building, resuming, `sheet`, `blend` and the report.
+// The list of a face's files. Building, resuming, `sheet`, `blend` and the report use this list.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,8 @@ struct FinishedFace;
 /// A file of a face. To add a kind of file, add an entry to the lists below.
 struct FaceFile {
   std::filesystem::path path;
-  /// Where report.json has the file's hash: section "lods" and key "LOD1.obj", or no section and
-  /// key "mesh". Without a key, the report omits the hash.
+  /// Where report.json stores the file's hash: for example section "lods" and key "LOD1.obj", or no
+  /// section and key "mesh". If the key is empty, the report omits the hash.
   std::string section, key;
   /// Encodes the file; the result refers to the face and to its encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;
@@ -42,7 +42,7 @@ struct MeshFileOptions {
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
                                  const MeshFileOptions& options);
 
-/// Encodes all these files and writes them together.
+/// Encodes the given files of a face and writes them together.
 void write_files_of(const FinishedFace& face, const std::vector<FaceFile>& files);
 
 /// Makes the file lists of a crowd's faces.

@@ -18,7 +18,7 @@ struct MadeFace {
 };
 
 /// Records the faces of a crowd in its ledger. Each face is one item: its list of files, and the
-/// findings about its skin and shapes, so that a resumed run writes the same sheets and the same
+/// measurements of its skin and shapes, so that a resumed run writes the same sheets and the same
 /// report.
 class FaceLedger {
  public:
@@ -27,7 +27,8 @@ class FaceLedger {
   FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& lists,
              std::function<void()> recorded);
 
-  /// The results for a face; nothing unless all of its files exist as an earlier run wrote them.
+  /// Returns the recorded results of a face; nothing unless all of its files exist and are
+  /// unchanged.
   std::optional<FaceResult> done(const FacePlan& face) const;
   /// Records faces whose files have all been written.
   void record(std::span<const MadeFace> faces) const;

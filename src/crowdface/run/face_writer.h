@@ -21,8 +21,8 @@ struct ReadyFile {
   EncodedFile bytes;
 };
 
-/// Writes faces on its own thread, so that computing threads need not wait for the disk. Faces that
-/// become ready during a write are written together, synced once, and then recorded.
+/// Writes faces on a thread of its own, so that computing threads need not wait for the disk. Faces
+/// that become ready during a write are then written together, synced once, and recorded.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.
@@ -42,9 +42,9 @@ class FaceWriter {
 
   /// Time that the thread spent writing.
   double busy_seconds() const { return busy_seconds_; }
-  /// Lower bound for a useful queue: with less, threads wait for the disk.
+  /// Smallest useful size of the queue: with a smaller queue, threads wait for the disk.
   static constexpr std::uint64_t kMinWaitingBytes = std::uint64_t{64} << 20U;
-  /// Upper bound for a useful queue: enough to keep the disk busy while a group of faces is
+  /// Largest useful size of the queue: enough to keep the disk busy while a group of faces is
   /// blended.
   static constexpr std::uint64_t kMaxWaitingBytes = std::uint64_t{256} << 20U;
 

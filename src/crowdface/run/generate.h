@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// Where a shard gets its faces from.
+/// The source of a shard's faces.
 enum class PlanFrom {
   kFolderOrCasting,  ///< the folder's plan if it belongs to this job; otherwise the crowd is cast
   kFolder,           ///< only the folder's plan; without one, the shard is rejected
@@ -21,16 +21,16 @@ struct GenerateOptions {
   std::filesystem::path cache;         ///< folder of prepared heads
   Replace replace = Replace::kRefuse;  ///< what to do if the folder has another config's crowd
   bool dry_run = false;                ///< report what would be written, and write nothing
-  /// Maximum memory of the process in bytes, which determines how many faces are in flight; 0:
-  /// three quarters of the memory of the machine or its control group.
+  /// Maximum memory of the process in bytes, which determines how many faces are processed at the
+  /// same time. 0: three quarters of the memory of the machine or its control group.
   std::uint64_t memory = 0;
-  Shard shard = {};  ///< make only these faces, without sheets or report, which `gather` makes
+  Shard shard = {};  ///< only this shard's faces are made; sheets and report are left to `gather`
   PlanFrom plan_from = PlanFrom::kFolderOrCasting;
 };
 
 /// Runs the whole job: read, prepare, cast, blend, write, render, report. Writes nothing until all
-/// inputs are checked. Skips work that the folder's ledger proves to be done, so that it resumes a
-/// stopped run and repairs a finished crowd. \throws Error.
+/// inputs are checked. Skips work that the folder's ledger proves to be done; a repeated run
+/// therefore resumes a stopped run or repairs a finished crowd. \throws Error.
 void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options);
 /// Runs the job of a config object, whose values are validated like those of a file.

@@ -25,7 +25,7 @@ namespace crowdface {
 inline const Positions kNoRows;
 inline const ColourRows kNoColours;
 
-/// A face, at rest or in a shape, whole or at a level of detail, with everything that a file may
+/// A face, at rest or in a shape, whole or at a level of detail, with all data that a file may
 /// contain.
 struct FaceMesh {
   std::string id;    ///< "market_0001", at a level of detail "market_0001_LOD1"
@@ -38,8 +38,9 @@ struct FaceMesh {
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
   const Positions* joints = &kNoRows;  ///< positions of the rig's joints
-  std::span<const std::string_view> images = {};  ///< files of the face's own textures, or none …
-  std::span<const std::string> image_names = {};  ///< … and their paths relative to the mesh
+  std::span<const std::string_view> images = {};  ///< the face's own textures, as bytes of image
+                                                  ///< files; may be empty
+  std::span<const std::string> image_names = {};  ///< #images: their paths relative to the mesh
   std::string material_file = {};  ///< the face's own material file; empty: the target's
 };
 
@@ -81,7 +82,7 @@ MeshEncoder encoder_by(std::shared_ptr<const Form> form, const Encode& encode) {
 /// \throws InvalidInput if the format cannot hold such a mesh.
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
 
-/// Additional files of one format that all faces of a crowd share.
+/// Additional files of one format, shared by all faces of a crowd.
 struct SharedFiles {
   std::string item;       ///< name of the ledger's item
   Digest key;             ///< hash of everything that determines the files

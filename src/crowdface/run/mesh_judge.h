@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// Whether the config has whole meshes judged after they are built.
+/// Returns whether the config asks for whole meshes to be judged after they are built.
 bool skin_is_judged(const Config& config, const Inputs& inputs);
 
 /// Compares whole meshes with their target heads.
@@ -25,7 +25,8 @@ bool candidates_are_built(const Config& config);
 /// result.
 MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceBuilder& builder);
 
-/// Warns about faces whose whole mesh exceeds a limit that their samples met. \return the warning.
+/// Warns about faces whose whole mesh exceeds a limit although their samples did not. \return the
+/// warning.
 std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
                                       const std::vector<FacePlan>& crowd,
                                       const std::vector<FaceResult>& files);

@@ -33,8 +33,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return whole() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files at this level may contain: for the whole mesh all, otherwise those
-  /// that a face wears.
+  /// The attachments that files at this level may contain: all attachments for the whole mesh,
+  /// otherwise only those that some face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
@@ -55,7 +55,7 @@ std::vector<T> at_rows(const std::vector<T>& whole, std::span<const std::uint32_
   for (const std::uint32_t row : rows) some.push_back(whole[row]);
   return some;
 }
-/// Selects rows of grouped values; empty if `whole` is.
+/// Selects rows of grouped values; returns an empty result if `whole` is empty.
 template <class T>
 CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> some;

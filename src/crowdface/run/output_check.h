@@ -6,8 +6,8 @@
 
 namespace crowdface {
 
-/// Rejects an output folder that cannot be written, or where the crowd would overwrite its own
-/// inputs or files that could not be made again. \throws UsageError, CannotCreate.
+/// Rejects an output folder that cannot be written. Also rejects it if the crowd would overwrite
+/// its own inputs, or files that could not be made again. \throws UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
 /// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
@@ -15,7 +15,8 @@ void check_output(const Job& job, Replace replace);
 /// CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 
-/// \throws UsageError if the folder's crowd was cast from other heads: it could not be made again.
+/// \throws UsageError if the folder's crowd was cast from other heads, because it could not be made
+///     again.
 /// \param settings  hash of the present heads, see settings_digest
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 

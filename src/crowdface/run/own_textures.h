@@ -17,7 +17,7 @@
 
 namespace crowdface {
 
-/// A file of a face's own textures.
+/// A texture file of one face.
 struct OwnTextureFile {
   std::string name;                     ///< path relative to the folder of the face's meshes
   std::size_t picture = 0, format = 0;  ///< indices into OwnTextures::Encoded
@@ -33,8 +33,8 @@ struct GlbPicture {
 };
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
-/// Paths of the images of glb_pictures relative to a face's mesh, in the first of their formats:
-/// "./blended/ID.png". Empty if faces have no textures of their own.
+/// Paths of the images of glb_pictures relative to a face's mesh: "./blended/ID.png". If an image
+/// has several formats, the first one. Empty if faces have no textures of their own.
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 

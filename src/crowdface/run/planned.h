@@ -40,8 +40,8 @@ std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& 
 /// The founders of families recorded in the folder; empty if it has no such file.
 std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& directory);
 
-/// Restores the result of `cast` from a plan, as far as later stages need it: without distances,
-/// rejections and family reports, which casting.json has.
+/// Restores the result of casting from a plan. The result has everything that later stages need,
+/// but not the distances, rejections and family reports, which are stored in casting.json.
 /// \param cache  see casting_space
 CrowdPlan cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
                           std::vector<FacePlan> crowd, const std::filesystem::path& cache);

@@ -32,8 +32,7 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan
 /// \return a value for which `is_discarded()` is true if the file is not a valid report.
 nlohmann::ordered_json read_report_summary(const std::filesystem::path& file);
 
-/// Hashes of the inputs besides heads and masks that faces depend on, with their keys in
-/// report.json.
+/// Hashes of all inputs of the faces except heads and masks, with their keys in report.json.
 std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs);
 
 /// Duration of each stage in seconds, in execution order.
@@ -45,7 +44,7 @@ struct StageTimes {
   std::atomic<double> blend = 0, encode = 0, write = 0, render = 0, check = 0;
 };
 
-/// Adds its lifetime to a stage's time.
+/// Adds its own lifetime to a stage's time.
 class StageTimer {
  public:
   explicit StageTimer(std::atomic<double>& stage) : stage_(stage) {}

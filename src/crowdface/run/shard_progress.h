@@ -13,8 +13,8 @@
 namespace crowdface {
 
 /// Writes a shard's progress into the crowd's folder for `crowdface status`: at the start, at most
-/// every five seconds while faces are made, and at the end. Failing to write does not stop the run:
-/// the observer sees that updates stop. Thread-safe.
+/// every five seconds while faces are made, and at the end. A failed write does not stop the run;
+/// an observer then sees that updates have stopped. Thread-safe.
 class ShardProgress {
  public:
   /// \param done  number of the shard's `faces` that are finished at the start

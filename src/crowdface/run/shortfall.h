@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages for users if a crowd cannot be cast, or may not be.
+// Messages to the user about crowds that cannot be cast, or perhaps cannot.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ class ScarcityWarning {
   bool scarce_ = false;
 };
 
-/// \throws Unsatisfiable with the binding constraint, the number of faces cast, and the change that
-///         would help.
+/// \throws Unsatisfiable; the message names the binding constraint, the number of faces cast, and a
+///     change that would help.
 [[noreturn]] void tell_shortfall(const Config& config, const Remedy& remedy,
                                  const Shortfall& shortfall);
 

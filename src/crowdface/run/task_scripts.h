@@ -41,8 +41,8 @@ struct EngineOptions {
   std::vector<std::string> more;     ///< further arguments for the engine, passed unchanged
 };
 
-/// Number of tasks of each kind, such that a task that makes faces runs for about ten minutes and a
-/// task that prepares heads for about one, from measured times (docs/farm.md).
+/// Returns a number of tasks from measured times (docs/farm.md): a task that makes faces then runs
+/// for about ten minutes, and a task that prepares heads for about one.
 /// \param faces  number of faces in the crowd
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
                              std::uint64_t processors);
