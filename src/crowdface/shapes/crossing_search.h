@@ -24,8 +24,8 @@ class CrossingSearch {
   /// \param reach      Largest distance of two candidates on `mesh`.
   /// \param facing     Largest distance of two candidates that face each other; at least `reach`.
   ///
-  /// Triangles that a few edges of the same sheet separate are tested only where their normals
-  /// differ, that is, where the sheet is folded.
+  /// If two triangles are only a few edges apart on one sheet, the pair is tested only where the
+  /// normals of the triangles differ, that is, where the sheet is folded.
   CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
                  double facing);
 
@@ -47,8 +47,8 @@ class CrossingSearch {
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
-  /// \param excused  Whether to ignore a triangle. A pair is left out if both of its triangles are
-  ///                 excused.
+  /// \param excused  Returns whether a triangle is excused. A pair is ignored if both of its
+  ///     triangles are excused.
   std::vector<Pair> crossing(const Positions& mesh, const Boxes& boxes,
                              const std::function<bool(std::uint32_t)>& excused) const;
 

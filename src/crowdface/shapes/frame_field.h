@@ -14,9 +14,9 @@ namespace crowdface {
 /// The local rotation and stretch of a face's skin relative to the template's, as a smooth field of
 /// linear maps. The maps are fitted at nodes a few centimetres apart: each map is the least-squares
 /// fit from the template's skin around the node to the face's. Between nodes the maps are
-/// interpolated. A flat patch of skin does not determine a map, so each fit includes the similarity
-/// of the whole skin with a small weight. The constructor precomputes what depends on the template
-/// only.
+/// interpolated. A flat patch of skin does not determine a map, so each fit also includes, with a
+/// small weight, the similarity of the whole skin. The constructor computes everything that depends
+/// on the template only.
 class FrameField {
  public:
   FrameField() = default;
@@ -29,7 +29,7 @@ class FrameField {
 
   struct Frames {
     RigidMotion whole;                      ///< from the template to the face
-    std::vector<Eigen::Matrix3d> of_place;  ///< #places: linear map at each node
+    std::vector<Eigen::Matrix3d> of_place;  ///< #nodes: linear map at each node
   };
   Frames frames(const Positions& face) const;
   /// Returns the map at the vertex `used[i]`. If the face is the template rotated, translated and
@@ -45,7 +45,7 @@ class FrameField {
     Eigen::Vector3d middle;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// factor of the whole skin's map: the part that the samples do not determine
+    /// factor on the whole skin's map, which fills in what the samples do not determine
     Eigen::Matrix3d rest;
   };
   struct Share {
@@ -60,7 +60,8 @@ class FrameField {
   std::vector<std::uint32_t> some_skin_;
   std::vector<double> ones_;  ///< #some_skin_
   std::vector<Place> places_;
-  CompressedRows<Share> shares_;  ///< #used: nodes that each vertex interpolates
+  CompressedRows<Share> shares_;  ///< #used: the nodes between which each vertex interpolates, with
+                                  ///< weights
 };
 
 /// Inverts a regular 3 by 3 matrix by cofactors.

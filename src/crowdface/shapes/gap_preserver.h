@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Preserves the gaps between lips in shapes that leave the lips closed or equally far apart. The
+/// Preserves the gap between the lips in shapes that keep the lips closed or equally far apart. The
 /// two lips are far from each other along the skin, so the linear maps of FrameField differ between
 /// them and would change the gap.
 class GapPreserver {
@@ -29,8 +29,8 @@ class GapPreserver {
 
   /// Returns the gaps at all places. \param positions  #V by 3.
   std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
-  /// Returns the largest depth to which skin passes through other skin at a place; 0 if there is
-  /// none.
+  /// Returns the largest depth, over all places, by which skin passes through other skin; 0 if
+  /// there is no such place.
   double deepest(const Positions& positions) const;
 
   /// Which gaps to adjust: those that the shape hardly changes, or all.
@@ -46,7 +46,7 @@ class GapPreserver {
 
  private:
   SkinContacts contacts_;
-  double most_ = 0;  ///< kNearlySame skips gaps that change by more than this
+  double most_ = 0;  ///< kNearlySame adjusts only gaps that change by at most this length
 };
 
 }  // namespace crowdface

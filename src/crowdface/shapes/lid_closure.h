@@ -21,8 +21,8 @@ struct TemplateEye {
   std::vector<std::uint32_t> skin;  ///< vertices around the eye, ascending
 };
 
-/// An eyeball of a face: the radius map of a head's eyeball, the motion that carries this eyeball
-/// to the face, and the distance of the surrounding skin from the eyeball at rest.
+/// An eyeball of a face: the radius map of a head's eyeball, the motion of this eyeball from the
+/// head to the face, and the distance of the surrounding skin from the eyeball at rest.
 struct FaceEye {
   const BallMap* ball;
   RigidMotion motion;
@@ -40,10 +40,10 @@ FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion&
 /// \param side  #V.
 void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
 
-/// Adjusts how a shape moves the lids of one eye, so that a blink closes eyes of any size. Local
-/// linear maps alone leave lids open, or overlapping, by millimetres, because the opening is not
-/// part of the skin and no map measures its height. Where the shape closes the lids on the
-/// template, this class scales their vertical movement until the gap on the face equals the
+/// Adjusts how a shape moves the lids of one eye, so that a blink closes eyes of any size. With the
+/// local linear maps alone, lids would stay open or overlap by millimetres, because the opening is
+/// not part of the skin and no map measures its height. Where the shape closes the lids on the
+/// template, this class scales the lids' vertical movement until the gap on the face equals the
 /// template's. It also keeps the lids outside the eyeball, as on the template.
 class LidClosure {
  public:
@@ -57,14 +57,15 @@ class LidClosure {
   /// Gap between the two rims at one place; negative where the upper lid is below the lower lid.
   struct Gap {
     double paired;  ///< between points that lie above each other on the template
-    /// vertically below the point of the upper rim, to whatever part of the lower rim is there
+    /// vertical distance from the point of the upper rim to the lower rim
     double plumb;
   };
-  /// The gaps and distances that a face's lids should have, measured on a mesh with a known shape
-  /// and divided by its scale relative to the template.
+  /// The gaps and distances that a face's lids should have. They are measured on a mesh with a
+  /// known shape and divided by the mesh's scale relative to the template.
   struct Goals {
     std::vector<Gap> gaps;  ///< #places
-    /// #lids: distance from the eyeball in the shape; its change since rest
+    /// #lids: distance from the eyeball in the shape; difference of this distance from its value at
+    /// rest
     std::vector<double> least, gap_change;
   };
   /// Measures the goals on a mesh.
@@ -81,15 +82,15 @@ class LidClosure {
   /// Returns the rows of the shape that `fit` may change.
   std::vector<std::uint32_t> rows() const;
 
-  /// Returns by how much closed lids are still open: the maximum over all places, in radii of the
-  /// eyeball. Gaps that count as closed give 0.
+  /// Returns how far lids that the shape should close are open: the maximum over all places, in
+  /// radii of the eyeball. Gaps small enough to count as closed give 0.
   double open(const Positions& face, const RigidMotion& whole, const Goals& goals,
               const Positions& moves) const;
-  /// Closes lids that were opened again, by scaling the vertical movement.
+  /// Closes lids that other corrections have opened again, by scaling the vertical movement.
   void close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
                    Positions& moves) const;
 
-  /// Adjusts a shape so that it meets the goals.
+  /// Adjusts a shape until it meets the goals.
   ///
   /// \param face   #V by 3, at rest.
   /// \param whole  Motion from the template to the face.
@@ -112,7 +113,7 @@ class LidClosure {
   struct Place {
     std::vector<Point> low, high;
     double along;   ///< position along the opening
-    double closed;  ///< by how much the shape narrows the template's gap
+    double closed;  ///< by how much the shape narrows the gap on the template
   };
   /// Axes of a face: along the opening, and from the lower lid to the upper lid; unit vectors.
   struct Axes {
@@ -125,8 +126,9 @@ class LidClosure {
   struct Lid {
     std::uint32_t row, vertex;
     std::uint32_t number;  ///< index among the skin around the eye
-    double share;          ///< weight of closing: 1 near the eye, less farther off
-    double hold;           ///< weight of keeping off the eyeball: 1 near its surface
+    double share;          ///< how strongly closing moves this vertex: 1 near the eye, less farther
+                           ///< away
+    double hold;           ///< how strongly the vertex is kept off the eyeball: 1 near its surface
   };
 
   void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
@@ -146,7 +148,7 @@ class LidClosure {
   Axes axes_on(const RigidMotion& whole) const;
   static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
                        const Positions& face, const Positions& moves);
-  /// Returns by how much gaps are wider than the goals; negative: narrower.
+  /// Returns, for each place, the gap minus its goal.
   static std::vector<double> missing_gaps(const std::vector<Gap>& now, const Goals& goals,
                                           double scale);
   std::vector<Gap> gaps(const Axes& axes, const Positions& face, const Positions& moves) const;
@@ -156,7 +158,8 @@ class LidClosure {
   std::vector<Place> places_;
   std::vector<Lid> lids_;
   std::size_t in_profiles_ = 0;  ///< number of lids that appear in profiles; they come first
-  std::vector<double> heard_;    ///< #lids by #places: weight of each place's gain for each lid
+  std::vector<double> heard_;    ///< #lids by #places: effect of each place's gain on each lid
+                                 ///< vertex
 };
 
 }  // namespace crowdface

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Named points beside a mesh that each face gets too: joints, centres of eyes, positions of ear
-/// rings.
+/// Named points beside a mesh, such as joints, centres of eyes and positions of ear rings. Every
+/// generated face gets these points too.
 struct PointSet {
   std::vector<std::string> names;
   /// `positions`: #names by 3 each. `meshes`: the mesh that each set of points belongs to, #V by 3.
@@ -22,10 +22,10 @@ struct PointSet {
   bool empty() const { return names.empty(); }
 };
 
-/// Carries named points to faces, as parts are carried. A point inside an eyeball, or nearer to
-/// another rigid part than to the skin, moves with this part. Any other point moves by the best
-/// rotation, translation and scale of the skin nearest to it. If the face is the points' own mesh,
-/// rotated, translated and scaled, the points undergo the same motion up to rounding.
+/// Transfers named points to faces, in the way parts follow the skin. A point inside an eyeball, or
+/// nearer to another rigid part than to the skin, moves with this part. Any other point moves by
+/// the best rotation, translation and scale of the skin nearest to it. If the face is the points'
+/// own mesh, rotated, translated and scaled, the points undergo the same motion up to rounding.
 class PointCarrier {
  public:
   /// \param points  Must outlive this object.

@@ -45,23 +45,24 @@ struct LidMove {
 /// A vertex of a bound part (such as a lash) that follows a lid's correction.
 struct Hanging {
   std::uint32_t row;
-  /// rows of the skin triangle it hangs on; kNoIndex for uncorrected corners
+  /// rows of the corners of the skin triangle to which the vertex is bound; kNoIndex: not corrected
   std::array<std::uint32_t, 3> rows;
   std::array<double, 3> shares;
 };
 
-/// Finds shapes that are made to be added to another shape, such as ARKit's `mouthClose`: shapes
-/// that move the lips far through each other. The companion is the other shape with which the lips
-/// overlap least, if that at least halves the depth.
+/// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's
+/// `mouthClose` closes the lips while `jawOpen` opens the jaw. A shape is corrective if it alone
+/// moves the lips far through each other. Its companion is the other shape with which the lips
+/// overlap least, provided that the overlap is at most half as deep.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
-/// \return        #shapes: the companion of each shape, if it has one.
+/// \return        #shapes: the companion of each corrective shape, if one is found.
 std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
                                                       const GapPreserver& contacts, double extent);
 
 /// One shape: what it moves, and the data for its corrections on a face.
 struct PreparedShape {
-  /// lips and intersections are corrected in the sum of both shapes
+  /// the other shape, if this one is corrective: lips and intersections are corrected in their sum
   std::optional<std::size_t> companion;
   std::vector<std::uint32_t> used;  ///< #rows: indices into PreparedShapes::used
   /// #heads by #rows, normalised to the mean head; empty: one set
@@ -88,7 +89,7 @@ struct PreparedShapes {
   const ShapeSet& set;
   HeadAxes axes;
   FacesAround around;
-  std::vector<std::uint32_t> skin;  ///< ascending
+  std::vector<std::uint32_t> skin;  ///< vertices of the skin, ascending
   std::vector<RigidPart> rigid;
   /// #rigid by #regions: mean weights of the skin at each part
   std::vector<std::vector<double>> rigid_alpha;
@@ -102,7 +103,7 @@ struct PreparedShapes {
   double extent = 0;                 ///< diagonal of the template's skin's bounding box
   std::vector<std::uint32_t> inner;  ///< vertices of parts away from the eyes: gums and teeth
   SkinCrossings crossings;
-  CrossingSearch watched;  ///< candidates of all shapes
+  CrossingSearch watched;  ///< search over the skin that any of the shapes may bring into contact
   std::vector<PreparedShape> shapes;
 
   /// A face, and how its skin is rotated and stretched relative to the template's.
@@ -115,7 +116,7 @@ struct PreparedShapes {
     std::vector<bool> at_rest;
   };
   Carrier carrier_to(const Positions& face) const;
-  /// Returns the mean map of the part's vertices that the shape moves.
+  /// Returns the mean map over the vertices of the part that the shape moves.
   Eigen::Matrix3d map_of(const PartMove& part, const PreparedShape& state,
                          std::span<const Eigen::Matrix3d> maps) const;
 

@@ -17,13 +17,13 @@ struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> fitted;  ///< the subset of `vertices` used in fits
   std::vector<double> ones;           ///< #fitted
-  /// centre of rotation: of an eyeball its centre, of teeth their mean
+  /// centre of rotation: for an eyeball its centre, for teeth their mean
   Eigen::Vector3d middle;
 };
 
-/// How a shape moves a rigid part, independent of the mesh it was measured on: the local rotation
-/// and stretch of this mesh relative to the template are removed. `carry_turn` applies those of
-/// another face.
+/// The motion of a rigid part in a shape, without the influence of the mesh on which it was
+/// measured: find_turn removes the local rotation and stretch of that mesh relative to the
+/// template, and carry_turn applies those of another face.
 struct RigidTurn {
   /// unit quaternion (w, x, y, z); rotation about the middle
   std::array<double, 4> quaternion = {1, 0, 0, 0};
@@ -43,7 +43,7 @@ struct PlacedPart {
   const Eigen::Matrix3d& map;  ///< mean linear map of the part's moved vertices
 };
 
-/// Measures the rigid motion of a part in a shape.
+/// Measures the motion of a rigid part in a shape of a mesh, and expresses it on the template.
 ///
 /// \param vertices  #rows: vertices of the part that the shape moves.
 /// \param rows      Their rows in `moves`.
@@ -55,7 +55,7 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
 /// Returns the weighted mean of several sets' motions.
 RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares);
 
-/// Applies a motion to a part of a face: writes `rows` of `moves`.
+/// Transfers a motion to a part of a face: writes the part's displacements to `rows` of `moves`.
 void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                 Positions& moves);

@@ -28,14 +28,14 @@ struct OwnShape {
 struct ShapeSet {
   /// mesh at rest: the template, or the mean head; #V by 3; no rows: there are no shapes
   Positions neutral;
-  std::vector<Shape> shapes;  ///< the template's, or the mean of the heads'
+  std::vector<Shape> shapes;  ///< the template's shapes, or the means of the heads' shapes
   /// #heads by #shapes; empty: one set for all heads
   std::vector<std::vector<OwnShape>> of_head = {};
 };
 
 /// Returns the memory, in bytes, of one face's displacements for all shapes.
 std::size_t displacement_bytes(const ShapeSet& shapes);
-/// Returns the memory, in bytes, of the sets of all heads.
+/// Returns the memory, in bytes, of the shapes of all heads.
 std::size_t own_shape_bytes(const ShapeSet& shapes);
 
 /// Computes a shape from its mesh. Vertices that move by at most 10⁻⁵ · `extent` (0.004 mm on a
@@ -57,7 +57,7 @@ struct SetShare {
 };
 using SetShares = std::vector<SetShare>;
 
-/// #regions: the sets that a face's shape is made of. The weights of a region sum to one.
+/// #regions: the sets from which a face's shape is made. The weights of a region sum to one.
 using RegionShares = std::vector<SetShares>;
 
 /// Returns the sets' weights at a position in several regions.

@@ -17,18 +17,19 @@ namespace crowdface {
 struct PreparedShapes;
 
 /// Transfers expressions to faces of the same topology (docs/shapes.md). The shapes come from a
-/// template, or are weighted means of the heads' shapes, normalised to the mean head first.
+/// template, or are weighted means of the heads' shapes; these are first normalised to the mean
+/// head.
 ///
 /// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
-///   stretch of the face's skin relative to the template's (FrameField).
+/// stretch of the face's skin relative to the template's (FrameField).
 /// - Lids close as on the template and stay outside the eyeballs (LidClosure). Lashes follow the
-///   lids.
-/// - Rigid parts (teeth, eyeballs) rotate as in the shape, about their own middle (an eyeball's
-///   centre). Their translation is carried like skin.
+/// lids.
+/// - Rigid parts (teeth, eyeballs) rotate as in the shape, about their own centre. Their
+/// translation is transferred like a displacement of the skin.
 ///
-/// The constructor precomputes what depends on the shapes only. If the face is the template, or a
-/// head with its own shapes, the results are these shapes, up to rounding. Vertices that a shape
-/// does not move are in no displacement.
+/// The constructor computes everything that depends on the shapes only. If the face is the
+/// template, or a head with its own shapes, the results equal these shapes up to rounding. A result
+/// contains only vertices that the shape moves.
 class ShapeTransfer {
  public:
   /// \param faces    At least one head; must outlive this object.
@@ -52,7 +53,7 @@ class ShapeTransfer {
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing = nullptr) const;
 
-  /// Returns the shape that this shape is made to be added to, see companions_of.
+  /// Returns the shape that this shape corrects, see companions_of.
   std::optional<std::size_t> companion(std::size_t shape) const;
 
   /// Returns the memory, in bytes, of the heads' normalised shapes and region weights.

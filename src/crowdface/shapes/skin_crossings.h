@@ -15,8 +15,8 @@
 
 namespace crowdface {
 
-/// Removes self-intersections of the skin that a shape has on a face but not on the template: in
-/// folds, between lips, where lids meet. Only displacements near intersections change.
+/// Removes self-intersections that a shape causes on a face but not on the template: in folds,
+/// between lips, where lids meet. Only displacements near intersections change.
 class SkinCrossings {
  public:
   SkinCrossings() = default;
@@ -30,9 +30,10 @@ class SkinCrossings {
   /// The skin of a shape that is searched for intersections, see skin_that_may_touch.
   struct Watched {
     CrossingSearch search;
-    /// #triangles of `search`: at intersections that the template already has
+    /// #triangles of `search`: whether the triangle takes part in an intersection on the template
     std::vector<bool> excused;
-    /// #V: 1 upper and −1 lower lid of an eye that closes; 0 elsewhere; or empty
+    /// #V: 1 for the upper and −1 for the lower lid of an eye that the shape closes; otherwise 0.
+    /// Or empty.
     std::vector<signed char> side;
     std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
     Positions shaped;            ///< #rows by 3: these vertices of the template in the shape
@@ -44,7 +45,7 @@ class SkinCrossings {
   /// \param side     See Watched::side.
   Watched watch(const Positions& neutral, const Displacements& shape,
                 std::vector<signed char> side) const;
-  /// Marks the triangles at intersections of `mesh` as excused: they will be ignored on faces.
+  /// Marks the triangles that intersect on `mesh` as excused, so that they are ignored on faces.
   void excuse(const Positions& mesh, Watched& watched) const;
 
   /// Returns a search over the skin that is searched in any of the shapes.
@@ -69,13 +70,13 @@ class SkinCrossings {
 
   using Harm = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
-  /// between skin that is close at rest, so that the skin keeps its arrangement. Lids are pushed
+  /// over skin that is close at rest, so that the skin keeps its arrangement. Lids are pushed
   /// apart, or arranged as on the template.
   ///
   /// \param mesh   The face at rest; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
   /// \param harm   Additional cost of displacements, in units of one intersecting triangle. The
-  ///               round with the lowest total cost is kept.
+  ///     round with the lowest total cost is kept.
   /// \return       Number of triangles that still intersect others.
   Index mend(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
              const Harm& harm = {}) const;

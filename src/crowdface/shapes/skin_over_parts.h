@@ -17,8 +17,8 @@ struct ShapeRow {
   std::uint32_t row, vertex;
 };
 
-/// Keeps skin in front of gums and teeth. A jaw that opens pulls the cheeks in; on some faces the
-/// gums would come through the skin.
+/// Keeps skin in front of gums and teeth. When a jaw opens, it pulls the cheeks in; on some faces
+/// the gums would penetrate the skin.
 class SkinOverParts {
  public:
   SkinOverParts() = default;
@@ -45,15 +45,15 @@ class SkinOverParts {
   struct Covered {
     std::uint32_t vertex;
     Triangle over;
-    /// the triangle and those around it: one of them is in front on a face
+    /// the covering triangle and the triangles around it; on a face, one of them covers the vertex
     std::vector<Triangle> near;
-    double depth;  ///< wanted depth below the skin
+    double depth;  ///< depth below the skin that the vertex should have
   };
 
   struct Push {
     Eigen::Vector3d at, by;
   };
-  /// \param most  #covered: how far each may still be pushed.
+  /// \param most  #covered: largest further push of each covered vertex.
   std::vector<Push> pushes_in(const Positions& mesh, const RigidMotion& whole,
                               std::span<double> most) const;
   void push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,

@@ -17,8 +17,8 @@ struct SkinTriangles {
   CompressedRows<std::uint32_t> around;  ///< #V: triangles at each vertex
 };
 
-/// Returns which skin a shape folds or brings near other skin, on the template or possibly on
-/// another face; #V.
+/// Returns which skin vertices a shape folds, or brings near other skin, on the template or
+/// possibly on another face; #V.
 ///
 /// \param neutral  Template at rest, #V by 3.
 /// \param shaped   Template in the shape, #V by 3.
