@@ -34,8 +34,8 @@ struct Probes {
 /// any thread count, any instruction set and any positions passed to the constructor.
 class ChebyshevFilter {
  public:
-  /// \param positions  #V by 3, any head of the topology. Groups nearby vertices into tiles;
-  ///                   affects speed only.
+  /// \param positions  #V by 3, any head of the topology. The filter uses them to group nearby
+  ///     vertices into tiles; they affect only its speed.
   ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions);
 
   Index vertex_count() const { return static_cast<Index>(tiling_.order.size()); }

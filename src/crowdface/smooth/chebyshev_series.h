@@ -11,7 +11,7 @@ namespace crowdface {
 /// Coefficients a_0 … a_K of the polynomial Σ_k a_k T_k(W) in the one-ring mean W.
 using ChebyshevSeries = std::vector<double>;
 
-/// Truncation tolerance: the discarded tail's share of the sum of all coefficients.
+/// Truncation tolerance: discarded coefficients as a fraction of the sum of all coefficients.
 inline constexpr double kSeriesTolerance = 1e-10;
 
 /// The Chebyshev series of L = `level` smoothing iterations: of x^L for the umbrella operator and

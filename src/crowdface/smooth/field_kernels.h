@@ -10,15 +10,15 @@ namespace crowdface {
 /// \param from  `count` values; from[i]·scale must lie between −32768 and 32767.
 void narrow(const float* from, std::size_t count, float scale, std::int16_t* to);
 
-/// The truncation error when only the first `kept` fields of a tile are used.
+/// The truncation error of a tile that keeps only its first `kept` fields.
 struct MissedLevel {
   std::size_t kept = 0;   ///< number of fields kept
   float squared = 0;      ///< the largest squared error distance of any vertex and level
   std::size_t level = 0;  ///< index of the level with the largest error
 };
 
-/// Finds the smallest number of leading fields such that dropping the others changes no vertex of a
-/// tile, at any level, by more than √`most`. The displacement at a level is Σ_p
+/// Finds the smallest number of leading fields that approximates a tile: without the other fields,
+/// no vertex moves by more than √`most` at any level. The displacement at a level is Σ_p
 /// functions[level][p]·fields[p].
 /// \param fields     `count` by 3 by kFieldTile.
 /// \param functions  `levels` rows of `count` values; the rows start `stride` floats apart.

@@ -15,7 +15,7 @@
 namespace crowdface {
 
 /// The fitted levels of one head: S̃_L x = x + Σ_p φ_p(L)·c_p, with vector fields c_p and level
-/// functions φ_p. LevelBasis or the paper's CubicFit provides them.
+/// functions φ_p, from a LevelBasis or the paper's CubicFit.
 struct HeadLevels {
   LevelFields fields;                                                 ///< c_p
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
@@ -104,11 +104,10 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
 /// \param levels     levels at which the error is bounded.
 /// \param order      #V: all vertices, consecutive vertices close to each other (patch_order).
 /// \param tolerance  largest compression error of any vertex of any head at any of the levels, in
-///                   the unit of the positions. Rounding to the patch's quantization steps adds to
-///                   it; no step exceeds the largest step of the tiles that contain the patch's
-///                   vertices.
+///     the unit of the positions. Rounding to quantization steps adds to this error; no step of a
+///     patch exceeds the largest step of the tiles that contain the patch's vertices.
 /// \param progress   called by any thread with the number of patches it has just finished; an
-///                   exception thrown by it stops the work.
+///     exception thrown by it stops the work.
 FieldPatches interpolate_fields(
     std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
     std::span<const std::uint32_t> order, double tolerance,

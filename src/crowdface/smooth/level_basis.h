@@ -43,16 +43,16 @@ struct NodeFields {
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions);
 
-/// Fits one head. The principal directions of the head's own displacements (principal_directions)
-/// are the fields. Each tile of vertices keeps the fewest leading fields whose truncation error is
-/// below tolerance/8 and whose total error is below the tolerance. The reported error is measured,
-/// not estimated. It adds the truncation error at every vertex and every tested level, the error of
-/// the nodes against the exact filter at the probes, and the largest rounding error of the 16-bit
-/// values.
+/// Fits one head. The fields are the principal directions of the head's own displacements
+/// (principal_directions). Each tile of vertices keeps the fewest leading fields whose truncation
+/// error is below tolerance/8 and whose total error is below the tolerance. The reported error is
+/// measured, not estimated: the sum of the truncation error at every vertex and every tested level,
+/// the error of the nodes against the exact filter at the probes, and the largest rounding error of
+/// the 16-bit values.
 /// \param fields     result of filter_nodes for this head.
 /// \param tolerance  in the unit of the positions, > 0.
 /// \throws InvalidInput if no number of fields reaches the tolerance; the message states the error
-///         reached.
+///     reached.
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& fields, double tolerance);
 

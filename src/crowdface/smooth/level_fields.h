@@ -67,7 +67,7 @@ float in_16_bits(std::span<const float> values, std::int16_t* numbers);
 /// \param tiles  all tiles of the mesh, in order.
 LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles);
 
-/// Quantizes whole fields; every tile keeps all of them.
+/// Quantizes complete fields: unlike FieldTiles, every tile stores all R fields.
 /// \param fields  #R by #V by 3, finite.
 LevelFields in_16_bits(std::span<const float> fields, Index vertex_count);
 

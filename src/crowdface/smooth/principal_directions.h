@@ -32,16 +32,16 @@ struct Directions {
   Eigen::MatrixXd combining;  ///< #nodes by #nodes: c_p = Σ_n combining(n, p) (S_{N_n} x − x)
   Eigen::MatrixXd functions;  ///< #levels by #nodes: φ_p at the tested levels
   /// #levels by #nodes + 1: largest error at the sample if only the first 0, 1, … directions are
-  /// kept.
+  /// used.
   Eigen::MatrixXd missed;
   Index rank = 0;  ///< number of leading directions that meet the tolerance at the sample
 };
 
 /// Principal components of the sample's trajectories over the tested levels (proper orthogonal
-/// decomposition; Berkooz, Holmes & Lumley 1993). A few rounds of reweighting the levels by their
-/// largest error (after Lawson 1961) reduce the maximum error instead of the mean error.
-/// \param tolerance  the result has the lowest rank found whose largest error at the sample is at
-///                   most this, or rank #nodes.
+/// decomposition; Berkooz, Holmes & Lumley 1993). A few rounds reweight the levels by their largest
+/// error (after Lawson 1961), which reduces the maximum error instead of the mean error.
+/// \param tolerance  largest allowed error at the sample: the result has the lowest rank found that
+///     meets it, or rank #nodes.
 Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
                                 double tolerance);
 

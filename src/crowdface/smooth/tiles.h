@@ -19,9 +19,9 @@ struct ValenceRun {
 
 /// A part of the mesh on which several steps of the recurrence run without data from other tiles,
 /// and so within one core's cache. A tile holds its own rows and a halo of neighbour rings. Local
-/// rows are numbered own rows first, then ring 1 (their neighbours outside the tile), ring 2, …
-/// Each step invalidates the outermost valid ring, so with n rings the own rows are correct after n
-/// steps.
+/// numbers begin with the tile's own rows, then ring 1 (their neighbours outside the tile), ring 2,
+/// … Each step invalidates the outermost valid ring, so with n rings the own rows are correct after
+/// n steps.
 struct Tile {
   std::uint32_t first = 0;          ///< first own row, in the tiling's order
   std::uint32_t count = 0;          ///< number of own rows
