@@ -8,8 +8,9 @@
 
 namespace crowdface {
 
-/// The input of one picture of one face, at the vertices that the picture shows: a base value per
-/// channel, and a factor for each head's map. Values are interpolated linearly within triangles.
+/// The input for one picture of one face, given at the vertices that the picture shows: a base
+/// value per channel, and a factor for each head's map. Values are interpolated linearly within
+/// triangles.
 struct PictureFields {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending

@@ -32,9 +32,9 @@ struct SurfaceStatistics {
 
 /// Smoothing scales, in iterations of the lazy operator.
 struct StatisticsScale {
-  /// Smoothing that removes detail from `coarse`.
+  /// Iterations that smooth detail away in `coarse`.
   std::uint64_t detail = 4;
-  /// Smoothing of the covariances.
+  /// Iterations that smooth the covariances.
   std::uint64_t strength = 16;
 };
 

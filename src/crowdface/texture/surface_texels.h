@@ -26,9 +26,9 @@ struct TextureLayout {
 /// several triangles overlap, the first.
 class SurfaceTexels {
  public:
-  /// A triangle of a polygon's fan. The barycentric coordinate of its second corner at the centre
-  /// of texel (x, y) is second[0] + x · second[1] + y · second[2]; likewise `third` for its third
-  /// corner.
+  /// A triangle of a polygon's fan. At the centre of texel (x, y), the barycentric coordinate of
+  /// the triangle's second corner is second[0] + x · second[1] + y · second[2], and that of its
+  /// third corner is the same expression with `third`.
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
     std::array<float, 3> second, third;

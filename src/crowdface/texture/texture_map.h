@@ -85,8 +85,8 @@ struct LightRows {
   int height = 0;
   /// Reads row y: writes `width` texels.
   std::function<void(int y, std::span<Eigen::Array3f> texels)> row;
-  /// Optional, for pictures of light only: writes row y directly as densities, equal to
-  /// density_of_light of each value but without computing logarithms.
+  /// Optional, for pictures that contain light: a faster alternative to `row` that writes row y as
+  /// densities. The result equals density_of_light of each value but needs no logarithms.
   /// \param planes  red, green, blue.
   std::function<void(int y, const std::array<Density*, 3>& planes)> densities = {};
 };
