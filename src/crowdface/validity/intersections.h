@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Pairs of triangles whose bounding boxes, grown by `margin` on all sides, overlap; see
-/// TriangleScene::near_pairs.
+/// Returns the pairs of triangles whose bounding boxes overlap after growing by `margin` on all
+/// sides; see TriangleScene::near_pairs.
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 
@@ -19,9 +19,9 @@ std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
                                        const std::vector<TrianglePair>& pairs);
 
 /// Counts the triangles of a face that take part in intersections that the target does not have.
-/// Where the target already intersects itself, for example at the corner of the mouth, adjacent
-/// triangles may intersect too: a pair is ignored if both its triangles share a vertex with
-/// triangles that intersect in the target.
+/// Where the target already intersects itself, for example at the corner of the mouth, triangles
+/// next to the intersection may intersect too. Therefore a pair is ignored if each of its triangles
+/// shares a vertex with a triangle that intersects in the target.
 class NewIntersections {
  public:
   /// \param target_pairs  the intersecting pairs of the target itself.
@@ -32,7 +32,7 @@ class NewIntersections {
   Index count(const std::vector<TrianglePair>& face_pairs) const;
 
  private:
-  /// #T: whether the triangle shares a vertex with one that intersects in the target.
+  /// #T: whether the triangle shares a vertex with a triangle that intersects in the target.
   std::vector<bool> excused_;
 };
 

@@ -10,7 +10,8 @@
 
 namespace crowdface {
 
-/// The view directions from which exposed back sides count, and the scale.
+/// The directions from which skin is viewed when SkinCheck measures how much of its back side is
+/// visible, and the length of the mesh's unit.
 struct Viewing {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;

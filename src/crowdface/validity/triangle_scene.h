@@ -23,23 +23,24 @@ class TriangleScene {
   TriangleScene(const std::vector<Triangle>& triangles, const TriangleTree& tree,
                 const Positions& positions, double margin);
 
-  /// Pairs of triangles whose boxes overlap and that share no vertex, ascending. Omits triangles at
-  /// vertices with more than a thousand triangles, because the tree leaves them out.
+  /// Returns the pairs of triangles whose boxes overlap and that share no vertex, ascending. Omits
+  /// triangles at vertices with more than a thousand triangles, because the tree does not contain
+  /// them.
   std::vector<TrianglePair> near_pairs() const;
 
   /// The pairs from near_pairs() whose triangles intersect, ascending.
   std::vector<TrianglePair> crossing_pairs() const;
 
-  /// Leaves with number `leaf` or higher that may hold triangles whose boxes overlap boxes of
-  /// `leaf`; ascending.
+  /// Returns the leaves, from number `leaf` on, that may hold triangles whose boxes overlap boxes
+  /// of `leaf`; ascending.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
-  /// Any triangle that a ray hits, not necessarily the nearest, except `start`. Returns its
+  /// Finds any triangle that a ray hits, not necessarily the nearest; ignores `start`. Returns its
   /// position in the tree's order, or kNoIndex if the ray hits nothing.
   /// \param direction  of any length except zero
   /// \param start      index of the triangle from which the ray starts, or kNoIndex
   /// \param guess      position to test first, usually the result for the previous ray, because
-  ///                   neighbouring rays often hit the same triangle; or kNoIndex
+  ///     neighbouring rays often hit the same triangle; or kNoIndex
   std::uint32_t intersected_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                std::uint32_t start, std::uint32_t guess) const;
 

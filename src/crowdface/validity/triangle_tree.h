@@ -12,17 +12,17 @@
 
 namespace crowdface {
 
-/// A median split tree of triangles. Leaves out triangles at vertices with more than a thousand
+/// A median split tree of triangles, without the triangles at vertices with more than a thousand
 /// triangles. Build the tree once per mesh: TriangleScene refits the boxes to any positions, and
-/// they stay tight if the positions are similar to the first.
+/// the boxes stay tight if the positions are similar to those of the constructor.
 struct TriangleTree : MedianSplitTree {
   /// Triangles per leaf; the last leaf may have fewer.
   static constexpr std::uint32_t kLeaf = LeafBoxes::kCount;
   std::vector<LeafCorners> corners;  ///< corners of each leaf's triangles
 
   TriangleTree() = default;
-  /// \param apart  offset along the triangles' normals before the split, in the unit of the
-  ///               positions. Puts sheets that lie on each other into different leaves.
+  /// \param apart  distance by which triangles are shifted along their normals before the split, in
+  ///     the unit of the positions. It puts sheets that lie on each other into different leaves.
   TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
                double apart = 0);
 

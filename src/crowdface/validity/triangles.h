@@ -16,8 +16,8 @@ struct LocalDefects {
   double stretch = 1;  ///< 99th percentile of the largest stretch of a triangle (factor on lengths)
 };
 
-/// The triangles of a target, prepared for comparison with faces. Results are counts and a
-/// percentile instead of maxima, because scans have sliver triangles that flip under any change.
+/// The triangles of a target, prepared for comparison with faces. Defects are reported as counts
+/// and a percentile, not as maxima, because scans have sliver triangles that flip under any change.
 class TargetTriangles {
  public:
   /// \param target  #V by 3.
