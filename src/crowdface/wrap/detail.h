@@ -7,13 +7,13 @@
 namespace crowdface {
 
 /// Moves a skin that is close to the scan onto the scan. Each vertex moves only along its normal,
-/// so that correspondence does not slide. The result keeps relief down to about twice the skin's
-/// edge length.
+/// so that the correspondence does not slide along the surface. The result keeps relief down to
+/// about twice the skin's edge length.
 /// \param rest  #skin by 3, of the template; no triangle becomes flipped relative to it.
 /// \param positions  #skin by 3, in millimetres, in the scan's frame.
-/// \param smoothings  0, or, for a skin much finer than the skin that was bent: number of smoothing
-/// steps of normals and offsets in a preliminary round. That round corrects coarse errors as a
-/// whole, without crossing normals in creases.
+/// \param smoothings  0, or, if the bending step used a much coarser skin: number of smoothing
+///     steps of normals and offsets in a preliminary round. That round corrects coarse errors as a
+///     whole, without crossing normals in creases.
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
                         const ScanSurface& scan, int smoothings);
 

@@ -18,7 +18,7 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
 
 /// The cotangent Laplacian (Pinkall & Polthier 1993), #V by #V, not divided by areas. Weights of
 /// obtuse triangles are clamped to a small positive value, so that the discrete maximum principle
-/// holds. Boundary vertices have ordinary rows: a boundary can move, but not bend.
+/// holds. Boundary vertices have the same kind of row as others: a boundary can move, but not bend.
 SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& positions);
 
 /// The bending energy ∫ s |Δd|² of a displacement field d as dᵀ B d; B is #V by #V, symmetric.

@@ -16,13 +16,13 @@ struct PoseHint {
   std::optional<ReliefMatch> face = {};  ///< face of the scan, if already known
 };
 
-/// Estimates the similarity from a template to a scan without landmarks. If the relief shows a face
-/// on both, the function aligns the faces and refines with closest points. Otherwise it aligns the
+/// Estimates the similarity from a template to a scan without landmarks. If both have the relief of
+/// a face, the function aligns the faces and refines with closest points. Otherwise it aligns the
 /// tops of the heads with several scales and offsets, refines each pose with closest points, and
 /// returns the pose with the smallest distances.
-/// \param rest  of the skin, in millimetres
+/// \param rest  positions of the skin, in millimetres
 /// \param hint  may contain the face of the scan
-/// \param face  of the template's skin, found by its relief
+/// \param face  face of the template's skin, found by its relief
 Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
                       const ScanSurface& scan, const PoseHint& hint,
                       const std::optional<ReliefMatch>& face);

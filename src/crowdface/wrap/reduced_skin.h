@@ -8,19 +8,20 @@
 
 namespace crowdface {
 
-/// A skin with fewer vertices that replaces a large one during deformation.
+/// A skin with fewer vertices that replaces a skin with many vertices during deformation.
 struct ReducedSkin {
-  SkinMesh mesh;  ///< its `vertices` are rows of the large skin
-  /// Position of a vertex of the large skin on the small one: triangle and barycentric coordinates.
+  SkinMesh mesh;  ///< its `vertices` are rows of the original skin
+  /// Position of a vertex of the original skin on the reduced skin: triangle and barycentric
+  /// coordinates.
   struct Place {
     std::uint32_t triangle;
     std::array<float, 3> shares;
   };
-  std::vector<Place> places;  ///< #large
+  std::vector<Place> places;  ///< #vertices of the original skin
   int smoothings = 0;         ///< number of smoothing steps after interpolation
 
-  /// Interpolates values from the small skin's vertices (#small by 3) to those of the large skin,
-  /// and smooths them so that the small skin's edges do not show.
+  /// Interpolates values at the reduced skin's vertices (one row of three each) to the vertices of
+  /// the original skin, and smooths them so that the edges of the reduced skin do not show.
   Positions carry(const Positions& values, const SkinMesh& large) const;
   /// Interpolates one value per vertex, without smoothing.
   std::vector<double> carry(const std::vector<double>& values) const;

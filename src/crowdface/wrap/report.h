@@ -17,16 +17,16 @@ struct WrapDistances {
   double median = 0, percentile_95 = 0;
 };
 WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result);
-/// The share of the visible skin without scan data.
+/// Returns the fraction of the visible skin for which there is no scan data.
 double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 
 /// Warnings for the user; one sentence each, with advice.
-/// \param regions  the warnings name those regions of which a large share is far from the scan.
+/// \param regions  the warnings name each region of which a large fraction is far from the scan.
 /// \param model_heads  number of heads in the model; 0: no model.
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_heads);
 
-/// \throws InvalidInput, with advice, if the result is not a valid wrap of this scan.
+/// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                      const SkinRegions& regions);
 

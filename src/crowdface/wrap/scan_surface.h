@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Least cosine between compatible normals: within 60°.
+/// Smallest cosine between normals that count as compatible: within 60°.
 inline constexpr double kMinCosine = 0.5;
 
 /// A scan prepared for closest-point queries.

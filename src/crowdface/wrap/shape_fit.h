@@ -46,8 +46,8 @@ struct ShapeFitOptions {
 };
 
 /// Finds the similarity and the model coefficients that best fit the skin to the scan: point to
-/// plane (Chen & Medioni 1992), without the farthest fifth of the points, with landmarks.
-/// \param model  of the skin, in millimetres; without modes the function finds only the pose.
+/// plane (Chen & Medioni 1992), with landmarks, ignoring the farthest fifth of the points.
+/// \param model  model of the skin, in millimetres; without modes the function finds only the pose.
 /// \param start  initial values.
 ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                    const std::vector<WrapLandmark>& landmarks, const ShapeFit& start,

@@ -11,20 +11,20 @@
 namespace crowdface {
 
 struct RegressionOptions {
-  /// Share of the heads' variance that is correlated only between nearby points.
+  /// Fraction of the heads' variance that is correlated only between nearby points.
   double local_share = 0.15;
   double reach_mm = 45;  ///< correlation length of the local variation
-  /// Standard deviation, along each axis, of a smooth variation beyond the model, with the same
-  /// reach. A few heads span too little of the possible shapes.
+  /// Standard deviation, along each axis, of an additional smooth variation with the same
+  /// correlation length. It is needed because a few heads span too little of the possible shapes.
   double smooth_mm = 1.8;
   double noise_mm = 1, landmark_mm = 3;  ///< standard deviations of scan and landmarks
   std::size_t places = 800;              ///< number of sampled vertices of the skin
   std::vector<double> search_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round
 };
 
-/// The most likely head, given the model and the observation that points of the skin lie on the
-/// scan: Gaussian process regression (Lüthi et al. 2018). The scan gives distances along its normal
-/// only; the correspondence along the surface follows from the model.
+/// Returns the most likely head, given the model and the observation that points of the skin lie on
+/// the scan: Gaussian process regression (Lüthi et al. 2018). The scan gives distances along its
+/// normal only; the correspondence along the surface follows from the model.
 /// \param model  of the skin, in the scan's frame, in millimetres
 /// \param positions  #skin by 3: an initial fit close to the scan.
 Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Positions& positions,

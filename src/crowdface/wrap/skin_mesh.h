@@ -8,7 +8,8 @@
 
 namespace crowdface {
 
-/// Least openness of skin that counts as visible (kSeen) and of skin outside folds (kOpenEnough).
+/// Smallest openness of skin that counts as visible (kSeen), and of skin that counts as outside
+/// folds (kOpenEnough).
 inline constexpr double kSeen = 0.12, kOpenEnough = 0.3;
 
 /// The skin of a template as a mesh of its own with renumbered vertices.
@@ -23,8 +24,8 @@ struct SkinMesh {
   Positions of(const Positions& positions) const;
 };
 
-/// The share of unoccluded rays from each vertex into its outer hemisphere: 0 inside mouth, nose
-/// and eye sockets, near 1 on a forehead.
+/// Returns, for each vertex, the fraction of rays into its outer hemisphere that hit nothing: 0
+/// inside mouth, nose and eye sockets, near 1 on a forehead.
 /// \param triangles  occluders, including the skin.
 std::vector<double> vertex_visibility(const Positions& positions, const Positions& normals,
                                       const std::vector<Triangle>& triangles,

@@ -38,14 +38,14 @@ class SurfaceTree {
   /// the search.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
-  /// The closest point among triangles whose normal has at least `min_cosine` with the unit
-  /// vector `facing`. The normal of a triangle here is the mean of its corners' vertex normals,
-  /// which smooths noise and crease edges.
+  /// The closest point among triangles whose normal has a cosine of at least `min_cosine` with the
+  /// unit vector `facing`. The normal of a triangle is here the mean of its corners' vertex
+  /// normals, which smooths noise and crease edges.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                             double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
 
  private:
-  /// The closest point of one triangle; none beyond the reach.
+  /// Returns the closest point of one triangle, or no hit if it is beyond the reach.
   SurfaceHit on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point, double reach) const;
   template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,

@@ -30,9 +30,9 @@ struct WrapResult {
   Eigen::VectorXd distance_mm;     ///< #skin: from the wrapped skin to the scan
   std::vector<bool> without_data;  ///< #skin: no scan data nearby, or only the scan's boundary
   Index flipped = 0;               ///< number of flipped triangles in the skin
-  /// Distance in mm between the point between the eyes of the wrapped template and that of the face
-  /// found by the scan's relief. Nothing if one of the two faces was not found, or if enough
-  /// landmarks were picked.
+  /// Distance in mm between two points: the point between the eyes of the wrapped template, and
+  /// that of the face that the scan's relief shows. Nothing if one of the two faces was not found,
+  /// or if enough landmarks were picked.
   std::optional<double> face_off_mm;
 };
 
@@ -51,10 +51,11 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
-/// Leave-out validation: the distance in mm of each landmark from its picked position when the wrap
-/// does not use this landmark. The distance estimates the error of correspondence where no landmark
-/// was picked, plus the picking error. Needs one more wrap per landmark for up to eleven landmarks,
-/// and four more wraps for twelve and more; empty if too few landmarks would remain.
+/// Leave-out validation: the distance in mm between each landmark's picked position and its
+/// position in a wrap that does not use this landmark. The distance estimates the error of
+/// correspondence where no landmark was picked, plus the picking error. Needs one more wrap per
+/// landmark for up to eleven landmarks, and four more wraps for twelve and more; empty if too few
+/// landmarks would remain.
 /// \param shape, model, scan, landmarks, hint  as for `wrap`
 std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,
                                                const Scan& scan,
