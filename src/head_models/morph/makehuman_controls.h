@@ -23,9 +23,9 @@ struct MakeHumanPerson {
 /// Draws the person of head `index` of a seed.
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index);
 
-/// Returns the weighted morph targets of head `index`: first those of the person (sex, age,
-/// ancestry, build), then about a hundred random measures of head, forehead, brows, eyes, nose,
-/// mouth, chin, cheeks, ears, neck and asymmetry. Weights of zero are left out.
+/// Returns the weighted morph targets of head `index`: those of the person (sex, age, ancestry,
+/// build), then those of about a hundred random measures of head, forehead, brows, eyes, nose,
+/// mouth, chin, cheeks, ears, neck and asymmetry. Targets of weight zero are omitted.
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index);
 

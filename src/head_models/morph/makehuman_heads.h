@@ -65,7 +65,7 @@ class MakeHumanHeads : public HeadModel {
   MakeHumanMesh mesh_;
   MorphTargets targets_;
   std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs in the base mesh
-  std::vector<std::uint32_t> skin_;  ///< after wear(): rows of the skin in the base mesh
+  std::vector<std::uint32_t> skin_;  ///< rows of the skin in the base mesh; set by wear()
   std::vector<ClothingPart> placed_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;

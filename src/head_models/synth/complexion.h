@@ -40,8 +40,9 @@ struct Complexion {
   double made_up = 0;   ///< 0 … 1: make-up on lips, lids and lashes
 };
 
-/// Draws the complexion of head `index`. Skin tones are stratified: among five successive women,
-/// and among five successive men (starting at index 10k), each has a tone in a different fifth.
+/// Draws the complexion of head `index`. Skin tones are stratified: of five successive women, and
+/// of five successive men (starting at index 10k), each has a tone in a different fifth of the
+/// range.
 Complexion draw_complexion(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace crowdface::synth

@@ -14,7 +14,7 @@ namespace crowdface::synth {
 struct HairStyle {
   double top = 0;         ///< above the forehead and on the crown
   double sides = 0;       ///< above and behind the ears
-  double nape = 0;        ///< of hair that falls behind the ears and down the neck
+  double nape = 0;        ///< length of the hair that falls behind the ears and down the neck
   double bun = 0;         ///< height of a bun on top; 0: none
   double curls = 0;       ///< 0 (straight) … 1 (tight curls)
   double lean = 0;        ///< −1 … 1: additional volume on one side of the top

@@ -46,8 +46,8 @@ class SyntheticHeads {
   const TextureCoordinates& uvs() const { return uvs_; }
 
   /// Returns the vertices of head number `index` of a seed: #V by 3, cm. +Y is up, the head faces
-  /// +Z, the origin is inside the head at the height of the eyes. The same surface at every
-  /// resolution, the same bits on every machine.
+  /// +Z, the origin is inside the head at the height of the eyes. The surface is the same at every
+  /// resolution, and the bits are the same on every machine.
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
   /// Returns the typical edge length in cm. The mesh contains no finer relief.
   double edge_cm() const { return edge_cm_; }
