@@ -157,7 +157,7 @@ void show_page(const std::string& address, Browser browser) {
   print(concat(address, '\n'));
   std::cout.flush();
   if (browser == Browser::kNone) return;
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): no code here sets an environment variable
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   std::string program = "xdg-open", argument = address;
   char* const arguments[] = {program.data(), argument.data(), nullptr};

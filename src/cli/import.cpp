@@ -60,8 +60,8 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
   files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, about)));
 }
 
-/// Paints the region masks. The caller does so before writing files, because a model without eyes
-/// or teeth has no masks. \param first  see paint_masks.
+/// Paints the region masks. The caller does this before it writes files, because the function fails
+/// for a model without eyes or teeth. \param first  see paint_masks.
 template <class Model>
 PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {
@@ -120,7 +120,8 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
     mesh.positions = positions;
     std::vector<MaterialRange> materials = model.materials();
     for (int round = 0; round < rounds; ++round) {
-      // Subdivision makes one quad per corner: the first face of a range becomes its first corner.
+      // Subdivision makes one quad per corner, so the index of a range's first face becomes the
+      // index of this face's first corner.
       for (MaterialRange& range : materials) {
         range.first_face = mesh.topology.face_offsets[static_cast<std::size_t>(range.first_face)];
       }

@@ -86,14 +86,14 @@ void declare_init(CLI::App& command, InitOptions& options) {
   add_flag(command, "--force", options.force, "Replace an existing file");
 }
 
-/// Formats a number with four decimals below 1, else with two.
+/// Formats a number with four decimals if it is below 1, otherwise with two.
 std::string format_number_of(double value) {
   return format_fixed(value, value < 1 ? 4 : 2);
 }
 
 constexpr std::size_t kHeadsLookedAt = 8;
 
-/// Information derived from the heads' shape.
+/// What the heads' shapes tell.
 struct Seen {
   Positions first;                 ///< vertices of the first head
   std::optional<Bearing> bearing;  ///< up and front axes
@@ -137,10 +137,10 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   return seen;
 }
 
-/// Guesses the mesh unit: the named unit in which the face, or without a face the head, has human
-/// size; else the length that gives the face human size.
+/// Guesses the mesh unit: the named unit in which the face (or, if no face was found, the head) has
+/// human size. If no named unit fits, the length that gives the face human size.
 void guess_units(const Seen& seen, StarterFacts& facts) {
-  constexpr double kTypicalHeightMm = 280;  // with or without neck and shoulders
+  constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
   constexpr double kMaxTimes = 3;  // largest plausible ratio to kTypicalHeightMm
   facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);

@@ -141,7 +141,7 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels
 }
 
 /// Blends skin textures in optical density, as pigments mix.
-/// \param tone  factor of the densities.
+/// \param tone  factor on the densities.
 Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
   std::vector<Picture> pictures;
   for (const SkinShare& share : shares) {

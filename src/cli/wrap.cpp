@@ -100,9 +100,9 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 }
 
 /// Returns the landmarks from the files. If these are too few and the pose of the scan is known,
-/// adds landmarks that are detected on the shape.
-/// \param hint  pose of the scan. Receives the face that is found in the scan's relief, and if it was
-///              empty, the axes of that face.
+/// adds landmarks that are detected by shape.
+/// \param hint  pose of the scan. Receives the face that is found in the scan's relief and, if
+///     `hint` was empty, the axes of this face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -153,8 +153,8 @@ double output_scale(const WrapOptions& options, const Similarity& pose) {
   return scale;
 }
 
-/// Leave-one-out check: returns each landmark's distance from the position that the others predict;
-/// empty for fewer than five landmarks.
+/// Leave-one-out check: returns the distance of each landmark from the position that the other
+/// landmarks predict; empty for fewer than five landmarks.
 std::map<std::string, double> left_out(const WrapInputs& shared,
                                        const std::vector<WrapLandmark>& landmarks) {
   constexpr std::size_t kMin = 5;
@@ -272,7 +272,8 @@ void wrap_all(const WrapOptions& options) {
   problems.throw_if_any();
 }
 
-/// Checks the combination of options and stores the template in `shape`, with and without --batch.
+/// Checks that the options fit together and stores the template in `shape`. Handles runs with and
+/// without --batch.
 WrapOptions sorted(WrapOptions options) {
   if (options.pick && !options.out.empty()) {
     throw UsageError("--pick: expected no -o, --output, because --pick wraps nothing");

@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Part of the digest of the inputs. A change of the code that changes the heads increases this
-/// number, so that finished heads are wrapped again.
+/// Part of the digest of the inputs. Increase this number when a change of the code changes the
+/// heads, so that finished heads are wrapped again.
 constexpr int kWrapVersion = 6;
 
 Axis axis_of(const std::string& option, const std::string& text) {
