@@ -17,14 +17,15 @@
 namespace crowdface {
 namespace {
 
-/// Reach of a point on the skin, in millimetres or in vertex spacings, whichever is larger; and the
-/// growth of the reach per unit of distance from the skin.
+/// The reach of a point on the skin is the larger of kReachMm millimetres and kReachSpacings vertex
+/// spacings. The reach grows by kReachGrowth per unit of distance from the skin.
 constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
-/// At least this many vertices lie within the reach divided by kMinReach.
+/// A patch has at least kMin vertices within its reach divided by kMinReach; otherwise the reach
+/// grows.
 constexpr std::size_t kMin = 12;
 constexpr double kMinReach = 1.4;
-/// A level is used alone where the reach is kSpacings times its spacing. From there to twice that
-/// reach, the patch blends into the next level.
+/// Up to a reach of kSpacings spacings of a level, the patch uses only this level. From there to
+/// twice that reach, the patch blends into the next coarser level.
 constexpr double kSpacings = 3;
 constexpr std::size_t kCoarsest = 150;
 

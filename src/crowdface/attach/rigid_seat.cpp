@@ -17,7 +17,8 @@ namespace {
 constexpr double kSeatReachMm = 15;
 constexpr std::size_t kMinOfSocket = 12;
 constexpr int kSeatRounds = 8;
-/// Cost of a motion by one millimetre, relative to a missing millimetre of distance.
+/// Cost of moving the attachment by one millimetre, relative to the cost of one millimetre of
+/// missing distance.
 constexpr double kStillness = 0.02;
 
 }  // namespace

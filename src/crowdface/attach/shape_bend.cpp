@@ -20,16 +20,18 @@ namespace {
 
 /// Reach of a patch around a root, if the skin's vertices are dense enough.
 constexpr double kPatchReachMm = 3;
-/// Points farther off the skin than this use a larger patch.
+/// Distance from the skin, in millimetres, beyond which a point uses a larger patch.
 constexpr double kOffMm = 10;
 /// Limit for distances along the surface, in multiples of a patch's reach.
 constexpr double kAlong = 1.5;
-/// Fewer vertices do not determine a rotation; then the whole patch is used.
+/// Smallest number of near vertices that determines a rotation; with fewer, the whole patch is
+/// used.
 constexpr std::size_t kMinNear = 6;
 
-/// A point's nearest skin is ambiguous if a sphere around the point, kBetweenMm larger than the
-/// distance to the nearest skin, contains skin that is farther from the nearest skin, along the
-/// surface, than kFarther times the sphere's radius.
+/// A point's nearest skin is ambiguous if different parts of the skin are about equally near. The
+/// test uses a sphere around the point that is kBetweenMm larger than the distance to the nearest
+/// skin: the nearest skin is ambiguous if the sphere contains skin whose distance from it, along
+/// the surface, exceeds kFarther times the sphere's radius.
 constexpr double kBetweenMm = 2, kFarther = 4;
 
 /// Finds the root of each point on the skin, each from the root of a neighbouring point.
@@ -102,8 +104,8 @@ class Roots {
   std::vector<bool> is_found_;
 };
 
-/// Returns the positions that select a point's patches: its root, or for a point farther than
-/// `off` from its root, the point moved towards the root by `off`.
+/// Returns the positions at which a point's patches are selected: its root, or, if the point is
+/// farther than `off` from its root, the point moved towards the root by `off`.
 Positions anchors_of(const std::vector<SkinPlace>& roots, const Positions& points, double off) {
   Positions anchors(points.rows(), 3);
   for (std::size_t p = 0; p < roots.size(); ++p) {

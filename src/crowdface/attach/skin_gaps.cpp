@@ -16,7 +16,7 @@ constexpr double kFarMm = 25;
 /// Vertices up to kCloseMm from the skin get exactly their original gap. The correction decreases
 /// linearly to zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
-/// Vertices farther off keep at least this distance.
+/// Minimum distance of vertices that are not close to the skin.
 constexpr double kMinMm = 2;
 /// Number of times that pushed vertices move their neighbours along.
 constexpr int kRounds = 8;
