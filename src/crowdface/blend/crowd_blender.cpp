@@ -88,9 +88,9 @@ void CrowdBlender::find_regions() {
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
-    // Add up the shares of a head that is both target and source, or lends to adjacent bands,
-    // before multiplying by functions: shares that cancel then give exactly zero, so that a target
-    // blended with itself is unchanged.
+    // For a head that is both target and source, or lends to adjacent bands, add up the weights
+    // before multiplying by the functions: weights that cancel then give exactly zero, so that a
+    // target blended with itself is unchanged.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -184,7 +184,7 @@ class CrowdBlender::PatchBlender {
   }
 
  private:
-  /// Finds which fields of all heads are in the rows of the patch.
+  /// Finds which fields are stored in which rows of the patch, for all heads.
   void find_fields() {
     fields_.clear();
     for (std::size_t h = 0; h < patch_.counts.size(); ++h) {
@@ -193,8 +193,9 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// With a single face, unpacking the quantized values would not pay off: multiplies them
-  /// directly, for several regions at once. The steps are folded into the coefficients.
+  /// Used for a single face, where unpacking the quantized values would take longer than it saves:
+  /// multiplies the quantized values directly, for several regions at once. The quantization steps
+  /// are multiplied into the coefficients.
   void add_to_one() {
     for (std::size_t first = 0; first < regions_.size(); first += kColumns) {
       const auto regions = regions_.subspan(first, std::min(kColumns, regions_.size() - first));
@@ -224,7 +225,7 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// With several faces, unpacks the fields once and multiplies them by the coefficients of
+  /// Used for several faces: unpacks the fields once and multiplies them by the coefficients of
   /// kColumns faces at a time.
   void add_to_all() {
     float* unpacked = unpacked_values_.sized(blender_.field_count() * patch_.values());

@@ -55,7 +55,7 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
   std::vector<LevelShares> levels;
-  // Shares of B, then of e_{b−1} C̄_{b−1}.
+  // Weights of B, then those of e_{b−1} C̄_{b−1}.
   std::vector<SourceWeight> coarser = target_shares(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);
