@@ -62,7 +62,7 @@ class Redrawing {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];
     const FamilyPlan* family = family_of(cast_, redraw.face);
-    // The own family is kept apart: within a family, the family's own distances apply.
+    // Exclude the face's own family: within a family, the family's own distances apply.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
@@ -131,8 +131,8 @@ class Redrawing {
     return points;
   }
 
-  /// Returns the distances that the new face should keep from the rejected faces, to be tried in
-  /// turn. A family or locked parts may prevent the full distance.
+  /// Returns distances between the new face and the rejected faces, largest first, that the redraw
+  /// tries in turn. A family or locked parts may make the largest distance impossible.
   ///
   /// \param own  Points of the face's family.
   std::vector<double> distances_to_rejected(const FamilyPlan* family,
@@ -164,14 +164,15 @@ class Redrawing {
   }
 
   FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
-    if (!old.index) {  // hand-written: redraw what it leaves open
+    if (!old.index) {  // hand-written: redraw the values that it does not specify
       const auto hand = std::ranges::find(casting_.recipes, old.id, &HandRecipe::id);
       return draw_hand_recipe(casting_, *hand, attempt);
     }
     return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
-  /// Locked parts need the same target, mirroring and asymmetry.
+  /// Copies the locked parts of the old face. They require the same target, mirroring and
+  /// asymmetry.
   FacePlan with_locked(FacePlan face, const FacePlan& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {

@@ -22,9 +22,9 @@ Items those(const Items& items, const Wanted& wanted) {
   return found;
 }
 
-/// Keeps only the wanted items, if there are any.
+/// Removes all items but the wanted ones, unless no item is wanted.
 ///
-/// \return  Whether there are any.
+/// \return  Whether any item is wanted.
 template <class Wanted>
 bool narrow(Items& items, const Wanted& wanted) {
   Items found = those(items, wanted);
@@ -41,7 +41,7 @@ bool says_colour(const std::string& tag, const std::string& colour) {
 /// Number of faces that got each item, by the item's name.
 using Turns = std::map<std::string, int>;
 
-/// Keeps the items that are still below their share if one more face is counted.
+/// Keeps the items that remain below their share if one more face is counted.
 void leave_due(const Turns& turns, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
@@ -58,11 +58,11 @@ void leave_due(const Turns& turns, Items& items) {
   });
 }
 
-/// The quotas of one kind.
+/// The quotas for items of one kind.
 struct KindQuotas {
   std::vector<std::string> words;
   std::vector<double> shares;
-  /// by group: which quota each of its sampled faces serves
+  /// by group: index of the quota that applies to each of the group's sampled faces, or −1
   std::map<int, std::vector<int>> schedules;
 
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
@@ -118,7 +118,8 @@ class AttachmentDrawing {
 
   /// Returns the items of a kind that a head's tags allow.
   ///
-  /// \param colour  The wearer's own colour; items of this colour do not need its tags.
+  /// \param colour  A colour that the face already has; an item of this colour is allowed even if
+  ///     the head lacks the item's tags.
   Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;
@@ -143,14 +144,14 @@ class AttachmentDrawing {
     return next_of(items, face, drawn[1]);
   }
 
-  /// Returns the name of the set of similar faces that take turns with this face.
+  /// Returns the name of the set of similar faces among which items take turns.
   std::string alike(const FacePlan& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// Chooses among the items that are due, first among similar faces and then among all sampled
-  /// faces, at random by their shares.
+  /// Chooses at random, by their shares, among the items that are due: due among similar faces, and
+  /// if several are, also among all sampled faces.
   const AttachmentItem* next_of(const Items& items, const FacePlan& face, double drawn) const {
     Items next = items;
     if (const auto own = turns_.find(alike(face)); own != turns_.end())
@@ -159,9 +160,9 @@ class AttachmentDrawing {
     return weighted_choice(next, drawn, &AttachmentItem::share);
   }
 
-  /// Keeps the items that quotas allow.
+  /// Keeps the items that the quotas allow for a face.
   ///
-  /// \return  Whether the face wears any.
+  /// \return  Whether the face wears an item of the kind.
   bool serve_quotas(const std::string& kind, const FacePlan& face, double drawn,
                     Items& items) const {
     const auto none = draw_.none.find(kind);
@@ -189,7 +190,8 @@ class AttachmentDrawing {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps the items whose colour matches the face's other items, or else its family.
+  /// Keeps the items whose colour matches that of the face's other items, or else that of its
+  /// family.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -241,8 +243,8 @@ class AttachmentDrawing {
     return true;
   }
 
-  /// Returns the colour that a parent wears. If the parent wears none, returns the colour of all
-  /// items that it may wear, if they have only one.
+  /// Returns the colour that a parent wears. If the parent wears none, but all items that it may
+  /// wear have the same colour, returns this colour.
   std::string colour_of(const std::string& kind, const std::string& parent) const {
     if (const auto found = placed_.find(parent); found != placed_.end()) {
       const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
@@ -283,12 +285,12 @@ class AttachmentDrawing {
   const AttachmentDraw& draw_;
   std::vector<std::string> kinds_;  ///< in the order of their first items
   std::map<std::string, KindQuotas> quotas_;
-  /// of sampled faces: group, and index within the group
+  /// for each sampled face: its group, and its index within the group
   std::vector<std::pair<int, std::uint64_t>> places_;
   std::map<int, std::uint64_t> sizes_;   ///< number of sampled faces in each group
   std::map<std::string, Items> placed_;  ///< by id of the face
   std::map<std::string, Index> heads_;   ///< by id: the head whose tags the face has
-  /// by family and kind: colour
+  /// by family and kind: the family's colour
   std::map<std::pair<std::string, std::string>, std::string> families_;
   /// by set of similar faces
   std::map<std::string, Turns> turns_;
@@ -306,7 +308,8 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
     if (face.index) before[face.id].push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // First all faces as they were before any review, so that redrawing changes no other face.
+  // First, place attachments on all faces as they were before any review, so that a redrawn face
+  // changes no other face.
   for (FacePlan& face : crowd) {
     const auto found = before.find(face.id);
     if (found == before.end()) {

@@ -6,11 +6,12 @@
 namespace crowdface {
 namespace {
 
-/// Product of N, where first fit ended, and C. It was 1.6 to 6.5 in crowds of 360 to 7,700 faces
-/// (docs/method.md).
+/// The product of C and the number of faces at which first fit ends. Measured values are 1.6 to
+/// 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kMinPlaced = 256;
-constexpr std::uint64_t kMinTooNear = 100;  ///< in the earlier of the two complete stretches
+constexpr std::uint64_t kMinTooNear = 100;  ///< smallest number of near candidates in the earlier
+                                            ///< of the two complete stretches
 
 }  // namespace
 

@@ -62,7 +62,7 @@ class ColourDrawing {
   std::vector<std::vector<std::string>> counted_;  ///< #heads: the tags that must agree, sorted
 };
 
-/// The colours that parents pass on to children, by id.
+/// By id, the colours that each parent passes on to its children.
 class Parents {
  public:
   Parents(const std::vector<std::string>& heads, const std::vector<FacePlan>& crowd)

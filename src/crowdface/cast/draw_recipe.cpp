@@ -15,11 +15,11 @@
 namespace crowdface {
 namespace {
 
-/// Number of random lanes reserved for one position.
+/// Number of random lanes reserved for drawing one position.
 constexpr std::uint32_t kLanesOfPosition = 64;
-/// If one head has too much weight at a position, the position is drawn again, at most
-/// kPositionRetries times. Each time, the largest step away from the anchor grows by
-/// kFartherEachTime.
+/// If a position gives one head too much weight, another position is drawn, at most
+/// kPositionRetries times. With each retry, the largest step away from the anchor grows by the
+/// factor kFartherEachTime.
 constexpr std::uint32_t kPositionRetries = 20;
 constexpr double kFartherEachTime = 0.1;
 
@@ -70,8 +70,8 @@ PlanePoint draw_in_hull(const CastingOptions& casting, const std::vector<Index>&
   return point_in_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
-/// \param retry  Number of positions drawn before at which one head had too much weight. Later
-///               positions are farther from its anchor.
+/// \param retry  Number of earlier positions that gave one head too much weight. Each retry may go
+///     farther from the anchor.
 PlanePoint draw_position(const CastingOptions& casting, const PositionDistribution& distribution,
                          const std::vector<Index>& sources, Index target, const FaceDraws& draws,
                          const std::string& region, std::uint32_t retry) {
@@ -131,7 +131,7 @@ double largest_weight(const BandRecipe& band) {
   return largest;
 }
 
-/// What a band is drawn from; the band's own values override its region's.
+/// The distributions of one band. The band's own values override those of its region.
 struct BandDraw {
   std::string name;  ///< name of the region, and of the band except the first
   std::size_t band = 0;
@@ -161,7 +161,8 @@ BandDraw band_draw(const CastingOptions& casting, const SamplingOptions& all, st
   return draw;
 }
 
-/// Draws what a hand-written recipe leaves open of a band; for a sampled face, everything.
+/// Draws the values of a band that a hand-written recipe does not specify; for a sampled face, all
+/// values.
 BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index target,
                      const FaceDraws& draws, const BandDraw& draw) {
   const SamplingOptions& all = *kind.sampling;

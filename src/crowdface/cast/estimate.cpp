@@ -12,11 +12,11 @@ namespace crowdface {
 namespace {
 
 constexpr int kCountHalvings = 7;
-/// The pool must be at least this many times as large as a set.
+/// Smallest ratio of the pool's size to a set's size.
 constexpr std::uint64_t kPoolPerFace = 5;
 
-/// Returns how many candidates of the pool, in order, first fit keeps at this distance. Stops at
-/// `enough`.
+/// Returns how many candidates first fit keeps at this distance, taking the pool in order. Stops
+/// counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
   FacePointIndex kept(pool.points[0].as_built.size());
   for (const FaceSpace::Point& point : pool.points) {

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// searching this many points in order is as fast as searching a tree
+/// number of points up to which a search of a list is as fast as a search of a tree
 constexpr Index kNewest = 2048;
 constexpr std::uint32_t kLeaf = 2 * PointBlocks::kLanes;
 

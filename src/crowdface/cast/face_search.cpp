@@ -15,8 +15,8 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)) {}
 
-/// Returns whether a candidate is far enough from all faces. Its distance to the nearest face is
-/// computed only as exactly as needed to decide whether it is the farthest candidate.
+/// Returns whether a candidate is far enough from all faces. Computes its distance to the nearest
+/// face only as exactly as necessary to find the farthest candidate.
 bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.index().nearest(candidate.point, least).face >= 0) return false;
@@ -33,7 +33,7 @@ bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crow
   return true;
 }
 
-/// Draws until there are enough candidates, or no attempts left.
+/// Draws until there are enough candidates or no attempts are left.
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
     Candidate candidate;

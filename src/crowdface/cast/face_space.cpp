@@ -13,11 +13,11 @@
 namespace crowdface {
 namespace {
 
-/// Largest remainder of a field outside the basis: rms over the face in millimetres.
+/// Largest part of a field that the basis may miss: rms over the face in millimetres.
 constexpr double kFieldTolerance = 0.004;
 constexpr Index kMaxFunctions = 400;  ///< for each side
-/// Largest remainder of a training face outside the principal directions, in millimetres. The
-/// length of a face's remainder is an additional coordinate.
+/// Largest part of a training face that the principal directions may miss, in millimetres. The
+/// length of the missed part is an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
 constexpr Index kMaxDirections = 192;  ///< for each side
 constexpr std::uint64_t kTrainingFaces = 1024;
@@ -88,8 +88,9 @@ void FaceSpace::choose_counting(const std::vector<double>& weights) {
   }
 }
 
-/// Finds a few modes that span the levels of all heads together; fields are computed for the modes
-/// only. Rows are levels; columns are heads, coordinates and samples, scaled by the samples' √w.
+/// Finds a few modes that span the levels of all heads together; only for these modes, fields are
+/// computed. Each row is a level; the columns are heads, coordinates and samples, scaled by the
+/// samples' √w.
 SpanBasis FaceSpace::level_modes() const {
   const Index heads = head_point_count(), size = roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
@@ -122,10 +123,10 @@ void FaceSpace::put_function(const Value& value, float* row) const {
   for (Index i = 0; i < roots_.size(); ++i) row[i] -= static_cast<float>(mean) * roots_[i];
 }
 
-/// Returns all functions that faces are sums of; three rows (x, y, z) for each.
+/// Returns the functions whose sums are the faces; three rows (x, y, z) for each.
 ///
 /// \param peaks  #modes: largest coefficient of each mode at any level. Modes have unit length, so
-///               their rows are scaled by this.
+///     their rows are scaled by this.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
   const Index size = roots_.size(), regions = heads_.alpha.cols();
@@ -158,11 +159,12 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
   return functions;
 }
 
-/// Every face is a sum of the heads and of their removed detail, times the masks. Orthonormal
-/// scalar functions that span all of these represent a face by #P by 3 numbers. Rotations and
-/// distances of these equal those on the samples, and the centre is the origin.
+/// Finds a basis. Every face is a sum of the heads and of their removed detail, times the masks.
+/// Orthonormal scalar functions that span all these terms represent a face by #P by 3 numbers.
+/// Rotating these numbers, and taking distances between them, is equivalent to doing so at the
+/// samples; the centre is the origin.
 ///
-/// \return  These functions, #P by #S.
+/// \return  The functions, #P by #S.
 FloatRows FaceSpace::find_functions() {
   const SpanBasis modes = level_modes();
   tables_.levels = modes.coordinates;
@@ -285,8 +287,8 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
-  // Distance of the face from the span of the directions. The difference of two such distances is
-  // at most the distance of the two remainders.
+  // Distance of the face from the span of the directions. For two faces, the difference of these
+  // distances is at most the distance between the missed parts.
   const double rest =
       fixed_dot(at.data(), at.data(), at.size()) - fixed_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
@@ -350,7 +352,7 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // Apply G_k, which is symmetric, to direction d, one coordinate after the other.
+      // Apply G_k, which is symmetric, to direction d, separately for each coordinate.
       std::vector<float> along(static_cast<std::size_t>(3 * functions));
       for (Index c = 0; c < 3; ++c) {
         Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);

@@ -12,11 +12,13 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kFounders = 12;         ///< founders tried before giving up
-constexpr std::uint32_t kCouples = 200;         ///< couples of drawn parents tried in addition
+constexpr std::uint32_t kCouples = 200;         ///< couples of drawn parents tried in addition to
+                                                ///< the founders
 constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
 constexpr int kFounderCandidates = 24;
 
-/// Options for a hidden face: it must be believable, but may be anywhere.
+/// Options for a face that does not join the crowd: it must be believable, but has no distance
+/// limits.
 DiversityOptions unseen(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
   diversity.min_distance_to_faces_mm = 0;
@@ -72,8 +74,8 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     rejections.add(founder.rejections());
     if (!found) continue;
     const double to_half = draws.strangers_nearer(found->point);
-    // The limit grows with the number of tries: two drawn parents soon match well, but one given
-    // parent may have no good match.
+    // The limit grows with the number of tries: two drawn parents soon match well, but if one
+    // parent is given, there may be no good match.
     const double enough = kStrangersNearerToHalf * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};

@@ -17,20 +17,21 @@ namespace crowdface {
 namespace {
 
 constexpr double kNearestShare = 0.4;  ///< smallest step of a member, as a fraction of max_distance
-/// share of a parent in the detail of a member's random face
+/// weight of a parent's detail in the random face towards which a member is drawn
 constexpr double kParentShare = 0.75;
-/// Large forms of a member's random face: share of one parent, and of a third contributor; the
-/// other parent has the rest. Without the third contributor, children of one couple would hardly
-/// differ.
+/// Coarse shape of the random face towards which a member is drawn: kLargeFormsShare is the weight
+/// of one parent, the next constant that of a third contributor; the other parent has the rest.
+/// Without the third contributor, children of one couple would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
 constexpr double kTwinsReach = 0.5;  // in mm, from the hidden child
 
 /// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
-/// parent.
+/// parent is.
 constexpr double kStrangersNearer = 0.1;
-/// allowance as a fraction of max_distance, if the parents are too far apart
+/// distance by which a child may be farther from a parent than the limit allows, as a fraction of
+/// max_distance, if the parents are far apart
 constexpr double kRoomAtHalf = 0.25;
 
 double mixed(double a, double b, double t) {
@@ -128,7 +129,7 @@ void FamilyDraws::meet_parents() {
     for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  // With a single target, children would inherit none of their parents' large forms.
+  // With a single target, children would inherit nothing of their parents' coarse shapes.
   form_ = targets.size() > 1 ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
                              : SubstituteHeads();
   detail_.clear();
@@ -137,13 +138,15 @@ void FamilyDraws::meet_parents() {
   }
 }
 
-/// Returns a parent's large forms, with heads outside the family's group substituted.
+/// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
+/// replaced.
 std::vector<SourceWeight> FamilyDraws::form_of(std::size_t parent) const {
   return form_.of(target_shares(parents_[parent].face.recipe));
 }
 
-/// Returns the parameters for the third contributor: heads with most of the tags that both parents
-/// have (at least three heads), so that the child's skin tone stays plausible.
+/// Returns the parameters of the third contributor. It is drawn from the heads (at least three)
+/// that have most of the tags that both parents share, so that the child's skin tone stays
+/// plausible.
 FaceKind FamilyDraws::third_contributor() const {
   constexpr std::size_t kMin = 3;
   FaceKind kind = kind_of_group(casting_, family_.group);
@@ -216,7 +219,8 @@ const SamplingOptions& FamilyDraws::sampling_of(const FacePlan& face) const {
   return casting_.sampling;
 }
 
-/// Returns what a parent passes on in a band of a region: a face its recipe, a head its own detail.
+/// Returns the band of a region that a parent passes on: for a face, that of its recipe; for a
+/// head, the head's own detail.
 BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::size_t band,
                                   const BandRecipe& drawn) const {
   BandRecipe own = drawn;
@@ -285,7 +289,7 @@ int FamilyDraws::inherited_from(std::size_t region, std::size_t band) const {
   return family_.inherit[region * band_count(casting_.sampling) + band];
 }
 
-/// Mixes a face with a parent in its large forms, and with a parent in each band of each region.
+/// Mixes a face with a parent in its coarse shape, and with a parent in each band of each region.
 void FamilyDraws::inherit(FacePlan& face, const DrawKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.who, "/inherits/", what);
@@ -336,7 +340,7 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyPlan& cast, int member,
   const std::string purpose = concat(key.who, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
-  // fraction of the largest distance
+  // distance from the founder, as a fraction of the largest distance
   draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.reach_mm *= reach_mm(cast);
   if (cast.alike_to_founder) {
@@ -358,7 +362,7 @@ FacePlan FamilyDraws::at_drawn_distance(const FamilyPlan& cast, const Draft& dra
     if (t == 1 && !too_far) break;
     t += too_far ? -step : step;
   }
-  // The last step may have gone too far, but the one before did not.
+  // The last step may have violated the limit; the step before did not.
   FacePlan face = towards(cast.founder, draft, t);
   if (t > step && beyond(face)) face = towards(cast.founder, draft, std::max(t - 2 * step, 0.0));
   return face;
@@ -396,7 +400,7 @@ std::optional<Reason> FamilyDraws::refuses(const FamilyPlan& cast, const FaceSpa
   return std::nullopt;
 }
 
-/// Parents who are far apart have no child near both. Then it is enough that the child is about as
+/// If the parents are far apart, no child is near both. Then the child needs to be only about as
 /// near to each parent as the founder is.
 bool FamilyDraws::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
   if (strangers_nearer(point) <= kStrangersNearer) return true;

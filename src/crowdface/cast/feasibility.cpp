@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kMaxDraws = 20'000;
 /// Largest number of faces in a trial.
 constexpr std::uint64_t kMaxTried = 400;
-/// Stop if the smallest value that fails is at most this factor above the largest that works.
+/// Stop when the smallest value that fails is at most this factor times the largest that works.
 constexpr double kNearEnough = 1.12;
 
 double whole_hundredths(double mm) {
@@ -61,7 +61,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge) {
-  constexpr std::uint64_t kBetter = 8;  // first fit finds at least half as many faces as spread
+  constexpr std::uint64_t kBetter = 8;  // first fit finds at least half as many faces as spread,
+                                        // and a trial casts a quarter of that
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {

@@ -8,7 +8,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kRidge = 0.1;  ///< fraction of the mean variance along the heads' own directions
+constexpr double kRidge = 0.1;  ///< variance added in every direction, as a fraction of the mean
+                                ///< variance of the heads
 
 }  // namespace
 
@@ -63,7 +64,7 @@ Plausibility::Plausibility(const FaceSpace& space) {
     heads.push_back(space.head_point(h).as_built);
   }
   metric_ = metric_without(heads, count, -1);
-  if (count < 3) {  // one remaining head has no variance; use the first head's distance as unit
+  if (count < 3) {  // one remaining head has no variance: use the first head's distance as the unit
     unit_ = std::sqrt(squared(metric_, heads[0]));
   } else {
     double sum = 0;

@@ -36,7 +36,8 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
                                                   float bound) const {
   Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
-    // Sums only grow, so a block whose sums all exceed the bound is done.
+    // The sums only grow, so the block cannot hold a nearer point once all its sums exceed the
+    // bound.
     if (!add_squares(query.data() + chunk, &chunk_of(chunk)[place(block * kLanes, chunk)], kChunk,
                      bound, sums.data())) {
       sums.fill(HUGE_VALF);

@@ -6,7 +6,7 @@
 namespace crowdface {
 namespace {
 
-/// Parts of the skin that are this near on the mean head may intersect on a face.
+/// Distance up to which triangles on the mean head may intersect on a face.
 constexpr double kReach = 3;  // mm, for each of the two parts
 /// Triangles at most this many edges apart are neighbours. Folds between neighbours are detected as
 /// flips.

@@ -16,12 +16,12 @@ std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
 
-/// Returns the face at which a share must have got `m` faces.
+/// Returns the number n of the face by which a share must have received its first `m` faces.
 std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether some share would be late, now or later, if no share got place `n`.
+/// Returns whether some share would miss a deadline, now or later, if face `n` went to no share.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -39,7 +39,7 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   double total = 0;
   for (const double share : shares) total += share;
   const bool all_taken = total > 1 - kRounding;
-  // Beyond this horizon, no additional face falls due (docs/method.md).
+  // Beyond this number of faces, the result of must_serve cannot change (docs/method.md).
   const auto kinds = static_cast<double>(shares.size());
   const std::uint64_t horizon =
       shares.size() <= 1 || all_taken

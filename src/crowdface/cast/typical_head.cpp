@@ -15,8 +15,8 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
       shares[tag] += part.weight;
     }
   }
-  // Each of a head's tags counts by the share of the mixture with this tag, minus the share
-  // without.
+  // The score of a head: for each of its tags, the weight of the mixture with this tag minus the
+  // weight without it.
   constexpr double kSame = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;
