@@ -35,8 +35,8 @@ std::string write_fitted_to(const Attachments& attachments, const ConfigWriting&
   return attachments.file.empty() ? kMean : path("").write(attachments.file, writing);
 }
 
-/// Reads the tags of an item. Refuses tags that no head has together, because no face could wear
-/// the item.
+/// Reads the tags of an item. Refuses a combination of tags that no head has, because no face could
+/// wear the item.
 void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
@@ -75,7 +75,8 @@ const Keys<Attachment>& item_keys() {
   return keys;
 }
 
-/// Returns whether a face has other files with this name: levels of detail or shapes.
+/// Returns whether other files of a face already have names with this ending: levels of detail or
+/// shapes.
 bool is_taken(const std::string& name, const Config& config) {
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
@@ -135,8 +136,8 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   }
 }
 
-/// Returns the first item whose kind, name or colour is this word; null if there is none. Its kind
-/// is the kind of a quota for the word.
+/// Returns the first item whose kind, name or colour is this word; null if there is none. A quota
+/// for the word is a quota of this item's kind.
 const Attachment* first_called(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(
       attachments.items, [&](const Attachment& item) { return is_called(item, word); });

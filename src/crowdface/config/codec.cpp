@@ -89,7 +89,7 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
       (named ? by_name : by_tag)[head] += weight.value_or(1);
     }
   }
-  by_name.merge(by_tag);  // existing entries of by_name win
+  by_name.merge(by_tag);  // head names in by_name override tags
   std::vector<WeightedHead> targets;
   for (const auto& [head, weight] : by_name) targets.push_back({head, weight});
   return targets;

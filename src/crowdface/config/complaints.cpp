@@ -34,7 +34,8 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
 }
 
 void Complaints::tell(Problems& problems) const {
-  constexpr std::size_t kMaxTold = 100;  // a longer list would hide the first problems
+  constexpr std::size_t kMaxTold = 100;  // a longer list would push the first problems off the
+                                         // screen
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);

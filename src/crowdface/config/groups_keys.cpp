@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// Marks a group without share and count; such groups divide the remainder equally.
+/// Marks a group that gives neither share nor count; such groups divide the remainder equally.
 constexpr double kOpenShare = -1;
 
 /// Sets targets and sources to the heads that have all of these tags.

@@ -22,10 +22,11 @@ struct PerRegion {
   std::vector<std::pair<std::size_t, const YamlNode*>> of_region;  ///< region and its value
 };
 
-/// Splits a value by region: one value for all regions, `{default: …, top: …}`, or a mapping with
-/// keys of the value and names of regions.
-/// \param parameters  keys of a value that is itself a mapping. A region may have the name of a
-///                    parameter whose value is never a mapping: a mapping there is the region's.
+/// Splits a value by region. The value may be one value for all regions, `{default: …, top: …}`, or
+/// a mapping whose keys are parameters of the value and names of regions.
+/// \param parameters  the keys of a value that is itself a mapping. A region may have the same name
+///     as a parameter, if the parameter's value is never a mapping: a mapping under this name
+///     belongs to the region.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {

@@ -119,7 +119,7 @@ const Keys<Shapes>& shapes_keys() {
   return keys;
 }
 
-/// Refuses a shape that neither a head nor the template has: the template supplies missing shapes.
+/// Refuses a shape that a head lacks if the template, which supplies missing shapes, lacks it too.
 void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
   for (std::size_t h = 0; h < shapes.of_head.size(); ++h) {
     std::vector<std::string> lacking;

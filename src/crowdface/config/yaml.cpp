@@ -21,7 +21,8 @@ constexpr std::size_t kMaxNodes = 100'000;
 constexpr std::size_t kMaxComplaints = 50;  // per file; a longer list would hide the first problems
 constexpr std::size_t kMaxPath = 120;  // bytes; limits messages, and memory for malicious files
 
-/// Exception that ends the parsing of a file. Code that throws it has added a complaint.
+/// Exception that ends the parsing of a file. The code that throws it has already added a
+/// complaint.
 struct Stop {};
 
 /// Builds a YamlNode tree from yaml-cpp's events.

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t kMaxKeys = 8;
 
-/// Returns whether every YAML reader takes the unquoted text for this text.
+/// Returns whether every YAML reader would read this text, written without quotes, as the same
+/// text.
 bool is_plain(std::string_view text) {
   static const std::set<std::string_view> words = {
       "null", "Null", "NULL", "true", "True", "TRUE", "false", "False", "FALSE",
