@@ -25,7 +25,8 @@ namespace crowdface {
 namespace {
 
 /// Tells ThreadSanitizer that one thread hands work to another. Debian builds TBB and Embree
-/// without ThreadSanitizer, so it does not see their synchronisation. Does nothing in other builds.
+/// without ThreadSanitizer, so ThreadSanitizer does not see their synchronisation. Does nothing in
+/// other builds.
 class HandOver {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -45,7 +46,7 @@ class HandOver {
 };
 
 /// Runs the items of a loop. ThreadSanitizer sees all items as ordered after the code that precedes
-/// the loop and before the code that follows it, but not among themselves, so that it reports races
+/// the loop and before the code that follows it, but not among themselves, so it reports races
 /// between items. The first exception is kept until the loop ends, and items that have not started
 /// by then are skipped. TBB must not see exceptions: it would cancel loops nested in other items,
 /// including Embree's, and these would return incomplete results without an error.
@@ -69,7 +70,7 @@ class LoopItems {
     after_.give();
   }
 
-  /// Call after the loop. \throws the first exception of an item.
+  /// Call this after the loop. \throws the first exception of an item.
   void end() {
     after_.take();
     if (error_) std::rethrow_exception(error_);

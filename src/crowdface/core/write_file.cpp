@@ -71,7 +71,8 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// Writes, and starts writing back to disk every 8 MiB, so that `finish` waits for less.
+  /// Writes the bytes. After every 8 MiB, starts writing them back to disk, so that `finish` has
+  /// less to wait for.
   void write(std::string_view bytes) {
     while (!bytes.empty()) {
       const std::string_view some = bytes.substr(0, kAtATime);
