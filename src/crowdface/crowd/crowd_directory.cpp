@@ -164,8 +164,8 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a folder without a config has files that a crowd would overwrite. A ledger identifies a
-/// crowd that lost only its config.
+/// Whether a folder without a config has files that a crowd would overwrite. A folder that has a
+/// ledger belongs to a crowd that lost only its config.
 bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
   if (path_exists(directory.config())) return false;
   const std::string name = directory.relative(directory.config());

@@ -296,8 +296,8 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
   const auto known = items_.find(item);
   adopt_entry(known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
               files_now(names));
-  // If an item has several lines, take the last one that agrees with the files elsewhere, or else
-  // the last one.
+  // If an item has several lines, take the last line that matches the existing files; if none
+  // matches, the last line.
   const auto line_of = [&](const std::vector<LedgerEntry>& lines) {
     if (lines.size() == 1) return lines.back();
     const auto agreed = std::find_if(lines.rbegin(), lines.rend(), [&](const LedgerEntry& line) {

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One line for each item in the folder's ledgers. If an item has several lines, the last one that
-/// agrees with the files counts, or else the last one.
+/// One line for each item in the folder's ledgers. If an item has several lines, the last line that
+/// matches the existing files counts; if none matches, the last line.
 std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
                                                 CrowdCheck& check) {
   std::map<std::string, std::vector<LedgerEntry>> all;
