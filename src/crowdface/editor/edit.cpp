@@ -22,7 +22,8 @@ namespace {
   std::string where = "its address is not known yet";
   try {
     where = read_file(address);
-    // The address belongs to another user, or the other editor has just started.
+    // The file belongs to another user, or the other editor has just started and has not written
+    // it.
   } catch (const RecoverableError&) {
   }
   throw UsageError(concat(folder.parent_path().string(),
