@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-// Even well-aligned heads of different people differ by a few degrees and a few hundredths of their
-// size. Larger differences mean that their coordinate frames differ.
+// Well-aligned heads of different people still differ by a few degrees in pose and by a few
+// hundredths in size. Larger differences mean that their coordinate frames differ.
 constexpr double kMaxDegrees = 6;
 constexpr double kMaxShift = 0.06;
 constexpr double kMaxScale = 1.3;

@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 
 using TilePlace = std::array<std::int32_t, 2>;
 
-/// The UDIM tile of a polygon, determined by its centroid, so that corners may lie on a tile's
-/// border. The first tile if the polygon has no texture coordinates or lies outside all tiles.
+/// Returns the UDIM tile of a polygon. The polygon's centroid determines it, so that corners may
+/// lie on a tile's border. Returns the first tile if the polygon has no texture coordinates or lies
+/// outside all tiles.
 TilePlace tile_of(const HeadSet& faces, Index face) {
   Eigen::RowVector2d sum(0, 0);
   double corners = 0;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr int kLargestUnasked = 4096;
 
-/// The first use of an image of the layout.
+/// Where an image of the layout is first used.
 struct FirstAttachmentHit {
   std::size_t head = 0;
   std::uint32_t row = 0;  ///< index of the head's file
@@ -85,8 +85,8 @@ std::vector<PictureName> picture_names(const HeadsTextures& found,
   return names;
 }
 
-/// For each image, the head's files that it is composed of; none if a polygon of the image has no
-/// texture on this head.
+/// For each image, the head's files from which it is composed; none if some polygon of the image
+/// has no texture on this head.
 std::vector<std::vector<std::uint32_t>> rows_in_pictures(const AttachmentTextures& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
@@ -105,7 +105,7 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const AttachmentTexture
   return result;
 }
 
-/// A texture file, and the size and content that it is needed in.
+/// A texture file, and the size and content to which it is converted.
 struct NeededMap {
   fs::path path = {};
   int width = 0, height = 0;
@@ -116,7 +116,8 @@ struct NeededMap {
 };
 using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 
-/// Whether an image holds normals: these point out of the surface, which is the third channel.
+/// Whether an image holds normals: normals point out of the surface, so their third channel is
+/// large.
 bool holds_normals(const Image& image) {
   if (image.channels < 3) return false;
   constexpr int kStep = 7;

@@ -35,8 +35,8 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// The shares of the heads' shape sets in a region: the target's own, minus the smoothed part of
-/// each band as in level_shares, scaled by how much smoothing changes this shape.
+/// The weights of the heads' shape sets in a region: those of the target, minus the smoothed
+/// part of each band as in level_shares, scaled by how much smoothing changes this shape.
 SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
   for (const SourceWeight& part : target_shares(recipe)) {

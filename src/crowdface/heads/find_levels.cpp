@@ -23,8 +23,9 @@ LevelError in_mm(LevelError error, double mm) {
   return {error.most * mm, error.root_mean_square * mm};
 }
 
-/// The mean head, deformed to weight edge collapse: enlarged parts keep more triangles. Eyes and
-/// the lids around them are nearly doubled in size, teeth are reduced to a third.
+/// The mean head, with some parts enlarged or reduced: edge collapse keeps more triangles in
+/// enlarged parts. Eyes and the lids around them are nearly doubled in size, teeth are reduced to a
+/// third.
 Positions weighted(const Positions& mean, const PartList& parts) {
   constexpr double kEyes = 0.8, kTeeth = 0.3;
   Positions sizes = mean;

@@ -92,7 +92,7 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
 
 void check_stance(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return;
-  // without parts: those that follow the skin are not skin
+  // without eyeballs, because only the skin is searched for the face
   const HeadShape head{inputs.mean, skin_of(inputs), {}};
   const Topology& topology = inputs.faces.topology;
   const Bearing asked{config.faces.up, config.faces.front};
@@ -129,7 +129,8 @@ void check_stance(const Config& config, const Inputs& inputs) {
 
 std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
-  // kMaxOfOthers: fraction of the median distance between a head and its nearest head.
+  // kMaxMm: distance up to which two heads may be the same person. kMaxOfOthers: the same as a
+  // fraction of the median distance between a head and its nearest head.
   constexpr double kMaxMm = 1, kMaxOfOthers = 0.4;
   const std::vector<Head>& heads = inputs.faces.heads;
   std::vector<Positions> sampled(heads.size());

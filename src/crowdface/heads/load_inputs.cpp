@@ -116,8 +116,8 @@ void hash_heads(Inputs& inputs) {
   });
 }
 
-/// A message if only some heads have a texture and all of these have the same one: it is not
-/// blended.
+/// Returns a message if only some heads have a texture and all of these have the same one, because
+/// this texture is then not blended.
 std::optional<std::string> told_of_single(const HeadsTextures& textures, const HeadSet& faces) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {
@@ -129,8 +129,7 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const H
                 "); only faces with such a target get it, unchanged");
 }
 
-/// Loads textures without damaged images: after each damaged image it loads again as if that file
-/// were missing.
+/// Loads textures. After each damaged image, loads again as if that file were missing.
 /// \param load  blends the textures of its argument
 template <class Load>
 HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) {

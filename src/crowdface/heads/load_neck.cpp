@@ -69,7 +69,7 @@ Positions areas_around(const Topology& topology, const Positions& positions, con
   return areas;
 }
 
-/// Where the heads' rim has to be, and the area vectors of the body's polygons there.
+/// The goal for the heads' rim, and the area vectors of the body's polygons around it.
 struct Body {
   Positions rim, areas;  ///< #rim by 3
 };
@@ -89,8 +89,8 @@ Body read_body(const Config& config, const Inputs& inputs, const Rim& rim) {
   }
 }
 
-/// The best motion without scale of one rim onto another. It rotates only if that removes half of
-/// the distance: necks are cut at different slopes, and a head must not tilt for that.
+/// The best motion without scale of one rim onto another. It rotates the head only if the rotation
+/// halves the distance: necks are cut at different slopes, and a head must not tilt for that.
 RigidMotion placing(const Positions& rim, const Positions& goal) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(rim.rows()));
   std::iota(all.begin(), all.end(), 0U);

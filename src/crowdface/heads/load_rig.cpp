@@ -25,8 +25,8 @@ namespace {
 constexpr double kSame = 2e-4;
 constexpr double kMmPerMetre = 1000;
 
-/// Transforms from the axes and unit of the rig file (glTF's, or those it was exported in) to the
-/// heads'.
+/// Transforms from the axes and unit of the rig file (those of glTF, or those of the exporting
+/// program) to the heads' axes and unit.
 struct Frame {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   double scale = 1;

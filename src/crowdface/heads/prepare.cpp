@@ -40,8 +40,9 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .digest();
 }
 
-/// Maximum error of the nodes as a fraction of the displacement at L_max, such that it uses up
-/// about a tenth of the tolerance: 2·10⁻⁴ at the default of 0.05 mm (measured, docs/method.md).
+/// Maximum error of the nodes, as a fraction of the displacement at L_max. The error then uses
+/// about a tenth of the tolerance: 2·10⁻⁴ at the default tolerance of 0.05 mm (measured,
+/// docs/method.md).
 double missed_by_nodes(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
   if (config.smoothing.levels != Levels::kBasis) return 2e-4;

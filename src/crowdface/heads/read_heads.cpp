@@ -177,10 +177,11 @@ const fs::path& scratch_folder() {
   return scratch.path;
 }
 
-/// Stores the textures embedded in a mesh file as files next to a material file, as OBJ files have
-/// them, in a folder of the cache; or in a scratch folder if there is no cache that can be written.
-/// \return the path that the material file is relative to, and the file's name; empty without
-///         textures
+/// Stores the textures embedded in a mesh file as image files next to a material file, as for OBJ
+/// files. The files are in a folder of the cache, or in a scratch folder if no cache can be
+/// written.
+/// \return the path that the material file is relative to, and the file's name; empty if there are
+///     no textures
 std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
                                                const FileMesh& mesh) {
   if (mesh.textures.empty()) return {};
@@ -251,8 +252,8 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   return reading;
 }
 
-/// Gives a head the mesh that the first head with the same outline has read; if that failed, reads
-/// it.
+/// Gives a head the mesh that the first head with the same outline has read. If that head could not
+/// be read, reads this one.
 void end_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);

@@ -49,9 +49,9 @@ bool are_shares(const std::array<double, 3>& shares) {
       shares, [](double share) { return share >= -kRounding && share <= 1 + kRounding; });
 }
 
-/// Hash of the masks' bytes and of everything else that the regions depend on. Nothing if that does
-/// not suffice: the mesh determines which UDIM tiles are read, and unreadable files are reported
-/// when they are loaded.
+/// Hash of everything that the regions depend on, including the masks' bytes. Returns nothing if
+/// the masks have UDIM tiles, because the mesh determines which tiles are read, or if a file cannot
+/// be read, because loading reports that.
 std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs) {
   const InputLimits& limits = input_limits();
   Hasher key;
