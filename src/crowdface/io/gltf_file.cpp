@@ -20,7 +20,7 @@ using GltfJson = GltfFile::Json;
 
 /// Largest absolute value in a matrix: a thousand kilometres.
 constexpr double kFarthestNode = 1e6;
-constexpr std::size_t kOften = 4;  ///< how many numbers may be read per byte
+constexpr std::size_t kOften = 4;  ///< limit for the numbers read from a file, per byte of the file
 
 std::size_t size_of_type(int type) {
   if (type == kUnsignedByte || type == kByte) return 1;

@@ -125,8 +125,8 @@ bool is_list_of_texts(std::string_view value) {
   return value.empty();
 }
 
-/// Whether the size of a value agrees with its type. Depending on the type, the decoder uses either
-/// size, and would continue at another position than this parser.
+/// Whether the size of a value agrees with its type. For some types the decoder ignores the stored
+/// size and uses that of the type; it would then continue at another position than this parser.
 bool has_its_size(const Attribute& attribute) {
   for (const auto& [type, size] : kFixedTypes) {
     if (attribute.type == type) return attribute.value.size() == size;

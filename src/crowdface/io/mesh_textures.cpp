@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// File extension for the first bytes of an image; readers also go by the content.
+/// File extension for an image, by its first bytes; readers also go by the content, not the name.
 std::string_view image_ending(std::string_view bytes) {
   return bytes.starts_with("\x89PNG")          ? ".png"
          : bytes.starts_with("\xff\xd8")       ? ".jpg"

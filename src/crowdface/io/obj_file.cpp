@@ -89,7 +89,7 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
-/// Takes the values that the scan determines better than the loader.
+/// Replaces the values of the loader by those of the scan where these are better.
 void take_places(ObjScan scan, ObjFile& result) {
   // Scanned positions are rounded correctly; the loader's positions are not.
   result.positions = std::move(scan.positions);

@@ -45,9 +45,9 @@ void end_if_starting() {
   if (starting != 0) end_without_libraries(0);
 }
 
-/// During its lifetime, a library that ends the program for lack of memory while it is being loaded
-/// does so with a message of this program; likewise a library that hangs, for example a logger
-/// waiting for a thread that could not start.
+/// While this object lives, a library that ends the program during loading for lack of memory does
+/// so with a message of this program. The same applies to a library that hangs, for example a
+/// logger that waits for a thread that could not start.
 class StartOfLibraries {
  public:
   explicit StartOfLibraries(const char* needs) {
