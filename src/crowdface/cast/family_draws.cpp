@@ -20,7 +20,7 @@ constexpr double kNearestShare = 0.4;  ///< smallest step of a member, as a frac
 /// weight of a parent's detail in the random face towards which a member is drawn
 constexpr double kParentShare = 0.75;
 /// Coarse shape of the random face towards which a member is drawn: kLargeFormsShare is the weight
-/// of one parent, the next constant that of a third contributor; the other parent has the rest.
+/// of one parent, kForeignShare that of a third contributor; the other parent has the rest.
 /// Without the third contributor, children of one couple would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;

@@ -61,7 +61,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge) {
-  constexpr std::uint64_t kBetter = 8;  // first fit finds at least half as many faces as spread,
+  constexpr std::uint64_t kBetter = 8;  // safety factor; spread finds at most twice as many faces
+                                        // as first fit
                                         // and a trial casts a quarter of that
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
