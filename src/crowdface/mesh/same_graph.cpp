@@ -154,7 +154,7 @@ class Matcher {
   }
 
   /// Matches the component of a seed with a component of b. Tries all corners of b whose vertices
-  /// have the seed's colour, and keeps the match with the smallest distance.
+  /// have the same colour as the seed's vertex, and keeps the match with the smallest distance.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
     // Set if another component shares the vertex.
@@ -216,7 +216,7 @@ class Matcher {
         if (fits && e != kNoIndex) open.emplace_back(e, g);
       }
     }
-    // Undo all marks: match_from chooses among several results and applies one.
+    // Undo all marks, because match_from compares several results before it applies one.
     for (const std::uint32_t f : faces) seen_[f] = false;
     for (const auto& [v, w] : pairs) {
       to_b_[v] = kNoIndex;
@@ -258,7 +258,8 @@ class Matcher {
   const Graph &a_, &b_;
   const Positions &at_a_, &at_b_;
   Positions placed_;  ///< vertices of b in the coordinate frame of a
-  /// Whether placed_ is aligned by the first component, not only by the centres of the two meshes.
+  /// Whether placed_ is aligned by the first component. Otherwise only the centres of the two
+  /// meshes coincide.
   bool is_aligned_ = false;
   std::size_t steps_left_;
   std::vector<std::uint32_t> to_b_, to_a_;

@@ -80,8 +80,8 @@ Rows face_means(const Topology& topology, const std::vector<std::uint32_t>& indi
   return means;
 }
 
-/// New positions of the old vertices. Sums over the polygons and edges of each vertex first, then
-/// applies one formula to each vertex.
+/// New positions of the old vertices. First sums over the polygons and edges of each vertex, then
+/// applies one formula per vertex.
 Positions move_vertices(const Mesh& mesh, const Edges& edges, const Positions& faces) {
   const Index n = mesh.topology.vertex_count;
   Positions face_sum = Positions::Zero(n, 3), edge_sum = face_sum, rim_sum = face_sum;

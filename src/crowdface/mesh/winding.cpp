@@ -42,7 +42,8 @@ float winding(const Topology& topology, const Positions& positions) {
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  constexpr double kClearly = 0.2;  // a sphere has 1, an open mask of a face about 0.3
+  constexpr double kClearly = 0.2;  // for comparison: 1 for a sphere, about 0.3 for an open mask of
+                                    // a face
   constexpr double kFlat = 0.8;     // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);
   Eigen::RowVector3d middle(0, 0, 0);
