@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Rims that differ by more than this are of another unit, another pose or another place. Smaller
-// differences are what heads of different people have.
+// Largest differences between rims that belong together. Heads of different people differ less;
+// rims in another unit, pose or position differ more.
 constexpr double kMaxScale = 1.3;
 constexpr double kMaxTurnDegrees = 12;
 constexpr double kRoundingMm = 0.01;
@@ -53,9 +53,9 @@ double root_mean_square(const Positions& rows) {
   return std::sqrt(square_sum(rows) / static_cast<double>(rows.rows()));
 }
 
-/// The best motion without scale from `from` to `to`, and what it leaves.
+/// The best motion without scale from `from` to `to`, and the remaining distance.
 struct RigidFit {
-  double degrees = 0, left = 0;  ///< angle; rms distance
+  double degrees = 0, left = 0;  ///< angle of the motion; remaining rms distance
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {
@@ -70,7 +70,7 @@ RigidFit rigid_fit(const Positions& from, const Positions& to) {
   return {Similarity{motion.rotation}.angle_degrees(), root_mean_square(left)};
 }
 
-/// `rim` from the start `shift`, forwards or backwards.
+/// `rim` with the start `shift`, traversed forwards or backwards.
 Rim shifted(const Rim& rim, std::size_t shift, bool forwards) {
   Rim result;
   for (std::size_t i = 0; i < rim.size(); ++i) {
@@ -80,7 +80,7 @@ Rim shifted(const Rim& rim, std::size_t shift, bool forwards) {
   return result;
 }
 
-/// Mean square of the distances from each point to the nearest of the others.
+/// Root mean square of the distances from each point to the nearest of the other points.
 double nearest_rms(const Positions& points, const Positions& others) {
   double sum = 0;
   for (Index i = 0; i < points.rows(); ++i) {
@@ -97,8 +97,8 @@ std::string mm_text(double mm) {
   return concat(format_fixed(mm, 1), " mm");
 }
 
-/// Why two matched rims do not belong together; empty if they do.
-/// \param turned  the fit of the start that fits best after a rotation
+/// Returns why two matched rims do not belong together; empty if they do.
+/// \param turned  the fit for the start of the rim that fits best after a rotation
 std::string fault_of(const Positions& head, const Positions& body, const RigidFit& turned,
                      double reach_mm) {
   const Positions from = centred(head), to = centred(body);
@@ -111,7 +111,8 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
   const double off = (centroid(body) - centroid(head)).norm();
   if (off > reach_mm) return concat("lies elsewhere, ", mm_text(off), " off the heads' rim");
   const RigidFit own = rigid_fit(from, to);
-  // A turned copy of a neck fits its own start, which needs a large angle, better than the nearest.
+  // The neck of a rotated head fits with its true start, which needs a large angle, better than
+  // with the nearest start.
   constexpr double kBetter = 0.85;
   const bool fits_turned =
       turned.degrees > kMaxTurnDegrees && turned.left < kBetter * own.left - kRoundingMm;

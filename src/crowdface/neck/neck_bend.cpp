@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// The triangles of all polygons that touch a moved vertex or a neighbour of one: the Laplacians of
-/// these vertices depend on no others.
+/// The triangles of all polygons that touch a moved vertex or a neighbour of one. The Laplacians of
+/// the moved vertices and their neighbours depend on no other triangles.
 std::vector<Triangle> triangles_around(const Topology& topology, const Adjacency& adjacency,
                                        std::span<const std::uint32_t> moved) {
   std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);

@@ -30,7 +30,8 @@ void set_rows(const Rim& rim, const Positions& rows, Positions& mesh) {
 /// Bends the neck of a mesh and gives the rim these positions.
 void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
   const Positions moves = goal - mesh(seam.rim, kAllColumns);
-  // Blending heads that all end in the ring leaves rounding errors only.
+  // Distance below which a rim counts as already in place: blending heads that all end in the ring
+  // leaves only rounding errors.
   constexpr double kRounding = 1e-9;
   if (moves.cwiseAbs().maxCoeff() > kRounding * goal.cwiseAbs().maxCoeff()) {
     const std::vector<std::uint32_t>& bent = seam.neck.vertices();
