@@ -18,15 +18,17 @@ namespace {
 // that a transition is about four centimetres wide. Adjacent bands come from different people,
 // whose surfaces are often a centimetre apart; a narrower transition shows as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
-// How far the ear regions extend beyond the ears, and how far below chin and ears the neck begins.
+// How far the ear regions extend beyond the ears (kAroundEar, kBelowEar, kFrontOfEar), how far
+// below the chin the neck begins (kBelowChin), and how wide the soft borders are (kEarSoft,
+// kNeckSoft).
 constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
                  kBelowChin = 0.12, kNeckSoft = 0.12;
 
-// Fractions of the distance from eyes to mouth, about 65 mm. The head's breadth without ears is
-// measured this far above the eyes and below the mouth; kMinEar is the smallest protrusion of an
-// ear.
+// Fractions of the distance from eyes to mouth, about 65 mm. Ears are searched at heights up to
+// kAbove above the eyes and down to kBelow below the mouth. kMinEar is the smallest distance by
+// which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
-/// A place belongs to an ear if it protrudes by more than this fraction of the ear's maximum.
+/// A height belongs to an ear if the ear protrudes there by more than this fraction of its maximum.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
@@ -86,7 +88,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     at = i;
   }
   if (most < kMinEar * face) return std::nullopt;
-  // The range of heights around it in which the ears protrude enough.
+  // The range of heights around that height in which the ears protrude enough.
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kOfMost * most) --bottom;
   while (top < kBins - 1 && stands_out(top + 1) > kOfMost * most) ++top;
@@ -117,8 +119,7 @@ double ear_share(const EarBox& ears, double face, double side, double height, do
          smooth_step(ears.inner - 2 * around, ears.inner, side);
 }
 
-/// The height below which a place belongs to the neck. The border rises from below the chin to
-/// below the ears.
+/// The height below which the neck begins. This border rises from below the chin to below the ears.
 struct NeckBorder {
   double chin_front, chin, ear_front, ear;
   double at(double front) const {

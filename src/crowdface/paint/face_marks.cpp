@@ -80,8 +80,8 @@ class Outline {
     closed.front_ = extreme(extreme(front_, highest), lowest);
     return closed;
   }
-  /// How far the profile at `height` lies behind the line between its points at the distance `way`
-  /// above and below.
+  /// How far the profile at `height` lies behind the straight line between its points `way` above
+  /// and `way` below.
   double hollow(double height, double way) const {
     return (at(height + way) + at(height - way)) / 2 - at(height);
   }
@@ -184,7 +184,7 @@ struct MouthAndChin {
 
 /// Finds mouth and chin together: the mouth is a hollow of the profile, the chin is convex, and the
 /// mouth divides the distance from the tip of the nose to the chin in about the same ratio in all
-/// faces. The ratio tells the line between the lips from the hollow above the chin.
+/// faces. The ratio distinguishes the line between the lips from the hollow above the chin.
 /// \param tip    height of the tip of the nose
 /// \param prior  penalty of a mouth at the end of its search range
 MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, double stretch,

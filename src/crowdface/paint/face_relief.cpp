@@ -47,8 +47,8 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 
 constexpr double kVoteOfEyes = 0.15;
 
-/// Compares the known eyeballs with the eyes of a match: 1 if they agree, −1 if not, 0 without
-/// eyeballs.
+/// Compares the known eyeballs with the positions of the eyes in a match: 1 if they agree, −1 if
+/// not, 0 if there are no eyeballs.
 int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                  double height, double scale) {
   constexpr double kNearMm = 20;
@@ -358,7 +358,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  constexpr double kCoarser = 1.5;  // step width in the rotated views, because there are many
+  constexpr double kCoarser = 1.5;  // step width is larger in the rotated views, because there are
+                                    // many
   constexpr double kTurn = 25;      // rotation of the rotated views, in degrees
   // A face within this angle in degrees counts as aligned with the axes.
   constexpr double kStraight = 5;
@@ -369,7 +370,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     parallel_for_each(views.size(), [&](std::size_t i) {
       found[i] = search_view(samples, views[i], eyes, coarseness);
     });
-    // Compares the best views after refinement, because only refinement shows that a view with the
+    // Refines the best views before comparing them, because only after refinement a view with a
     // wrong rotation agrees less.
     std::vector<std::size_t> order(views.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -413,8 +414,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
-  // face; otherwise the rotated views follow.
+  // Most runs have one pair of axes, so this case must be fast. Wide steps find the face almost
+  // always; if they do not, the rotated views are searched.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.votes < kMinVotes || match.degrees_off > kTurn) {

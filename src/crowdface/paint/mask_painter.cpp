@@ -34,8 +34,8 @@ void scale_to_one(Alpha& alpha, Index row) {
   for (Index k = 0; k < alpha.cols(); ++k) alpha(row, k) /= sum;
 }
 
-/// Sets the weight of one region at a vertex. The other regions share the rest in proportion; if
-/// their weights are zero, `heir` gets the rest.
+/// Sets the weight of one region at a vertex. The remainder goes to the other regions in proportion
+/// to their weights; if these are zero, it goes to `heir`.
 void set_share(Alpha& alpha, Index row, Index region, double share, Index heir) {
   const double others = 1 - alpha(row, region);
   if (others <= 0) {
@@ -204,7 +204,8 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
       bare.push_back(static_cast<std::uint32_t>(v));
     }
   }
-  // Fills vertices that belonged to the removed region only, from the border of the region inwards.
+  // Fills the vertices that belonged only to the removed region, from the border of that region
+  // inwards.
   while (!bare.empty()) {
     std::vector<std::uint32_t> left;
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;

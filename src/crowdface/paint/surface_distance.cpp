@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Distance of c from the source of a wave that has reached a and b, unfolded into the plane of the
-/// triangle. If the straight path does not cross the edge ab, the shortest path along the edges
-/// counts.
+/// Returns the distance of c from the source of a wave that has reached a and b. The triangle is
+/// unfolded into the plane of the wave. If the straight path from the source to c does not cross
+/// the edge ab, the result is the shortest path along the edges.
 double across(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
               double from_a, double from_b) {
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
