@@ -16,22 +16,22 @@ namespace {
 
 /// Parts with more vertices are subsampled evenly.
 constexpr std::size_t kMaxVertices = 2500;
-/// Largest number of pairs in a cluster; and the factor from the height differences within a
-/// cluster in the heads to those allowed for in a face.
+/// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: factor by which height
+/// differences within a cluster may be larger in a face than in the heads.
 constexpr std::size_t kClusterPairs = 16;
 constexpr double kMoreSlack = 1.5;
-/// Fractions of the reach (about 4 mm): a vertex with a rough height below kNear is measured
-/// exactly; a vertex with a height above kFree counts as outside.
+/// Fractions of the reach (about 4 mm). kNear: a vertex whose approximate height is below this is
+/// measured exactly. kFree: a vertex above this height counts as outside.
 constexpr double kNear = 0.5, kFree = -0.005;
-/// Fractions of the reach: vertices farther away are left out of later steps; the violation that is
-/// tolerated in the end.
+/// Fractions of the reach. kFar: later steps ignore vertices farther away than this. kDone:
+/// violation that is tolerated in the end.
 constexpr double kFar = 0.15, kDone = 0.002;
-/// Costs of a rotation and of a change of size, relative to a translation that moves vertices as
-/// far.
+/// Costs of a rotation (kHoldTurn) and of a change of size (kHoldSize), relative to a translation
+/// that moves the vertices by the same distance.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
-/// Prices of violations, as multiples of the reach. Vertices that are outside in all heads have
-/// priority.
+/// Penalties for violations, as multiples of the reach: kNewPenalty for vertices that are outside
+/// in all heads, which have priority, and kDeepPenalty for all others.
 constexpr double kNewPenalty = 1000, kDeepPenalty = 1;
 
 /// Unknowns of a step, all of them lengths.
@@ -69,7 +69,7 @@ Contact::Contact(const Topology& topology, const FacesAround& faces, const Posit
 
 void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads) {
-  // Starts nearer to each other than this lead to the same point.
+  // Starts nearer to each other than this distance lead to the same point of the skin.
   const double apart = 0.3 * reach_;
   // Find the skin nearest to each pair in every head.
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());

@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Pairs within this many spacings of a place determine the direction of the group there, and its
-/// `up`.
+/// Pairs within kCourse spacings of a place determine the direction of the group there; pairs
+/// within kUp spacings determine the place's `up`.
 constexpr double kCourse = 4, kUp = 1.5;
 
 /// Returns the principal direction of the midpoints near a point, perpendicular to `up`.

@@ -21,22 +21,22 @@ constexpr std::size_t kDirections = 60;
 /// More lid vertices than this are subsampled evenly.
 constexpr std::size_t kMaxLids = 2500;
 
-/// Weight of a lid's mean gap relative to the mean square of the rim's gaps; and its tolerance as a
-/// fraction of the radius (0.05 mm).
+/// kMeans: weight of a lid's mean gap relative to the mean square of the rim's gaps. kMeanOff:
+/// tolerance of the mean gap as a fraction of the radius (0.05 mm).
 constexpr double kMeans = 20, kMeanOff = 0.004;
-/// Costs of translation and change of size, relative to the gaps.
+/// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
 /// Largest decrease and increase of the eyeball's size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
-/// Fractions of the radius: clearance to keep where no head has a lid inside (0.025 mm), and depth
-/// that still counts as outside (0.04 mm).
+/// Fractions of the radius. kMargin: clearance to keep where no head has a lid inside the eyeball
+/// (0.025 mm). kFreeOfLids: depth that still counts as outside (0.04 mm).
 constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
-/// Lids farther away than this, in the first step and in later steps, cannot be reached by the
-/// remaining motion; fractions of the radius.
+/// Fractions of the radius. The remaining motion cannot reach lids that are farther away than
+/// kFarFirst in the first step, or than kFarLater in later steps.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
-/// Prices of violations, as multiples of the radius. Lids that are outside in all heads have
+/// Penalties for violations, as multiples of the radius. Lids that are outside in all heads have
 /// priority, then the mean gaps, then the largest depths.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 

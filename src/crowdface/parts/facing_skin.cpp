@@ -27,14 +27,14 @@ constexpr double kReach = 0.008;    // largest distance of skin that nearly touc
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // largest overlap: lips that touch intersect a little on the mean head; lids are thicker
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;  // smaller gaps count as this in kSideways
+constexpr double kAside = 0.0035;  // for kSideways, a smaller gap counts as this
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
-// distance of the midpoints in one group; more in a coarse mesh
+// largest distance between the midpoints of one group's pairs; larger in a coarse mesh
 constexpr double kTogether = 0.015;
 // smallest distance along the surface, as a multiple of the distance in space
 constexpr double kTimesAway = 3;
 constexpr double kOpposed = -0.3;       // largest cosine between the normals
-constexpr double kEdgesTogether = 2.5;  // the same as kTogether, in edge lengths
+constexpr double kEdgesTogether = 2.5;  // the limit kTogether in a coarse mesh, in edge lengths
 constexpr double kSideways = 0.75;      // largest sideways offset, as a fraction of the gap
 constexpr Index kBlock = 1024, kSearches = 16;
 
@@ -80,7 +80,7 @@ struct Candidate {
   Eigen::Vector3d across;
 };
 
-/// Returns the vertices that a vertex faces, nearest first.
+/// Returns the candidates for the vertex that a vertex faces, nearest first.
 std::vector<Candidate> opposite(const Positions& positions, const Positions& normals, double side,
                                 const PointGrid& grid, std::uint32_t v, double extent) {
   const Eigen::Vector3d here = positions.row(v).transpose(), normal = normals.row(v).transpose();

@@ -18,7 +18,7 @@
 namespace crowdface {
 namespace {
 
-/// A coordinate plane is used if its error is at most this factor larger.
+/// A coordinate plane is preferred if its error is at most this factor times the smallest error.
 constexpr double kAsGood = 1.05;
 constexpr std::size_t kSeeds = 24;  ///< number of walks tried for two components
 /// A sphere has many symmetries. A walk with an error below this fraction of the component's extent
@@ -27,8 +27,8 @@ constexpr double kSure = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
 // largest distance of a partner from the vertex's mirror image
 constexpr double kMatchReach = 0.01;
-/// Largest root mean square error of a walk: as a fraction of the component's extent, or of the
-/// skin's, whichever is larger.
+/// Largest root mean square error of a walk. The larger limit counts: kWalkShare of the component's
+/// extent, or kWalkReach of the skin's extent.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
 // largest difference between the bounding boxes of two matched components
 constexpr double kBoxReach = 0.03;
@@ -41,9 +41,9 @@ using Vertices = std::vector<std::uint32_t>;
 
 using Box = Eigen::AlignedBox3d;
 
-/// Matches each component with the one at its mirror image; kNoIndex if there is none. Components
-/// with equally many vertices are matched mutually first, nearest first, so that each layer of
-/// lashes finds its counterpart. The others get the nearest component.
+/// Matches each component with the one at its mirror image; kNoIndex if there is none. First
+/// matches components with equally many vertices mutually, the nearest pairs first, so that each
+/// layer of lashes finds its counterpart. The remaining components get the nearest component.
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
@@ -173,7 +173,7 @@ class PlaceFinder {
     map.corners[vertex] = {partner, partner, partner};
     map.shares[vertex] = {1, 0, 0};
   }
-  /// Marks a vertex as having no mutual partner: the position stays at the same vertex, but
+  /// Marks a vertex as having no mutual partner: its mirror point stays at the same vertex, but
   /// MirrorMap::is_vertex becomes false.
   static void no_partner(MirrorMap& map, std::uint32_t vertex) {
     std::swap(map.corners[vertex][0], map.corners[vertex][1]);
@@ -234,8 +234,9 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
   return as_good ? map.plane : fitted;
 }
 
-/// Vertices without partner keep the mean head's form. If the partner is a little too far away,
-/// only the excess is kept, so that there is no step.
+/// Corrects vertices without partner, so that mirroring keeps the mean head's shape there. If the
+/// partner is only a little too far away, the correction is only the excess distance, so that there
+/// is no step.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.kept.resize(static_cast<Index>(map.without.size()), 3);

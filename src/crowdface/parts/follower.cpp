@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// Reach of a rigid part's socket: for an eyeball as a fraction of its radius (about 12 mm), for
-/// other parts as a fraction of the skin's extent (about 43 cm).
+/// Reach of the socket of a rigid part. kEyeReach: for an eyeball, as a fraction of its radius
+/// (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
 /// Number of a part's vertices used to find its socket.
 constexpr std::size_t kMaxRough = 4000;
@@ -70,7 +70,7 @@ struct SkinOfMean {
 /// Returns the skin around a rigid part. The reach doubles until there is enough skin, because a
 /// part far from the skin follows whatever skin is nearest.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
-  // The distance between skin and part need not be more precise than the spacing of the part's
+  // The distance between skin and part needs no higher precision than the spacing of the part's
   // vertices.
   const PointGrid rough_grid(skin.mean, evenly_spaced_items(part.vertices, kMaxRough));
   Socket socket;

@@ -25,9 +25,9 @@ constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from 
 // largest distance of components that nearly touch, such as teeth
 constexpr double kTouch = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
-/// Smallest diagonal and thickness of an eyeball's bounding box, in radii. A ball has a diagonal of
-/// 3.5 radii, half a ball 3, and neither is thinner than one radius. A row of teeth fits a sphere
-/// too, but is half as thick.
+/// Smallest diagonal (kWhole) and thickness (kThick) of an eyeball's bounding box, in radii. A ball
+/// has a diagonal of 3.5 radii, half a ball 3, and neither is thinner than one radius. A row of
+/// teeth fits a sphere too, but is half as thick.
 constexpr double kWhole = 2.6, kThick = 0.8;
 // largest roughness of an eyeball, in radii: the cornea deviates from the sphere
 constexpr double kRound = 0.1;
@@ -69,9 +69,10 @@ double overlap(const Box& a, const Box& b, Index axis) {
   return a.intersection(b).sizes()(axis) - std::min(a.sizes()(axis), b.sizes()(axis)) / 2;
 }
 
-/// Returns how many of some components, sorted by height, are the teeth of the lower jaw: those
-/// below the widest gap between their middles. There are two rows only if each row is flatter than
-/// this gap, and the rows overlap as seen from above but hardly in height. Otherwise returns 0.
+/// Returns how many of some components, sorted by height, are the teeth of the lower jaw: the
+/// components below the widest gap between successive middles. There are two rows only if each row
+/// is flatter than this gap, and if the rows overlap as seen from above but hardly in height.
+/// Otherwise returns 0.
 std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;

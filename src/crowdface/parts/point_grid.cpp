@@ -65,8 +65,8 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   best.distance = reach;
   if (!in_reach(point, reach)) return best;
   const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
-  // Searches shells of cells around the point's cell. A cell of shell s is at least s − 1 cell
-  // widths away from a point, whether the point is inside or outside the grid.
+  // Searches shells of cells around the cell of the point. A cell of shell s is at least s − 1 cell
+  // widths away from the point, whether the point is inside or outside the grid.
   const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {
     for (const std::uint32_t v : between(number_of({low_x, y, z}), number_of({high_x, y, z}))) {
       const double dx = positions_(v, 0) - point.x();

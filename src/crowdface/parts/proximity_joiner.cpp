@@ -57,7 +57,8 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
 }
 
 /// Returns a component of the group that contains all points of the node, or kNoIndex if the points
-/// belong to several groups. Uses the values stored for the node's children, which may be outdated.
+/// belong to several groups. Uses the values stored for the node's children, which may be out of
+/// date.
 std::uint32_t ProximityJoiner::only_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {

@@ -13,8 +13,8 @@ using Vector = QuadraticProgram::Vector;
 using Matrix = std::array<Vector, QuadraticProgram::kMax>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A constraint's normal depends on the active ones if its squared distance from their span is
-/// below this (unit normals).
+/// A constraint's normal counts as dependent on the active normals if its squared distance from
+/// their span is below this (unit normals).
 constexpr double kDependent = 1e-12;
 
 double dot(const Vector& a, const Vector& b, std::size_t n) {

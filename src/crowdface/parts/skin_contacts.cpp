@@ -27,8 +27,8 @@ constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices 
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
-/// A gap may miss its range by this fraction of its place's amplitude. Evens out the amplitudes of
-/// neighbouring places.
+/// A gap may miss its range by this fraction of its place's amplitude. This tolerance makes the
+/// amplitudes of neighbouring places more equal.
 constexpr double kEvenness = 0.001;
 /// Largest amplitude of a place, as a multiple of the largest deviation of a gap from its range.
 constexpr double kMax = 4;
@@ -90,7 +90,7 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   constexpr double kMaxSteps = 1e4;
   const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMaxSteps));
 
-  // The skin outside has no side: it is represented by an extra row that stays 0.
+  // The skin outside this area belongs to no side: an extra row that stays 0 represents it.
   const auto rows = sides.vertices.size();
   std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
@@ -288,7 +288,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> by,
   });
 }
 
-/// Moved points change which points have the same depth, so this needs several rounds.
+/// When points move, other points come to lie at the same depth, so several rounds are needed.
 void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
   for (const Contact& contact : contacts_) {
     Profiles profiles;

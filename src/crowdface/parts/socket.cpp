@@ -6,8 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// Vertices beyond kMaxKept change the motion by less than 0.01 mm. Of larger sockets,
-/// kMaxMeasured vertices are measured.
+/// A socket keeps kMaxKept vertices; more would change the motion by less than 0.01 mm. In a larger
+/// socket, only kMaxMeasured vertices are measured.
 constexpr std::size_t kMaxKept = 1500, kMaxMeasured = 16 * kMaxKept;
 
 }  // namespace
