@@ -16,7 +16,8 @@ namespace {
 
 /// Largest distance between a found landmark and the template's in the estimated pose.
 constexpr double kFarMm = 25;
-/// Largest distance after a fit to all landmarks. Differences between faces are smaller.
+/// Largest distance between a found landmark and the template's, after a fit to all landmarks.
+/// Faces of different people differ by less.
 constexpr double kOffMm = 14;
 
 /// Landmarks of a scan whose head has the axes `axes`; empty if the mesh is not usable as a head
@@ -66,9 +67,9 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
     face->between /= pose.scale;
     face->scale /= pose.scale;
   }
-  // Try two orientations and keep the one with more landmarks. The fitted pose tilts scans that
-  // differ much from the template; the axes of the hint are inexact for scans that stand at an
-  // angle.
+  // Try two orientations and keep the one that gives more landmarks: the fitted pose, which is
+  // tilted for scans that differ much from the template, and the axes of the hint, which are
+  // inexact for rotated scans.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
       propose_on(scan, placed, shape.axes)};

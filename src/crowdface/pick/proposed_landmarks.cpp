@@ -69,7 +69,7 @@ std::optional<Eigen::Vector3d> best_of_outline(const FrontView& view, double mid
 }
 
 void propose_middle(const FrontView& view, const FaceMarks& marks, Proposals& proposals) {
-  // As fractions of the distance from mouth to eyes (about 65 mm).
+  // Lengths as fractions of the distance from mouth to eyes (about 65 mm).
   constexpr double kAroundTip = 0.08, kLipBegins = 0.02, kLipEnds = 0.15;
   // As a fraction of the distance from the lowest point of the chin to the mouth.
   constexpr double kChinEnds = 0.45;

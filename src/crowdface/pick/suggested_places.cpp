@@ -67,8 +67,8 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   return residuals;
 }
 
-/// The index of the pair whose residual is far beyond the others, or residuals.size() if there is
-/// none.
+/// Returns the index of the pair whose residual is far larger than those of the other pairs, or
+/// residuals.size() if there is no such pair.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
   // Corresponding points of two faces differ by about 5 mm after a similarity fit.
   constexpr double kMinMm = 15, kTimes = 3;
@@ -110,8 +110,8 @@ std::optional<PickedPlace> outermost(const PickableMesh& mesh,
   return outside && outside->normal.dot(place->normal) > 0 ? outside : place;
 }
 
-/// Likely template vertices of names that are not picked: mirrored landmarks, otherwise
-/// `proposals`.
+/// Likely template vertices for names that are not picked: the mirror image of a picked landmark,
+/// or else an entry of `proposals`.
 std::map<std::string, PickedPlace> suggest_on_template(
     const std::vector<PickedLandmark>& landmarks, const PickableMesh& mesh,
     const MirrorPlane& plane, const std::map<std::string, std::uint32_t>& proposals) {
