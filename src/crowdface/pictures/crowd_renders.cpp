@@ -18,9 +18,9 @@ namespace {
 /// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Extreme points of the attachments on all heads. Some vertices of each attachment are scaled with
-/// the bounding boxes of the heads, from the head it was fitted to. Fast, and exact enough for
-/// framing.
+/// Extreme points of the attachments on all heads. An attachment is not fitted to each head: some
+/// of its vertices are scaled from the bounding box of the head it was made for to that of the
+/// other head. This is fast, and exact enough for framing.
 std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const HeadSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
@@ -50,8 +50,8 @@ std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const He
   return reach;
 }
 
-/// For each vertex the displacement of the shape that moves it lowest, because an open jaw reaches
-/// below the neutral head.
+/// For each vertex, the lowest displacement of any shape, because an open jaw reaches below the
+/// neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {

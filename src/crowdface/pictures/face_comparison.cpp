@@ -19,8 +19,8 @@ namespace {
 
 using With = Config::Comparison::With;
 
-/// Like std::filesystem::exists. \throws MissingInput if that cannot be determined, for example in
-/// a folder without read permission.
+/// Like std::filesystem::exists. \throws MissingInput if the existence cannot be determined, for
+/// example in a folder without read permission.
 bool is_surely_there(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

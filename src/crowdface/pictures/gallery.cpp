@@ -30,7 +30,7 @@ constexpr std::size_t kMaxTriangles = 24'000;
 /// Limit for triangles behind closed lips: teeth and the lining of the mouth are finer than the
 /// face.
 constexpr std::size_t kMaxHidden = 2'000;
-/// Side of a face's textures; half of that if there are more than two textures.
+/// Width and height of a face's textures; half of this if there are more than two textures.
 constexpr int kMaxTexels = 1024;
 constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are left out
 constexpr float kMinLight = 0.004F;  ///< lower bound of `open_` if there are shapes
@@ -199,7 +199,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shown.vertices.push_back(v);
     }
   }
-  // The sky is visible from more vertices in the shape that moves most.
+  // In the shape that moves most, the sky is visible from more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
   widest_ = static_cast<std::size_t>(

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// For all materials together; a vertex takes 8 bytes of text per face.
+/// Limit for all materials of an attachment together. A vertex takes 8 bytes of text per face.
 constexpr std::size_t kMaxAttachmentTriangles = 24'000;
 constexpr int kMaxAttachmentTexels = 512;
 

@@ -18,7 +18,8 @@ const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) 
   return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
 }
 
-/// Mean of 3 by 3 samples that extend 1/512 of the texture's side in each direction.
+/// Mean of 3 by 3 samples around a point. They extend 1/512 of the texture's side in each
+/// direction.
 Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
   constexpr float kReach = 1.0F / 512;
   Light sum = Light::Zero();
