@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// For each row, the first row with equal coordinates: some files repeat coordinates for every
-/// corner.
+/// For each row, the first row with equal coordinates, because some files repeat coordinates for
+/// every corner.
 std::vector<std::uint32_t> first_of_equal(const TextureCoordinates& uvs) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(uvs.rows()));
   std::iota(order.begin(), order.end(), 0U);
