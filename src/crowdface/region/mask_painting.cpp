@@ -88,7 +88,7 @@ class Canvas {
     }
   }
 
-  /// Adjusts texels iteratively, so that samples at some places match given weights: each round
+  /// Adjusts texels iteratively until the samples at some places match given weights. Each round
   /// distributes the error of every sample over its texels.
   /// \param weights  for each place: the weights that a sample should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
