@@ -51,7 +51,7 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
   return camera;
 }
 
-/// The smallest wedge of given slope that contains all points added. A point at offset x and depth
+/// The smallest wedge of given slope that contains all added points. A point at offset x and depth
 /// z (towards the camera) is inside a wedge with slope s, centre c and distance d if and only if d
 /// ≥ z + |x − c|/s.
 struct Wedge {
@@ -90,8 +90,9 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
   return heights;
 }
 
-/// Height of the throat: the highest slice below the tip of the nose where the surface lies at
-/// least a quarter of the head's width behind the tip. No chin lies that far back.
+/// Returns the height of the throat: the highest slice below the tip of the nose at which the
+/// surface lies at least a quarter of the head's width behind the tip. A chin never lies that far
+/// behind.
 /// \return nothing if the head has no throat, as a mask or a head that ends at its chin.
 std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   constexpr std::size_t kSlices = 32, kLowestNose = 9;
@@ -113,7 +114,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     double& slice = ahead[slice_of(head.row(i).dot(up))];
     slice = std::max(slice, head.row(i).dot(front));
   }
-  // The slice of the tip of the nose, not in the lowest part, where a bust's chest may be foremost.
+  // The slice of the tip of the nose. The lowest part is not searched, because the chest of a bust
+  // may be farther in front.
   const auto nose = static_cast<std::size_t>(
       std::max_element(ahead.begin() + kLowestNose, ahead.end()) - ahead.begin());
   // The width of the head at the nose and above.

@@ -45,8 +45,8 @@ Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vecto
   return eye_albedo(stage.eyes[eye], stage.gaze, point);
 }
 
-/// Makes a unit normal face the viewer. Needed at the edge of a coarse ear, where interpolated
-/// normals may face away although the face is visible.
+/// Makes a unit normal face the viewer. Interpolated normals may face away although the face is
+/// visible, for example at the edge of a coarse ear.
 Vector towards(const Vector& viewer, const Vector& normal) {
   const float away = normal.dot(viewer);
   return away < 0 ? Vector((normal - away * viewer).normalized()) : normal;
@@ -120,10 +120,10 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   finish(stage, hit.primitive, weights, normal, result.surface);
   result.surface.normal = towards(result.surface.to_eye, side * normal);
   result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
-  // Start shadow rays on the smooth surface implied by the vertex normals, above the facets, so
-  // that facets do not show at grazing light (Hanika 2021, "Hacking the shadow terminator").
-  // Vertices at sharp edges whose normal faces away from the face are skipped: they would move the
-  // start below it.
+  // Start shadow rays on the smooth surface that the vertex normals imply, which lies above the
+  // facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
+  // terminator"). Skip vertices at sharp edges whose normal faces away from the face, because they
+  // would move the start below the face.
   Vector lift = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];

@@ -30,7 +30,8 @@ namespace crowdface {
 
 namespace {
 
-/// Replaces kRayClearance if occluders are reduced, so that rays start outside the reduced surface.
+/// Used in place of kRayClearance if occluders are reduced, so that rays start outside the reduced
+/// surface.
 constexpr float kReducedClearance = 2e-3F;
 
 /// Memory for rendering one face. Large, therefore reused for the next face.
@@ -210,7 +211,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
                                   paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
   }
   if (typical == nullptr) return;
-  // Independent of the camera, which only rotates and scales the points.
+  // The occluders do not depend on the camera, which only rotates and scales the points.
   prepared_->occluders = occluders_of(prepared_->quads, *typical);
 }
 FaceRenderer::~FaceRenderer() = default;

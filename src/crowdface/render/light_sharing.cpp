@@ -37,8 +37,8 @@ template <bool kInARow>
 void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
            std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
   using Field = PointLights;
-  // Small weight of the point's own rays, for a point that matches none of the pixels. Otherwise
-  // its own pixel among the 3 by 3 pixels counts them.
+  // The point's own rays get a small extra weight, which decides for a point that matches none of
+  // the pixels. For other points, the rays of its pixel, one of the 3 by 3 pixels, matter more.
   const Numbers own = number(0.01F);
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {
@@ -62,8 +62,8 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
         const auto along = [&](Numbers a, Numbers b, Numbers c) {
           return hn::Add(hn::Add(hn::Mul(u, a), hn::Mul(v, b)), hn::Mul(w, c));
         };
-        // Similarity of pixel and point in normal and position: 0 for another surface, 1 for the
-        // same.
+        // Similarity of a pixel and the point in normal and position: 1 if both show the same
+        // surface, 0 if not.
         const Numbers cosine =
             along(there(Field::kNormal), there(Field::kNormal + 1), there(Field::kNormal + 2));
         const Numbers facing =

@@ -72,8 +72,9 @@ std::vector<Triangle> split(const std::vector<Quad>& quads) {
   return triangles;
 }
 
-/// Embree filter for stochastic transparency (see Ray::lot): rejects hits with probability 1 −
-/// opacity. The hash of the primitive makes surfaces behind each other reject different rays.
+/// Embree filter for stochastic transparency (see Ray::opacity_seed): rejects a hit with
+/// probability 1 − opacity. The hash of the primitive makes surfaces behind each other reject
+/// different rays.
 void pass_holes(const RTCFilterFunctionNArguments* met) {
   const Opacity& opacity = *static_cast<const Opacity*>(met->geometryUserPtr);
   for (unsigned int i = 0; i < met->N; ++i) {
@@ -185,16 +186,18 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kForMoves;
-  // Robust mode avoids gaps along edges. Scenes that move do without: they only occlude light.
+  // Robust mode avoids gaps along edges. Scenes with kForMoves do not need it, because they only
+  // occlude light.
   rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
-  // Embree refits trees only in scenes of low quality. That quality concerns how the trees of
-  // several geometries are joined; here there is one geometry.
+  // Embree refits trees only in scenes of low quality. This quality affects only how the trees of
+  // several geometries are joined, and there is one geometry here.
   if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
   if (!quads.empty()) {
     state.geometry =
         rtcNewGeometry(state.device, moves ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_QUAD);
     if (moves) {
-      // Embree 4.3 has a bug: after refitting a tree over quads, rays pass through. Triangles work.
+      // Embree 4.3 has a bug: rays pass through a refitted tree over quads. A tree over triangles
+      // works.
       state.triangles = split(quads);
       rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
       rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,

@@ -10,7 +10,8 @@
 namespace crowdface {
 namespace {
 
-// The first match decides. Hidden parts come first, because they are often named after the eye.
+// The first matching word decides. Words of hidden parts come first, because such parts are often
+// named after the eye.
 constexpr auto kWords = std::to_array<std::pair<std::string_view, SurfaceKind>>({
     {"lash", SurfaceKind::kHidden},     {"lacrimal", SurfaceKind::kHidden},
     {"tear", SurfaceKind::kHidden},     {"occlusion", SurfaceKind::kHidden},

@@ -37,8 +37,8 @@ Vector around(const Vector& axis, const Eigen::Vector2f& disc) {
   return disc.x() * s + disc.y() * t;
 }
 
-/// How the samples of a pixel and of its neighbours differ: not at all, in the normal only, or in
-/// surface or colour.
+/// How the samples of a pixel differ from each other and from those of its neighbours: not at all,
+/// only in the normal, or in surface or colour.
 enum class Change : std::uint8_t { kNone, kRelief, kEdge };
 
 /// One list per field of PointLights, for a row of points.
@@ -91,7 +91,7 @@ CameraHit mean_of(std::span<const CameraHit> camera_hits) {
   return mean;
 }
 
-/// Visible fractions of the lights at points.
+/// For each of some surface points, the visible fraction of the key light and of the sky.
 struct Shares {
   std::vector<float> key, sky;
 };
@@ -114,8 +114,9 @@ TileMemory& tile_memory() {
   return memory;
 }
 
-/// One square of the image with a rim of two pixels. The inner ring shares its shadow rays with the
-/// square; the outer ring is only compared with the inner to detect edges.
+/// One square of the image with a rim of two pixels. Pixels of the inner ring of the rim share
+/// their shadow rays with the square; the outer ring is used only to detect edges in the inner
+/// ring.
 class Tile {
  public:
   Tile(const Stage& stage, const Sampling& sampling, int left, int top, int size)
@@ -400,7 +401,7 @@ class Tile {
     }
   }
 
-  /// Computes the visible fractions of the lights at points, see share_lights.
+  /// Computes the visible fraction of each light at some points, see share_lights.
   void share(const PointLists& points, std::size_t count, int x, int y, bool in_a_row,
              Shares& shares) {
     shares.key.resize(count + kMaxLanes);
