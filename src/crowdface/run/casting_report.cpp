@@ -28,7 +28,8 @@ Json to_json(const Quartiles& q) {
           {"max", rounded(q.max)}};
 }
 
-/// Distances from each face to its nearest neighbour: no pairs, hence no key "pairs".
+/// Distances from each face to its nearest neighbour. They are not distances of pairs, hence there
+/// is no key "pairs".
 Json nearest_to_json(const Quartiles& q) {
   Json json = to_json(q);
   if (json.is_object()) json.erase("pairs");

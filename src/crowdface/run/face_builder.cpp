@@ -86,7 +86,7 @@ Positions FaceBuilder::build(const Recipe& recipe) const {
 
 Positions FaceBuilder::rebuild(const Recipe& recipe, Kept& kept) const {
   if (!blender_) return build(recipe);
-  // Clear the state first, so that an exception cannot leave an inconsistent one.
+  // Clear the state before the update, so that an exception cannot leave an inconsistent state.
   if (const auto before = std::exchange(kept.recipe, std::nullopt)) {
     blender_->change(*before, recipe, kept.blended);
   } else {
@@ -147,7 +147,7 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
       of_target += share.weight * contacts_->head_gaps(share.head)[p];
     }
     SkinContacts::Range range{of_target, of_target};
-    for (std::size_t b = 0; b < bands; ++b) {  // a gap may come from any band
+    for (std::size_t b = 0; b < bands; ++b) {  // a gap may come from the sources of any band
       double of_sources = 0;
       for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
         const RegionRecipe& region = recipe.regions[k];
@@ -167,8 +167,8 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   return ranges;
 }
 
-/// Extends each range by that of the mirrored contact: an asymmetric face may take its gap from
-/// either corner of the mouth.
+/// Extends each range to include the range of the mirrored contact: an asymmetric face may take its
+/// gap from either corner of the mouth.
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {

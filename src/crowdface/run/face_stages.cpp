@@ -24,16 +24,16 @@
 namespace crowdface {
 namespace {
 
-/// Maximum number of faces blended together. A group reads the fields once, but for larger groups,
-/// allocating new memory takes longer than that saves. A multiple of the number of faces that one
-/// matrix product handles.
+/// Maximum number of faces blended together. A group reads the fields only once, but for larger
+/// groups the allocation of new memory takes longer than the saved reading. It is a multiple of the
+/// number of faces that one matrix product handles.
 constexpr std::size_t kMaxAtOnce = 24;
 /// Memory for rendering, per vertex of a face: normals, quads on the image, and the gallery's
 /// smaller mesh. The value is an upper bound, with a margin, of a measurement at 1.2 million
 /// vertices.
 constexpr std::uint64_t kRenderBytesPerVertex = 300;
-/// Memory of the heads' mesh per vertex, whatever the number of heads: polygons, texture
-/// coordinates, adjacency, binding of parts. Measured: 262 at 1.2 million vertices.
+/// Memory of the heads' mesh per vertex, independent of the number of heads: polygons, texture
+/// coordinates, adjacency, binding of parts. Measured: 262 bytes at 1.2 million vertices.
 constexpr std::uint64_t kMeshBytesPerVertex = 300;
 
 std::uint64_t vertex_count(const Inputs& inputs) {
@@ -206,7 +206,8 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
-  // Besides the files in the threads, files wait in the queue, and as many are being written.
+  // Besides the files in the threads, there are files waiting in the queue and as many being
+  // written.
   standing += of_threads + 2 * waiting_bytes_;
   const std::uint64_t one_face = builder.bytes(1);
   at_once_ = faces_at_once(standing, one_face, memory);

@@ -85,7 +85,8 @@ struct PlannedJob {
   CrowdPlan crowd_plan;
   std::vector<std::string> warnings;  ///< see near_heads; empty for a shard's faces
   nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
-  /// If not empty, `crowd_plan` comes from the folder's plan; for a shard, it then has only the shard's
+  /// The plan files from which `crowd_plan` was read, if it was read from the folder; empty if the
+  /// crowd was cast by this run. If a shard reads the plan, `crowd_plan` holds only the shard's
   /// faces.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
@@ -278,8 +279,8 @@ bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
                                                            : path_exists(directory.ledger(shard)));
 }
 
-/// Whether this run is certain to make faces. A resumed crowd may have none to make; a new crowd
-/// can be rejected before anything is written.
+/// Whether this run is certain to make faces. A resumed crowd may already be complete, and a new
+/// crowd can be rejected before anything is written.
 bool makes_faces(const Config& config, const GenerateOptions& options) {
   const CrowdDirectory directory = directory_of(config);
   const bool is_new = options.replace == Replace::kForce || !goes_on(directory, options.shard);

@@ -18,7 +18,7 @@ namespace crowdface {
 
 namespace {
 
-/// The materials of a level's polygons as runs of equal material.
+/// The materials of a level's polygons, as ranges of polygons with equal material.
 std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
                                            const DetailLevel& level) {
   const FaceMaterials materials = face_materials(file.materials, faces);
@@ -58,7 +58,7 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// Replacements for the targets' own `mtllib` lines if material files lie elsewhere.
+/// `mtllib` lines that replace the targets' own lines, if the material files lie in another folder.
 std::map<Index, std::string> shared_libraries(const MeshSource& source) {
   std::map<Index, std::string> lines;
   if (source.shared.empty()) return lines;

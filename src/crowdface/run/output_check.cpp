@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \throws UsageError if an input lies where this run writes files and deletes those of an old
-///         crowd.
+/// \throws UsageError if an input lies at a path that this run writes, or whose old file it
+///     deletes.
 void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& directory) {
   const auto& sheet = config.output.contact_sheet;
   for (const fs::path& input : input_files(config)) {

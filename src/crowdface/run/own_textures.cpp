@@ -90,7 +90,8 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
 }
 
 /// The formats in which a face's image is written. Colours use the config's formats. Other kinds
-/// use PNG instead of JPEG, which would blur them; heights that a head has as floats use only EXR.
+/// use PNG instead of JPEG, which would blur them. Heights that some head stores as floats use only
+/// EXR.
 std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture) {
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =
