@@ -16,16 +16,16 @@
 namespace crowdface {
 namespace {
 
-/// Triangles at most kSheetRings edges apart belong to one sheet. Two such triangles face alike if
-/// the cosine between their normals is at least kAlike.
+/// Triangles at most kSheetRings edges apart count as one sheet. Two triangles of a sheet face
+/// alike if the cosine between their normals is at least kAlike.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 
 /// Upper limit of both search distances, in mean leaf sizes. On a dense mesh, leaves are small, and
-/// larger distances would give too many pairs of leaves.
+/// with larger distances there would be too many pairs of leaves.
 constexpr double kMaxLeaves = 3;
 
-/// Candidates of a leaf paired with itself: each pair of triangles once.
+/// Bits of the candidates of a leaf paired with itself: each pair of triangles occurs once.
 constexpr std::uint64_t kOnce = [] {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < LeafBoxes::kCount; ++i) {

@@ -20,7 +20,8 @@ constexpr double kBetween = 0.1;   // radius of a node's influence
 constexpr double kPatch = 0.1;     // radius of the patch that determines a node's map
 /// Weight of the whole skin's similarity in a node's fit, as a fraction of the patch's scatter.
 constexpr double kWhole = 0.02;
-/// Largest number of vertices used for the whole skin, as candidates for nodes, and for a patch.
+/// Largest numbers of vertices: kMaxSkin for the whole skin, kMaxCandidates for candidates of
+/// nodes, kMaxPatch for a patch.
 constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
 /// Farthest-point sampling: adds the vertex farthest from those chosen so far, until none is

@@ -9,7 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// As a fraction of the skin's extent; 0.4 mm on a head.
+/// Largest change of a gap that counts as nearly the same, as a fraction of the skin's extent: 0.4
+/// mm on a head.
 constexpr double kMaxChange = 1e-3;
 
 }  // namespace

@@ -15,25 +15,27 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the eyeball's radius, about 12 mm.
-// Closing acts fully up to kWholeShare from the eyeball's centre, and not at all from kNoShare on.
+// Lengths are fractions of the eyeball's radius, about 12 mm. Distances from the eyeball's centre:
+// up to kWholeShare, closing moves the skin fully; from kNoShare on, not at all.
 constexpr double kWholeShare = 1.8, kNoShare = 3;
-// Keeping off acts fully up to kWholeHold from the eyeball's surface, not at all from kNoHold on.
+// Distances from the eyeball's surface: up to kWholeHold, skin is kept off the eyeball fully; from
+// kNoHold on, not at all.
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;
 constexpr std::size_t kPlaces = 52;  // number of places along the opening
 constexpr double kProfile = 0.35;    // radius of a profile around its place
 constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
-// A place counts as closed by the shape if its gap shrinks by at least this much.
+// Smallest decrease of a gap at which the shape counts as closing a place.
 constexpr double kMinClosed = 0.05;
-/// The template's shape closes a place if at most this fraction of the gap at rest is left.
+/// The shape closes a place of the template if at most this fraction of the gap at rest remains.
 constexpr double kLeft = 0.4;
-// clearance from the eyeball, if template and face have at least this
+// clearance from the eyeball that lids keep, if template and face at rest have at least this
+// clearance
 constexpr double kMargin = 0.004;
 /// Largest depth of skin in the eyeball, unless the skin is deeper at rest.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
-/// If gaps must be corrected, lids close by up to this much more than the template's, so that skin
-/// between the places closes too.
+/// If gaps must be corrected, lids close by up to this much more than on the template, so that the
+/// skin between the places closes too.
 constexpr double kSure = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
@@ -285,7 +287,7 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const Rigid
     const double least = min_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // Count only the part by which this vertex is moved.
+    // Count the missing distance only to the extent that this vertex may be moved.
     is_out = is_out && lid.hold * (least - now.gap) < some;
     moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
   }

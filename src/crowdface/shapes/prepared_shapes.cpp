@@ -21,8 +21,8 @@ namespace {
 constexpr std::size_t kMaxFitted = 500;
 /// Skin this near to an eyeball's centre belongs to the eye; in radii.
 constexpr double kEyeSkin = 3;
-/// A shape that moves lips through each other by more than this needs a companion. As a fraction of
-/// the skin's extent; about 5 mm.
+/// Depth by which a shape must move the lips through each other to count as corrective (see
+/// companions_of), as a fraction of the skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
 std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {

@@ -37,12 +37,12 @@ Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
   return v + q[0] * once + axis.cross(once);
 }
 
-/// Rotates and scales a direction back to the template.
+/// Transforms a direction on the face to the template, by the inverse rotation and scale.
 Vector3d undone(const RigidMotion& whole, const Vector3d& direction) {
   return whole.undo(whole.to + direction) - whole.from;
 }
 
-/// Returns the displacement of a vertex by the rotation alone.
+/// Returns the displacement that the rotation alone gives a vertex.
 Vector3d by_turn(const std::array<double, 4>& quaternion, const PlacedPart& placed,
                  std::uint32_t vertex) {
   const Vector3d arm = row3(placed.mesh, vertex) - placed.middle;

@@ -13,10 +13,11 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of repairs, while a repair moves lids into an eyeball or opens them.
+/// Largest number of rounds of repairs. Another round follows only if the last one moved lids into
+/// an eyeball or opened them.
 constexpr int kMends = 3;
-/// Cost of a gap between closed lids as wide as the eyeball's radius, in intersecting triangles.
-/// Intersections between closed lids are out of sight.
+/// Cost of a gap between lids that should be closed, per eyeball radius, in units of one
+/// intersecting triangle. The cost is high because intersections between closed lids are invisible.
 constexpr double kOpenIsAsBad = 1000;
 
 using Carrier = PreparedShapes::Carrier;
@@ -157,7 +158,7 @@ void CarriedShape::fit_lids() {
   }
 }
 
-/// Lips that the shape leaves closed stay closed. If the shape closes the lips that its companion
+/// Lips that the shape leaves closed stay closed. If the shape closes lips that its companion
 /// opens, all gaps change as on the template.
 void CarriedShape::keep_contacts() {
   // Compute the wanted change of each gap: the weighted mean of the sets' changes.
@@ -235,7 +236,8 @@ void CarriedShape::close_lids() {
   }
 }
 
-/// \return  Whether no lid was noticeably inside an eyeball.
+/// Moves the lids of all eyes out of the eyeballs, see LidClosure::keep_out. \return  Whether no
+/// lid was noticeably inside an eyeball before.
 bool CarriedShape::keep_lids_out() {
   bool are_out = true;
   for (std::size_t e = 0; e < goals_.size(); ++e) {

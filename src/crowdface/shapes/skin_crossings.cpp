@@ -14,23 +14,24 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm.
-/// Distance on the template up to which triangles may intersect on a face: any triangles, and
-/// triangles that face each other.
+// Lengths are fractions of the skin's extent, about 430 mm. Largest distance on the template of two
+// triangles that may intersect on a face: kMeets for any triangles, kFacing for triangles that face
+// each other.
 constexpr double kMeets = 0.008, kFacing = 0.02;
 // rings of triangles to search around skin that may meet
 constexpr int kRings = 2;
-// Averaging acts fully up to kEvened from intersections (at rest), not at all from kNotEvened on.
+// Distances from intersections, at rest: up to kEvened, displacements are averaged fully; from
+// kNotEvened on, not at all.
 constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
-// the same lengths where skin is arranged as on the template, as a factor
+// factor on these lengths where skin is arranged as on the template
 constexpr double kLaid = 0.7;
 /// Fraction of the averaging's vertical change that is applied to lids, so that the eye stays
 /// closed.
 constexpr double kClosing = 0.3;
-// push per round, and its radius around intersections, at rest
+// kPush: push per round. kPushed: radius around intersections, at rest, in which skin is pushed.
 constexpr double kPush = 0.00015, kPushed = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement before giving up, where lids meet
@@ -83,8 +84,8 @@ class SkinCrossings::Mending {
 
   Index crossing() const { return crossing_triangles(pairs_); }
 
-  /// Lids are pushed apart first. If intersections remain, they are arranged as on the template,
-  /// starting anew.
+  /// First pushes the lids apart. If intersections remain, starts again and arranges the lids as on
+  /// the template.
   void take_apart(const Harm& harm) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
@@ -139,9 +140,9 @@ class SkinCrossings::Mending {
     pairs_ =
         watched_.search.crossing(mesh_, boxes_, [&](std::uint32_t t) { return is_excused(t); });
   }
-  /// Searches again after vertices moved.
+  /// Searches for intersections again after vertices have moved.
   ///
-  /// \param before  Pairs that intersected before the move. Those without a moved vertex still do.
+  /// \param before  Pairs that intersected before the move. Pairs without a moved vertex still do.
   void look_again(const std::vector<Pair>& before) {
     for (const ShapeRow& row : watched_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();

@@ -19,21 +19,21 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm.
-// wanted depth below the skin, or the template's depth if that is less
+// Lengths are fractions of the skin's extent, about 430 mm. depth below the skin that a covered
+// vertex should have, or its depth on the template if that is less
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
-// nothing to do if the triangle that covers the vertex on the template is farther away
+// a vertex needs no check if the triangle that covers it on the template is farther away than this
 constexpr double kNear = 0.008;
 constexpr double kPushedAround = 0.02;  // radius of the skin that moves along
 // size of the cells in which one vertex represents the others
 constexpr double kFrontCell = 0.0025;
-// only skin less than this fraction of the wanted depth away is pushed
+// skin is pushed only if its distance is less than this fraction of the depth that it should have
 constexpr double kTooNear = 0.25;
 // smallest cosine between the skin's normal and the front; excludes the rims of the lips
 constexpr double kFacesFront = 0.5;
-/// The triangles around the covering triangle that may be in front on a face: kSlides wide, but
-/// between kMinRings and kMaxRings rings.
+/// On a face, another triangle near the covering triangle may be in front. This neighbourhood is
+/// kSlides wide, but has at least kMinRings and at most kMaxRings rings.
 constexpr double kMinRings = 2, kMaxRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
@@ -182,7 +182,7 @@ void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
                          std::span<const ShapeRow> rows, Positions& mesh,
                          Displacements& shape) const {
   shape.add_to(mesh);
-  // remaining push for each covered vertex: at most the shape's own movement
+  // largest further push for each covered vertex: at most the shape's own movement
   std::vector<double> most;
   for (const Covered& covered : covered_) {
     double least = HUGE_VAL;

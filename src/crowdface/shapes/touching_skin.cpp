@@ -12,12 +12,12 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm.
-// largest distance of skin that may meet; other faces are narrower
+// Lengths are fractions of the skin's extent, about 430 mm. largest distance between skin that may
+// come into contact, since other faces may be narrower
 constexpr double kMeetingReach = 0.02;
-constexpr double kMeetingReachEdges = 1.6;  // the same, in edge lengths
-/// Skin may meet if its distance in the shape is at most kOfMove times the larger movement plus
-/// kOfDifference times the difference of both movements.
+constexpr double kMeetingReachEdges = 1.6;  // the same limit in edge lengths
+/// Skin at two vertices may meet if their distance in the shape is at most kOfMove times the larger
+/// of their movements plus kOfDifference times the difference of both movements.
 constexpr double kOfMove = 4, kOfDifference = 10;
 // an edge folds if its ends move differently by more than this fraction of its length
 constexpr double kFolds = 0.5;
