@@ -10,9 +10,9 @@
 namespace crowdface {
 namespace {
 
-/// Rows per tile, and recurrence steps per round, after which tiles exchange their boundary rows.
-/// Chosen by measurement: a tile's two vectors and its part of the sums stay in a core's own cache
-/// (docs/benchmarks.md).
+/// kTileRows: rows per tile. kStepsPerTurn: recurrence steps per round, after which tiles exchange
+/// their boundary rows. Both are chosen by measurement: a tile's two vectors and its part of the
+/// sums stay in a core's own cache (docs/benchmarks.md).
 constexpr Index kTileRows = 6144;
 constexpr int kStepsPerTurn = 8;
 
@@ -109,7 +109,8 @@ class Recurrence {
   void add_term(const Tile& tile, Index k, const Row<T>* term) {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const double a = coefficient(input_.series[s], k);
-      // Every second coefficient of an umbrella series, and all beyond a short series.
+      // Coefficients are zero at every second term of an umbrella series, and beyond the end of a
+      // short series.
       if (a == 0) continue;
       add_scaled<T>(static_cast<T>(a), term, tile.count, sums_[s].data() + tile.first);
     }

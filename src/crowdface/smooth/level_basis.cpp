@@ -101,8 +101,8 @@ class TileFitter {
       const auto of_field = [&](std::size_t p) {
         return std::span(std::as_const(by_vertex)).subspan(p * kTileValues, kTileValues);
       };
-      // Skip trailing fields whose summed upper bounds are negligible, without evaluating their
-      // error at each level.
+      // Skip trailing fields whose upper bounds have a negligible sum; their error need not be
+      // evaluated at each level.
       std::size_t looked_at = count_;
       double unseen = 0;
       for (; looked_at > 0; --looked_at) {

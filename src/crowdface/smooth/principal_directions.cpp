@@ -202,7 +202,7 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
     const Eigen::MatrixXd distances = directions.missed;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;
-    // Raise the importance of the levels with the largest errors.
+    // Raise the importance of the levels at which the errors are largest.
     const auto wanted = distances.col(best.rank - 1);  // errors with one direction fewer
     for (Index l = 0; l < importance.size(); ++l) {
       importance(l) *= std::sqrt(wanted(l) / wanted.maxCoeff() + kFloor);
