@@ -46,9 +46,9 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
   return mean_of(target, mean);
 }
 
-/// Gives the weight of heads without a map to heads with a map: takes the first of `choices` that
-/// has weight on a head with a map, and normalizes it over these heads. If no choice has, all heads
-/// with a map get equal weights.
+/// Moves the weight of heads without a map to heads with a map: takes the first of `choices` that
+/// gives weight to a head with a map, and normalizes it over these heads. If no choice does, all
+/// heads with a map get equal weights.
 HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
                           const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -67,7 +67,7 @@ HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
 
 /// The heads' weights in one picture of one face.
 struct FaceWeights {
-  HeadWeights of_target;               ///< τ, for vertices of the target alone
+  HeadWeights of_target;               ///< τ, for vertices that only the target colours
   HeadWeights of_face;                 ///< W
   std::vector<HeadWeights> of_region;  ///< v at vertices of this region only
 };
