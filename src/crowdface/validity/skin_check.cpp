@@ -40,11 +40,11 @@ std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& 
   return triangles;
 }
 
-/// A viewer counts only if the cosine between the direction to the viewer and the normal of the
-/// back side exceeds this; flatter views show little.
+/// A view of a back side counts only if the cosine between the direction to the viewer and the
+/// normal of the back side exceeds this; at smaller cosines little is visible.
 constexpr double kFlattestCosine = 0.2;
-/// Spacing of the visibility samples on a triangle, and the largest number of samples along an
-/// edge.
+/// kSpacingMm: spacing of the visibility samples on a triangle. kMaxAlongEdge: largest
+/// number of samples along an edge.
 constexpr double kSpacingMm = 1;
 constexpr int kMaxAlongEdge = 8;
 
@@ -89,10 +89,10 @@ double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_
   return static_cast<double>(shown) / (n * n);
 }
 
-/// The visible area of a skin's back side, in the positions' unit squared. The back shows where
-/// skin passes through other skin, such as the lining of a nostril through its wing. Searches from
-/// the intersecting triangles outwards, across triangles with a visible back, at samples about a
-/// millimetre apart.
+/// Returns the area of a skin's back side that is visible, in the positions' unit squared. The back
+/// side shows where skin passes through other skin, such as the lining of a nostril through the
+/// wing of the nose. The search begins at intersecting triangles and continues across triangles
+/// with a visible back side, at samples about a millimetre apart.
 /// \param around        the triangles at each vertex.
 /// \param intersecting  pairs of intersecting triangles.
 double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& triangles,

@@ -84,7 +84,8 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
 template <class Keep>
 void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                                    std::vector<TrianglePair>& found) const {
-  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;  // the bits 8 i + j with j > i
+  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;  // the bits 8 i + j with j > i: each
+                                                            // pair of a leaf with itself once
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
   std::uint64_t left = overlapping(leaves_[one], leaves_[other]);
   if (one == other) left &= kLaterOnes;
@@ -185,7 +186,7 @@ std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
-  // Size of the stack: suffices for 2³² triangles, because each level halves their number.
+  // Size of the stack: sufficient for 2³² triangles, because each level halves their number.
   constexpr std::size_t kDeepest = 40;
   std::array<std::uint32_t, kDeepest> waiting;
   std::size_t count = 0;
