@@ -19,7 +19,7 @@ constexpr double kMinOpen = 0.04;         // vertices below this openness are in
 constexpr double kOpennessOfSkin = 0.25;  // the scan has full weight from this openness on
 constexpr std::size_t kMaxScanPoints = 8000;
 constexpr int kBendSteps = 3;              // steps per round
-constexpr double kHiddenStiffnessMm = 10;  // least stiffness where the scan shows nothing
+constexpr double kHiddenStiffnessMm = 10;  // smallest stiffness where the scan shows no skin
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 

@@ -23,11 +23,11 @@ constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kNoWall = 0.7;  // least cosine between the normals of scan and skin
 constexpr double kMinOpenness = 0.15;
-constexpr double kUnasked = 1e-4;  ///< weight of a zero offset where there is no scan data
+constexpr double kUnasked = 1e-4;  ///< weight of a zero offset at vertices without scan data
 constexpr int kSteps = 30;
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
-/// Least share of a triangle's area, projected on its previous normal.
+/// Smallest fraction of a triangle's area that must remain, projected on its previous normal.
 constexpr double kMinLeft = 0.05;
 /// Least cosine between a triangle's normal and the template's.
 constexpr double kMinFaceCosine = 0.05;
@@ -39,8 +39,8 @@ double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 }
 
 /// Solves (W + c Uᵀ U) x = W r, where U x is the difference between a value and the mean of its
-/// neighbours. Uses conjugate gradients with the diagonal as preconditioner, which suffices because
-/// the stiffness reaches over only an edge or two.
+/// neighbours. Uses conjugate gradients with the diagonal as preconditioner; this is sufficient
+/// because the stiffness acts over only one or two edges.
 class SmoothFit {
  public:
   SmoothFit(const Adjacency& adjacency, double stiffness)
@@ -116,7 +116,7 @@ AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Pos
 }
 
 /// Whether a triangle flips relative to its state before the offsets, or relative to the template
-/// if it was not already flipped there.
+/// unless it was already flipped there.
 bool turns_over(const Positions& rest, const Positions& before, const Positions& normals,
                 const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
@@ -148,8 +148,8 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
   return turned;
 }
 
-/// Reduces offsets around flipped triangles: to zero at the triangle, less towards the border of
-/// the patch.
+/// Reduces offsets around flipped triangles: to zero at the triangle, and gradually less towards
+/// the border of the patch.
 void hold_back(const Positions& rest, const Positions& before, const Positions& normals,
                std::span<const std::uint32_t> turned, const PatchMender& mender,
                Eigen::VectorXd& along) {
@@ -168,9 +168,9 @@ void hold_back(const Positions& rest, const Positions& before, const Positions& 
   mender.mend(turned, is_bad, change);
 }
 
-/// Removes folds between neighbours that found different layers of the scan: there, and in a
-/// neighbourhood that grows as needed, replaces offsets by the mean of their neighbours.
-/// \param mender  of the skin; created on first use.
+/// Removes folds between neighbouring vertices that found different layers of the scan. There, and
+/// in a neighbourhood that grows as needed, each offset is replaced by the mean of its neighbours.
+/// \param mender  repairs the skin; created on first use.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,
                     Eigen::VectorXd& along) {

@@ -15,10 +15,10 @@ namespace crowdface {
 
 namespace {
 
-/// Finds the position of each large-skin vertex on the small skin: on a triangle around the small
-/// vertex that is nearest along the surface, or around a neighbour of that vertex. Distances in
-/// space would fail, because lips touch and nostrils have thin walls: the nearest point may be on
-/// the other side.
+/// Finds the position of each vertex of the original skin on the reduced skin: on a triangle around
+/// the reduced vertex that is nearest along the surface, or around one of its neighbours. Distances
+/// in space would fail, because lips touch and nostrils have thin walls: the nearest point may be
+/// on the other side.
 std::vector<ReducedSkin::Place> find_places(const SkinMesh& skin, const Positions& positions,
                                             const SkinMesh& small) {
   const Positions corners = small.of(positions);
@@ -81,8 +81,8 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::s
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
   reduced.places = find_places(skin, positions, reduced.mesh);
-  // One smoothing step reaches half an edge; creases in the interpolated values are one edge of the
-  // small skin apart.
+  // One smoothing step acts over half an edge; creases in the interpolated values are one edge of
+  // the reduced skin apart.
   const auto ratio = static_cast<double>(skin.vertices.size()) /
                      static_cast<double>(std::max<std::size_t>(1, small.vertices.size()));
   reduced.smoothings = static_cast<int>(std::clamp(ratio, 2.0, 120.0));

@@ -58,7 +58,7 @@ double share_far(const std::vector<double>& distances) {
   return distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
 }
 
-/// ", most of all of the brow (12.5 %)", or nothing.
+/// Returns ", most of all of the brow (12.5 %)", or an empty text.
 std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
                             const SkinRegions& regions) {
   double most = 0;

@@ -16,11 +16,12 @@
 namespace crowdface {
 namespace {
 
-constexpr double kClosed = 0.4;  // relative to the template's lid opening
+constexpr double kClosed = 0.4;  // fraction of the template's lid opening below which an eye counts
+                                 // as closed
 // in eyeball radii: half width of the region where lids are widest apart
 constexpr double kMiddle = 0.4;
-constexpr double kOpenMouthMm = 3;  // more than between the template's lips
-constexpr double kHairMm = 10;      // heads without hair differ by less
+constexpr double kOpenMouthMm = 3;  // how much farther apart than the template's the lips must be
+constexpr double kHairMm = 10;      // heads without hair differ by less than this
 constexpr double kMaxFar = 0.05;
 constexpr std::size_t kMin = 20;  // least number of vertices in a region
 

@@ -51,8 +51,9 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   return result;
 }
 
-/// Adds the final distances and marks outliers. The surface and the other landmarks hold a
-/// misplaced landmark at its true position, so it ends far from its picked position.
+/// Adds the final distances and marks outliers. The surface and the other landmarks hold the
+/// template's landmark at its true position, so a misplaced landmark ends far from its picked
+/// position.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;

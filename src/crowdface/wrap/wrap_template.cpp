@@ -13,7 +13,8 @@ namespace {
 
 constexpr Index kMinVertices = 100;
 
-/// Computes the openness of the skin; for a large skin, only at the vertices of its reduced skin.
+/// Computes the openness of the skin. For a large skin, computes it only at the vertices of the
+/// reduced skin.
 void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
   const Positions normals = vertex_normals(shape.topology, shape.positions);
   const std::vector<Triangle> solid = solid_triangles(shape);
