@@ -80,7 +80,7 @@ double Hair::strand(const Vector3d& p) const {
   return straight + style_.curls * (curled - straight);
 }
 
-/// Returns the share of long hair on the neck, 0 … 1; it begins behind the ears.
+/// Returns how much long hair falls on the neck here, 0 … 1; it begins behind the ears.
 double Hair::falling(const Vector3d& p) const {
   if (style_.nape <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());

@@ -98,7 +98,8 @@ class Grower {
       const double swing = cut_.wave * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
       next = beside_face(next, fringe);
-      // A lock lies on the hair below: its distance from the head never decreases along the lock.
+      // A lock lies on the hair below it: the lock's distance from the head never decreases along
+      // the lock.
       rest = std::max(rest, hair_stand_off(cut_, next));
       next = laid(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
       // Cut the lock at the fringe or the hem.
