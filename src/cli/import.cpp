@@ -56,8 +56,8 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
     }
   }
   if (tagged.empty()) return;
-  const std::string about = concat("Heads of the ", kind, " model, seed ", wanted.seed);
-  files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, about)));
+  const std::string add_at = concat("Heads of the ", kind, " model, seed ", wanted.seed);
+  files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, add_at)));
 }
 
 /// Paints the region masks. The caller does this before it writes files, because the function fails

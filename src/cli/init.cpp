@@ -95,8 +95,8 @@ constexpr std::size_t kHeadsLookedAt = 8;
 
 /// What the heads' shapes tell.
 struct Seen {
-  Positions first;                 ///< vertices of the first head
-  std::optional<Bearing> bearing;  ///< up and front axes
+  Positions first;                         ///< vertices of the first head
+  std::optional<Orientation> orientation;  ///< up and front axes
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
   bool stands_apart = false;  ///< some head is rotated or shifted relative to the others
@@ -119,17 +119,17 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     return {read_mesh_as_obj(files[0]).positions, {}, {}};
   }
   const HeadShape mean = shape_of_mean(*set);
-  Seen seen{set->heads[0].positions, find_bearing(set->topology, mean), {}};
-  if (const auto marks = find_face_marks(set->topology, mean,
-                                         axes_of(seen.bearing.value_or(Bearing{{1, 1}, {2, 1}})))) {
+  Seen seen{set->heads[0].positions, find_orientation(set->topology, mean), {}};
+  if (const auto marks = find_face_marks(
+          set->topology, mean, axes_of(seen.orientation.value_or(Orientation{{1, 1}, {2, 1}})))) {
     seen.face = marks->face();
   }
   seen.has_uvs = set->uvs.rows() > 0;
   seen.stands_apart = needs_rigid_alignment(*set);
   if (!with_masks) return seen;
   try {
-    const Bearing bearing = seen.bearing.value_or(Bearing{{1, 1}, {2, 1}});
-    seen.masks = propose_masks(*set, mean, bearing, parse_bands("brow,nose,mouth"),
+    const Orientation orientation = seen.orientation.value_or(Orientation{{1, 1}, {2, 1}});
+    seen.masks = propose_masks(*set, mean, orientation, parse_bands("brow,nose,mouth"),
                                mask_size(set->topology.vertex_count));
   } catch (const InvalidInput& error) {
     log_warning(concat("no regions: ", error.what()));
@@ -226,9 +226,9 @@ void init(const InitOptions& options) {
                        " needs"));
     mask.clear();
   }
-  if (seen.bearing) {
-    facts.up = seen.bearing->up;
-    facts.front = seen.bearing->front;
+  if (seen.orientation) {
+    facts.up = seen.orientation->up;
+    facts.front = seen.orientation->front;
   }
   facts.align_rigidly = seen.stands_apart;
   for (const fs::path& head : files) facts.names.push_back(head.stem().string());

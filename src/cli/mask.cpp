@@ -31,7 +31,7 @@ struct MaskOptions : CommonOptions {
 /// The heads, and their up and front axes if a config defines these.
 struct WantedMask {
   Config::Faces faces;
-  std::optional<Bearing> bearing;
+  std::optional<Orientation> orientation;
 };
 
 WantedMask heads_of_folder(const fs::path& folder) {
@@ -54,7 +54,7 @@ WantedMask heads_of_config(const fs::path& file) {
   const ConfigReading reading = read_config_parts(file, {}, problems);
   if (!reading.heads_known) problems.throw_if_any();
   const Config::Faces& faces = reading.config.faces;
-  return {faces, Bearing{faces.up, faces.front}};
+  return {faces, Orientation{faces.up, faces.front}};
 }
 
 void read_axis(const std::string& option, const std::string& text, Axis& axis) {
@@ -65,18 +65,18 @@ void read_axis(const std::string& option, const std::string& text, Axis& axis) {
   axis = *read;
 }
 
-Bearing bearing_of(const MaskOptions& options, const WantedMask& wanted, const Topology& topology,
-                   const HeadShape& mean) {
-  Bearing bearing = wanted.bearing.value_or(Bearing{{1, 1}, {2, 1}});
-  if (options.up.empty() && options.front.empty() && !wanted.bearing) {
-    return find_bearing(topology, mean).value_or(bearing);
+Orientation bearing_of(const MaskOptions& options, const WantedMask& wanted,
+                       const Topology& topology, const HeadShape& mean) {
+  Orientation orientation = wanted.orientation.value_or(Orientation{{1, 1}, {2, 1}});
+  if (options.up.empty() && options.front.empty() && !wanted.orientation) {
+    return find_orientation(topology, mean).value_or(orientation);
   }
-  read_axis("--up", options.up, bearing.up);
-  read_axis("--front", options.front, bearing.front);
-  if (bearing.up.index == bearing.front.index) {
+  read_axis("--up", options.up, orientation.up);
+  read_axis("--front", options.front, orientation.front);
+  if (orientation.up.index == orientation.front.index) {
     throw UsageError("--up, --front: expected two different axes");
   }
-  return bearing;
+  return orientation;
 }
 
 void mask(const MaskOptions& options) {
@@ -91,11 +91,11 @@ void mask(const MaskOptions& options) {
   const auto faces = load_faces(wanted.faces, options.cache.cache_path(), problems);
   problems.throw_if_any();
   const HeadShape mean = shape_of_mean(*faces);
-  const Bearing bearing = bearing_of(options, wanted, faces->topology, mean);
+  const Orientation orientation = bearing_of(options, wanted, faces->topology, mean);
   const int size = options.size.empty()
                        ? mask_size(faces->topology.vertex_count)
                        : static_cast<int>(whole_number("--size", options.size, kMinSize, kMaxSize));
-  MaskFiles masks = encode_masks(propose_masks(*faces, mean, bearing, bands, size), out);
+  MaskFiles masks = encode_masks(propose_masks(*faces, mean, orientation, bands, size), out);
   std::vector<HeadFile> files;
   for (auto& [file, bytes] : masks.files) files.push_back(text_file(file, std::move(bytes)));
   write_head_files("masks", files, options.force);
@@ -104,7 +104,8 @@ void mask(const MaskOptions& options) {
   const std::string list = join(paths);
   print(concat("regions: {names: [", join(names_of(bands)),
                "], mask: ", paths.size() > 1 ? concat('[', list, ']') : list, "}\n"));
-  log_info(concat("the heads look along ", name_of(bearing.front), " with ", name_of(bearing.up),
+  log_info(concat("the heads look along ", name_of(orientation.front), " with ",
+                  name_of(orientation.up),
                   " up; to see the regions, run crowdface check CONFIG --masks DIR"));
 }
 

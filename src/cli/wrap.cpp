@@ -120,9 +120,9 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   } else {
     if (!face) return landmarks;
     hint = PoseHint{face->axes.up, face->axes.front, face};
-    const Bearing bearing = all_bearings()[face->view];
-    log_info(concat(task.scan.string(), ": found a face that looks along ", name_of(bearing.front),
-                    " with ", name_of(bearing.up), " up"));
+    const Orientation orientation = all_orientations()[face->view];
+    log_info(concat(task.scan.string(), ": found a face that looks along ",
+                    name_of(orientation.front), " with ", name_of(orientation.up), " up"));
   }
   std::vector<std::string> found;
   for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *hint)) {
@@ -178,7 +178,7 @@ std::string other_bearing(const WrapInputs& shared, const Scan& scan,
   if (!shared.hint || picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
   const auto face = find_scan_face(scan, std::nullopt);
   if (!face) return {};
-  const Bearing found = all_bearings()[face->view];
+  const Orientation found = all_orientations()[face->view];
   if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
     return {};
   return concat("; the scan seems to look along ", name_of(found.front), " with ",

@@ -56,7 +56,7 @@ class FoldedSheet : public ::testing::Test {
 
 TEST_F(FoldedSheet, TakesAlongWhatLiesOnTheSkinThatMovesAndNothingElse) {
   const ShapeBend bend(*skin_, build_adjacency(topology_), apart_, points_);
-  const Displacements moves = bend.in_shape(mesh_, points_, lowered());
+  const Displacements moves = bend.shape_displacements(mesh_, points_, lowered());
   ASSERT_EQ(moves.vertices, std::vector<std::uint32_t>{1}) << "the upper sheet stays";
   EXPECT_LT((row3(moves.moves, 0) - Eigen::Vector3d(0, 0, -3)).norm(), 1e-9);
 }
@@ -70,7 +70,7 @@ TEST_F(FoldedSheet, TakesAlongWholeWhatGrowsOnTheSkinThatMoves) {
   strip.face_offsets = {0, 3, 6};
   strip.corner_vertices = {0, 1, 2, 1, 2, 3};
   const ShapeBend bend(*skin_, build_adjacency(topology_), strip, lash);
-  const Displacements moves = bend.in_shape(mesh_, lash, lowered());
+  const Displacements moves = bend.shape_displacements(mesh_, lash, lowered());
   ASSERT_EQ(moves.vertices.size(), 4U);
   for (Index v = 0; v < 4; ++v) {
     EXPECT_LT((row3(moves.moves, v) - Eigen::Vector3d(0, 0, -3)).norm(), 1e-9) << v;
@@ -79,7 +79,7 @@ TEST_F(FoldedSheet, TakesAlongWholeWhatGrowsOnTheSkinThatMoves) {
 
 TEST_F(FoldedSheet, StaysWhereTheSkinStays) {
   const ShapeBend bend(*skin_, build_adjacency(topology_), apart_, points_);
-  EXPECT_TRUE(bend.in_shape(mesh_, points_, {{}, Positions(0, 3)}).vertices.empty());
+  EXPECT_TRUE(bend.shape_displacements(mesh_, points_, {{}, Positions(0, 3)}).vertices.empty());
 }
 
 }  // namespace

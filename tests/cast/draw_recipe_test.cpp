@@ -124,7 +124,7 @@ TEST(Bands, AreDrawnApartAndTheFirstAsWithoutOthers) {
 
 TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
   const CastingOptions casting = banded_example();
-  HandRecipe hand;
+  ManualRecipe hand;
   hand.id = "mine";
   hand.target = 2;
   hand.regions.resize(2);
@@ -132,7 +132,7 @@ TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
   hand.regions[0].extrapolation = Range{0.7, 0.7};
   hand.regions[0].bands.resize(3);
   hand.regions[0].bands[2].weights = {{1, 1}};
-  const RegionRecipe region = draw_hand_recipe(casting, hand).recipe.regions[0];
+  const RegionRecipe region = draw_manual_recipe(casting, hand).recipe.regions[0];
   const std::vector<SourceWeight> halves = {{0, 0.5}, {3, 0.5}};
   EXPECT_EQ(region.weights, halves);
   EXPECT_EQ(region.finer[0].weights, halves);
@@ -142,12 +142,12 @@ TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
 
 TEST(Bands, BeginNoHigherThanTheBandBefore) {
   const CastingOptions casting = banded_example();
-  HandRecipe hand;
+  ManualRecipe hand;
   hand.id = "mine";
   hand.regions.resize(2);
   hand.regions[0].smoothness =
       SmoothnessDistribution{SmoothnessDistribution::Unit::kFraction, {0.05, 0.05}};
-  const RegionRecipe region = draw_hand_recipe(casting, hand).recipe.regions[0];
+  const RegionRecipe region = draw_manual_recipe(casting, hand).recipe.regions[0];
   EXPECT_EQ(region.iterations, 50U);
   EXPECT_EQ(region.finer[0].iterations, 50U);
   EXPECT_EQ(region.finer[1].iterations, 10U);
@@ -192,7 +192,8 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
 /// Hand-written recipes, then the first draw of each face.
 std::vector<FacePlan> draw_crowd(const CastingOptions& casting) {
   std::vector<FacePlan> crowd;
-  for (const HandRecipe& hand : casting.recipes) crowd.push_back(draw_hand_recipe(casting, hand));
+  for (const ManualRecipe& hand : casting.recipes)
+    crowd.push_back(draw_manual_recipe(casting, hand));
   for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_any_face(casting, i));
   return crowd;
 }
@@ -509,7 +510,7 @@ TEST(DrawRecipe, AnotherRegionDisturbsNone) {
 TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
   CastingOptions casting = example();
   casting.count = 1;
-  HandRecipe hand;
+  ManualRecipe hand;
   hand.id = "mine";
   hand.target = 3;
   hand.regions.resize(2);

@@ -178,7 +178,7 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   EXPECT_THAT(sources_of(config->groups[0].sampling, 1), ElementsAre(0));
   EXPECT_THAT(sources_of(config->groups[0].sampling, 2), ElementsAre(2));
   EXPECT_EQ(config->groups[0].sampling.bands[2].ageing, 0.5);
-  const HandRecipe::Region& top = config->recipes[0].regions[0];
+  const ManualRecipe::Region& top = config->recipes[0].regions[0];
   EXPECT_EQ(top.weights[0].head, 0);
   ASSERT_EQ(top.bands.size(), 3U);
   EXPECT_TRUE(top.bands[0].weights.empty());

@@ -144,7 +144,7 @@ TEST_F(ReadConfig, RecipesByRegionAndForAll) {
            "  - id: free\n");
   ASSERT_TRUE(config) << told();
   ASSERT_EQ(config->recipes.size(), 2u);
-  const HandRecipe& aged = config->recipes[0];
+  const ManualRecipe& aged = config->recipes[0];
   EXPECT_EQ(aged.target, 2);
   ASSERT_EQ(aged.regions.size(), 3u);
   ASSERT_EQ(aged.regions[1].weights.size(), 2u);

@@ -31,7 +31,7 @@ bool same(const RegionSampling& a, const RegionSampling& b) {
          a.extrapolation == b.extrapolation;
 }
 
-bool same(const HandRecipe::Region& a, const HandRecipe::Region& b) {
+bool same(const ManualRecipe::Region& a, const ManualRecipe::Region& b) {
   return a.position == b.position && same(a.weights, b.weights) &&
          a.smoothness.has_value() == b.smoothness.has_value() &&
          (!a.smoothness || same(*a.smoothness, *b.smoothness)) &&

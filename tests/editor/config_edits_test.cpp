@@ -17,8 +17,8 @@ using testing::expect_error;
 using testing::SmallCrowd;
 using testing::SmallCrowdFolder;
 
-HandRecipe recipe(const std::string& id, Eigen::Index target) {
-  HandRecipe recipe;
+ManualRecipe recipe(const std::string& id, Eigen::Index target) {
+  ManualRecipe recipe;
   recipe.id = id;
   recipe.target = target;
   recipe.regions.resize(2);
@@ -46,7 +46,7 @@ class ConfigEdits : public ::testing::Test {
   }
   std::vector<std::string> recipes() const {
     std::vector<std::string> found;
-    for (const HandRecipe& one : config().recipes)
+    for (const ManualRecipe& one : config().recipes)
       found.push_back(concat(one.id, one.target.value()));
     return found;
   }
@@ -97,7 +97,7 @@ TEST_F(ConfigEdits, OfAConfigInBracesAreNamedByHand) {
                                   (folder_ / "heads").string(), ", units: cm}}\n");
   write_file(folder_.config(), text);
   Config plain = config();
-  HandRecipe open = recipe("eva", 1);
+  ManualRecipe open = recipe("eva", 1);
   open.regions.resize(1);
   expect_error(ExitCode::kUsage, {"add \"edits: "}, [&] { put_recipe(open, plain); });
   EXPECT_EQ(read_file(folder_.config()), text);

@@ -23,13 +23,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   folder.write("edits.yaml", "{}");
   crowdface::Problems none, of_recipe;
   static const auto plain = crowdface::read_config(config_file, {}, none);
-  const auto recipe = crowdface::parse_hand_recipe(text, "recipe", plain.value(), of_recipe);
+  const auto recipe = crowdface::parse_manual_recipe(text, "recipe", plain.value(), of_recipe);
   if (recipe.has_value() != of_recipe.empty()) std::abort();
   // What is written is read back.
   if (recipe) {
-    const std::string written = crowdface::format_hand_recipe(*recipe, *plain);
+    const std::string written = crowdface::format_manual_recipe(*recipe, *plain);
     crowdface::Problems again;
-    if (!crowdface::parse_hand_recipe(written, "recipe", *plain, again)) std::abort();
+    if (!crowdface::parse_manual_recipe(written, "recipe", *plain, again)) std::abort();
   }
   return 0;
 }

@@ -43,14 +43,14 @@ TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {
     for (int front = 0; front < 3; ++front) {
       if (front == up) continue;
       for (const int sign : {1, -1}) {
-        const Bearing bearing{{up, sign}, {front, -sign}};
-        const HeadAxes axes = axes_of(bearing);
+        const Orientation orientation{{up, sign}, {front, -sign}};
+        const HeadAxes axes = axes_of(orientation);
         for (Index v = 0; v < upright.rows(); ++v) {
           head.positions.row(v) =
               (upright(v, 0) * axes.side() + upright(v, 1) * axes.up + upright(v, 2) * axes.front)
                   .transpose();
         }
-        EXPECT_EQ(find_bearing(faces.topology, head), bearing);
+        EXPECT_EQ(find_orientation(faces.topology, head), orientation);
         const HeadAxes wrong{axes.up, axes.front};
         EXPECT_FALSE(find_face_marks(faces.topology, head, wrong));
       }
@@ -86,7 +86,7 @@ TEST(RealFaces, AreTheSameHoweverTheMeshIsCutOrTurned) {
     ObjFile file = read_obj(entry.path());
     const HeadSet faces{file.topology, {}, {{"head", file.positions}}};
     HeadShape head = shape_of_mean(faces);
-    EXPECT_EQ(find_bearing(faces.topology, head), (Bearing{{1, 1}, {2, 1}}));
+    EXPECT_EQ(find_orientation(faces.topology, head), (Orientation{{1, 1}, {2, 1}}));
     EXPECT_TRUE(put_at_origin(faces.topology, head));
     for (const MarkError& error : mark_errors(faces.topology, head)) {
       EXPECT_TRUE(error.is_found) << error.change;
@@ -100,12 +100,12 @@ TEST(RealFaces, AreTheSameHoweverTheMeshIsCutOrTurned) {
 TEST(FaceMarks, WhatIsNoHeadHasNoFace) {
   HeadShape cube{cube_positions(), std::vector<bool>(8, true), {}};
   EXPECT_FALSE(find_face_marks(cube_topology(), cube, {}));
-  EXPECT_FALSE(find_bearing(cube_topology(), cube));
+  EXPECT_FALSE(find_orientation(cube_topology(), cube));
   cube.skin.assign(8, false);
-  EXPECT_FALSE(find_bearing(cube_topology(), cube));
+  EXPECT_FALSE(find_orientation(cube_topology(), cube));
   cube.skin.assign(8, true);
   cube.positions.setZero();
-  EXPECT_FALSE(find_bearing(cube_topology(), cube));
+  EXPECT_FALSE(find_orientation(cube_topology(), cube));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct BallWithLash {
     std::iota(all.begin(), all.end(), 0U);
     std::vector<std::uint32_t> lash(27);
     std::iota(lash.begin(), lash.end(), static_cast<std::uint32_t>(skin));
-    return {mesh.topology, FacesAround(mesh.topology), mesh.positions,
+    return {mesh.topology, VertexFaces(mesh.topology), mesh.positions,
             PointGrid(mesh.positions, all), lash};
   }
 };

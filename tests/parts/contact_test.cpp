@@ -20,7 +20,7 @@ struct BoxBehindWall {
                   .box({-1, -1, -1}, {1, 1, -0.1})
                   .mesh();
   Index skin = mesh.topology.vertex_count - 8;
-  FacesAround faces{mesh.topology};
+  VertexFaces faces{mesh.topology};
   std::vector<std::uint32_t> front = {
       static_cast<std::uint32_t>(skin + 4), static_cast<std::uint32_t>(skin + 5),
       static_cast<std::uint32_t>(skin + 6), static_cast<std::uint32_t>(skin + 7)};

@@ -37,7 +37,7 @@ struct LidsAroundBall {
   /// One in seven is inside.
   static double gap(int i) { return 0.02 * (i % 7 == 0 ? -1 : i % 7); }
 
-  FacesAround faces{mesh.topology};
+  VertexFaces faces{mesh.topology};
   std::vector<std::uint32_t> surface() const {
     std::vector<std::uint32_t> vertices(static_cast<std::size_t>(ball));
     std::iota(vertices.begin(), vertices.end(), 0U);

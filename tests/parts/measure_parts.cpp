@@ -208,7 +208,7 @@ class Watch {
 
   static constexpr double kMm = 10;  // in a unit
   const Topology& topology_;
-  FacesAround around_;
+  VertexFaces around_;
   Positions mean_;
   PartList parts_;
   std::vector<std::uint32_t> component_;  ///< #V

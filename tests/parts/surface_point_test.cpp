@@ -40,7 +40,7 @@ TEST(PointGrid, FindsTheNearestOfAll) {
 
 TEST(SurfacePoint, IsNearerThanAnyOtherPlaceOnItsTriangles) {
   const Mesh mesh = testing::Shapes().ball({0, 0, 0}, 5, 8).mesh();
-  const FacesAround faces(mesh.topology);
+  const VertexFaces faces(mesh.topology);
   std::vector<std::uint32_t> all(static_cast<std::size_t>(mesh.topology.vertex_count));
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(mesh.positions, all);

@@ -65,7 +65,7 @@ TEST(PackedFace, ComesBackWithinHalfAStepAndAHundredthOfADegree) {
   const std::array heads = {&ball.positions};
   const PackingFrame frame = PackingFrame::around(heads);
   const std::string bytes =
-      pack_face(ball.topology, mesh.vertices, FacesAround(ball.topology), frame, ball.positions);
+      pack_face(ball.topology, mesh.vertices, VertexFaces(ball.topology), frame, ball.positions);
   const std::size_t count = mesh.vertices.size();
   ASSERT_EQ(bytes.size(), 10 * count);
   const Positions normals = vertex_normals(ball.topology, ball.positions);
@@ -98,14 +98,14 @@ TEST(PackedFace, WhatLiesBeyondTheFrameIsMovedToItsRim) {
   const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
   const PackingFrame frame{Eigen::Vector3d::Constant(5), 1e-6};
   const std::string bytes =
-      pack_face(ball.topology, mesh.vertices, FacesAround(ball.topology), frame, ball.positions);
+      pack_face(ball.topology, mesh.vertices, VertexFaces(ball.topology), frame, ball.positions);
   for (std::size_t i = 0; i < 3 * mesh.vertices.size(); ++i) EXPECT_EQ(number_at(bytes, i), 0);
 }
 
 TEST(PackedFace, RefusesAnotherNumberOfVertices) {
   const Ball ball;
   const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
-  EXPECT_THROW(pack_face(ball.topology, mesh.vertices, FacesAround(ball.topology), {},
+  EXPECT_THROW(pack_face(ball.topology, mesh.vertices, VertexFaces(ball.topology), {},
                          ball.positions.topRows(5)),
                BrokenPrecondition);
 }

@@ -151,7 +151,7 @@ class MeasuredLids {
   HeadAxes axes_;
   std::vector<double> ones_;
   Positions mean_;
-  FacesAround around_;
+  VertexFaces around_;
   std::vector<std::uint32_t> rim_, outer_;
   std::vector<Triangle> upper_, lower_;
   std::vector<EdgePoint> points_;

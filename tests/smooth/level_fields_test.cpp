@@ -135,8 +135,9 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
     SCOPED_TRACE(name);
     use_instruction_set(name);
     for (std::size_t kept = 0; kept <= kFields; ++kept) {
-      const MissedLevel found = keep_fewest(values.data(), kFields, functions.data(), kFields,
-                                            kLevelCount, static_cast<float>(missed[kept] * 1.001));
+      const MissedLevel found =
+          choose_fewest_functions(values.data(), kFields, functions.data(), kFields, kLevelCount,
+                                  static_cast<float>(missed[kept] * 1.001));
       EXPECT_EQ(found.kept, kept);
       EXPECT_NEAR(static_cast<double>(found.squared), missed[kept], 1e-5 * missed[kept]);
       EXPECT_EQ(found.level, where[kept]);

@@ -170,12 +170,12 @@ TEST(SkinCheck, MeasuresSkinThatShowsItsBack) {
   const double flap = area_of_flap(sheet, heads[1].positions);
   ASSERT_GT(flap, 50);
   ASSERT_LT(flap, 200);
-  const Viewing above{{{0, 0, 1}}, 10};
+  const ViewSetup above{{{0, 0, 1}}, 10};
   const SkinCheck check(sheet.topology, sheet.components, heads, {0, 1}, above);
   EXPECT_EQ(check.compare(heads[0].positions, 0).exposed_mm2, 0);
   EXPECT_NEAR(check.compare(heads[1].positions, 0).exposed_mm2, 100 * flap, 6 * flap);
   EXPECT_EQ(check.compare(heads[1].positions, 1).exposed_mm2, 0) << "the target's own";
-  const Viewing nobody{{}, 10};
+  const ViewSetup nobody{{}, 10};
   const SkinCheck unseen(sheet.topology, sheet.components, heads, {0}, nobody);
   EXPECT_EQ(unseen.compare(heads[1].positions, 0).exposed_mm2, 0);
 }

@@ -87,7 +87,7 @@ class FittedSkin {
   Positions mesh_;
   std::vector<std::uint32_t> skin_;
   double mm_;
-  FacesAround around_;
+  VertexFaces around_;
   NormalFans fans_;
   double side_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;

@@ -162,8 +162,8 @@ void ShapeBend::keep_near(const EdgeDistances& along, double limit, FittedSkin::
   if (near.vertices.size() >= kMinNear) patch = std::move(near);
 }
 
-Displacements ShapeBend::in_shape(const Positions& face, const Positions& placed,
-                                  const Displacements& shape) const {
+Displacements ShapeBend::shape_displacements(const Positions& face, const Positions& placed,
+                                             const Displacements& shape) const {
   std::vector<bool> is_moved(static_cast<std::size_t>(face.rows()), false);
   for (const std::uint32_t v : shape.vertices) is_moved[v] = true;
   Positions acting = face;

@@ -33,8 +33,8 @@ class ShapeBend {
   /// \param placed #P by 3, the attachment on that face at rest.
   /// \param shape  Displacements of the face.
   /// \return       Displacements of the attachment's points.
-  Displacements in_shape(const Positions& face, const Positions& placed,
-                         const Displacements& shape) const;
+  Displacements shape_displacements(const Positions& face, const Positions& placed,
+                                    const Displacements& shape) const;
 
   std::size_t memory_bytes() const { return places_.memory_bytes(); }
 

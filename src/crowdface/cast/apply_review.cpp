@@ -165,8 +165,8 @@ class Redrawing {
 
   FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: redraw the values that it does not specify
-      const auto hand = std::ranges::find(casting_.recipes, old.id, &HandRecipe::id);
-      return draw_hand_recipe(casting_, *hand, attempt);
+      const auto hand = std::ranges::find(casting_.recipes, old.id, &ManualRecipe::id);
+      return draw_manual_recipe(casting_, *hand, attempt);
     }
     return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
   }

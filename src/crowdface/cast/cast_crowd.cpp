@@ -56,8 +56,8 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   CastingResult result;
   auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   CrowdSoFar& crowd = *so_far;
-  for (const HandRecipe& hand : casting.recipes) {
-    FacePlan face = draw_hand_recipe(casting, hand);
+  for (const ManualRecipe& hand : casting.recipes) {
+    FacePlan face = draw_manual_recipe(casting, hand);
     FaceSpace::Point point = judge.space().point(face.recipe);
     crowd.add(std::move(face), std::move(point));
   }

@@ -136,11 +136,11 @@ struct BandDraw {
   std::string name;  ///< name of the region, and of the band except the first
   std::size_t band = 0;
   RegionSampling sampling;
-  HandRecipe::Band hand;
+  ManualRecipe::Band hand;
 };
 
 BandDraw band_draw(const CastingOptions& casting, const SamplingOptions& all, std::size_t k,
-                   std::size_t b, const HandRecipe::Region& region) {
+                   std::size_t b, const ManualRecipe::Region& region) {
   BandDraw draw{casting.region_names[k], b, all.regions[k], {}};
   if (!all.bands.empty()) {
     const BandSampling& band = all.bands[b];
@@ -151,7 +151,7 @@ BandDraw band_draw(const CastingOptions& casting, const SamplingOptions& all, st
     if (b > 0) draw.name += concat('/', band.name);
   }
   if (!region.bands.empty()) draw.hand = region.bands[b];
-  HandRecipe::Band& hand = draw.hand;
+  ManualRecipe::Band& hand = draw.hand;
   if (!hand.position && hand.weights.empty()) {
     hand.position = region.position;
     hand.weights = region.weights;
@@ -167,7 +167,7 @@ BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index 
                      const FaceDraws& draws, const BandDraw& draw) {
   const SamplingOptions& all = *kind.sampling;
   const std::vector<Index>& sources = sources_of(kind, draw.band);
-  const HandRecipe::Band& hand = draw.hand;
+  const ManualRecipe::Band& hand = draw.hand;
   BandRecipe recipe;
   const auto take = [&](const PlanePoint& position) {
     recipe.position = position;
@@ -197,7 +197,7 @@ BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index 
 }
 
 RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, std::size_t k,
-                         Index target, const FaceDraws& draws, const HandRecipe::Region& hand) {
+                         Index target, const FaceDraws& draws, const ManualRecipe::Region& hand) {
   const SamplingOptions& all = *kind.sampling;
   RegionRecipe recipe;
   recipe.finer.resize(band_count(all) - 1);
@@ -230,7 +230,7 @@ FaceKind kind_of_group(const CastingOptions& casting, std::optional<std::size_t>
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
-FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, const DrawKey& key,
+FacePlan draw_recipe(const CastingOptions& casting, const ManualRecipe& hand, const DrawKey& key,
                      const FaceKind& kind) {
   const FaceDraws draws(casting.seed, key);
   const SamplingOptions& sampling = *kind.sampling;
@@ -244,8 +244,8 @@ FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, cons
           ? *hand.target
           : weighted_choice(kind.targets, draws.unit("target", ""), &WeightedHead::weight).head;
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
-    const HandRecipe::Region& region =
-        k < hand.regions.size() ? hand.regions[k] : HandRecipe::Region{};
+    const ManualRecipe::Region& region =
+        k < hand.regions.size() ? hand.regions[k] : ManualRecipe::Region{};
     face.recipe.regions.push_back(draw_region(casting, kind, k, face.recipe.target, draws, region));
   }
   if (!hand.colours.empty()) face.recipe.colours = written_weights(hand.colours);
@@ -258,15 +258,15 @@ FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, cons
 
 FacePlan draw_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
                    const FaceKind& kind) {
-  HandRecipe open;
+  ManualRecipe open;
   open.id = face_id(casting.name, index);
   FacePlan face = draw_recipe(casting, open, {index, attempt}, kind);
   face.index = index;
   return face;
 }
 
-FacePlan draw_hand_recipe(const CastingOptions& casting, const HandRecipe& hand,
-                          std::uint32_t attempt) {
+FacePlan draw_manual_recipe(const CastingOptions& casting, const ManualRecipe& hand,
+                            std::uint32_t attempt) {
   return draw_recipe(casting, hand, {0, attempt, concat("recipe/", hand.id)},
                      kind_of_group(casting));
 }

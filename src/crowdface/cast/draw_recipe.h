@@ -31,7 +31,7 @@ struct CastingOptions {
   std::vector<PlanePoint> anchors;        ///< #heads
   std::vector<std::string> region_names;  ///< "all" if there are no regions
   SamplingOptions sampling;
-  std::vector<HandRecipe> recipes;
+  std::vector<ManualRecipe> recipes;
   Normalization normalization = Normalization::kPartition;
   LevelScale scale;
   DiversityOptions diversity = {};
@@ -74,7 +74,7 @@ struct DrawKey {
 /// Draws everything that `hand` does not specify; for a sampled face, `hand` specifies nothing. A
 /// pure function of its arguments, so a face does not depend on the crowd's size or on the order of
 /// draws.
-FacePlan draw_recipe(const CastingOptions& casting, const HandRecipe& hand, const DrawKey& key,
+FacePlan draw_recipe(const CastingOptions& casting, const ManualRecipe& hand, const DrawKey& key,
                      const FaceKind& kind);
 
 /// Draws attempt `attempt` at sampled face `index` (from 1).
@@ -84,7 +84,7 @@ FacePlan draw_face(const CastingOptions& casting, std::uint64_t index, std::uint
 /// Completes a hand-written recipe. Random numbers depend on the recipe's id.
 ///
 /// \throws BrokenPrecondition if its weights cannot be normalised.
-FacePlan draw_hand_recipe(const CastingOptions& casting, const HandRecipe& hand,
-                          std::uint32_t attempt = 0);
+FacePlan draw_manual_recipe(const CastingOptions& casting, const ManualRecipe& hand,
+                            std::uint32_t attempt = 0);
 
 }  // namespace crowdface

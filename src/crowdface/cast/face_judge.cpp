@@ -29,7 +29,7 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
       heads_(space.dimensions()),
       plausibility_(space),
       skin_(skin),
-      meshes_(std::move(meshes)) {
+      mesh_defects_(std::move(meshes)) {
   for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
 }
 
@@ -64,7 +64,7 @@ std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   if (const auto why = limit_passed(believability_, defects)) return why;
   defects.intersecting = skin_->intersecting_triangles(samples, target);
   if (const auto why = limit_passed(believability_, defects)) return why;
-  return meshes_ ? limit_passed(believability_, meshes_(recipe)) : std::nullopt;
+  return mesh_defects_ ? limit_passed(believability_, mesh_defects_(recipe)) : std::nullopt;
 }
 
 }  // namespace crowdface

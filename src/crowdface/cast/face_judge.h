@@ -55,7 +55,7 @@ class FaceJudge {
   FacePointIndex heads_;
   Plausibility plausibility_;
   const ProxySkin* skin_;
-  MeshDefects meshes_;
+  MeshDefects mesh_defects_;
 };
 
 }  // namespace crowdface

@@ -78,7 +78,7 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
     if (parent.head) {
       FacePlan face;
       face.recipe.target = *parent.head;
-      know(p, parent.id, std::move(face), judge.space().head_point(*parent.head));
+      add_parent(p, parent.id, std::move(face), judge.space().head_point(*parent.head));
       continue;
     }
     const auto found = std::find_if(faces.begin(), faces.end(), [&](const FacePlan& face) {
@@ -92,7 +92,8 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
       to_draw_.push_back(p);
       continue;
     }
-    know(p, found->id, *found, crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
+    add_parent(p, found->id, *found,
+               crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
     if (found->family) relatives_.push_back(*found->family);
   }
   if (to_draw_.empty()) meet_parents();
@@ -112,8 +113,8 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
   }
 }
 
-void FamilyDraws::know(std::size_t parent, std::string name, FacePlan face,
-                       FaceSpace::Point point) {
+void FamilyDraws::add_parent(std::size_t parent, std::string name, FacePlan face,
+                             FaceSpace::Point point) {
   take_back_age(face, sampling_of(face));  // children do not inherit a parent's age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
@@ -181,7 +182,7 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const FamilySeparation& 
   drawn_.clear();
   for (const std::size_t p : to_draw_) {
     const Parent& parent = family_.parents[p];
-    HandRecipe open;
+    ManualRecipe open;
     open.id = parent_id(casting_.name, parent);
     const FaceKind kind = kind_of(parent, casting_);
     FaceSearch search(
@@ -196,7 +197,7 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const FamilySeparation& 
     });
     rejections.add(search.rejections());
     if (!found) return false;
-    know(p, found->face.id, found->face, found->point);
+    add_parent(p, found->face.id, found->face, found->point);
     drawn_.push_back(std::move(*found));
   }
   meet_parents();
@@ -237,7 +238,7 @@ BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::s
 }
 
 FacePlan FamilyDraws::founder(std::uint32_t attempt) const {
-  HandRecipe open;
+  ManualRecipe open;
   open.target = family_.target;
   open.age = Range{0, 0};
   FacePlan face =
@@ -328,7 +329,7 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyPlan& cast, int member,
                                       std::uint32_t attempt) const {
   const DrawKey key = {static_cast<std::uint64_t>(member), attempt,
                        concat("family/", family_.name)};
-  HandRecipe open;
+  ManualRecipe open;
   open.id = member_id(casting_.name, family_.name, member);
   open.target = family_.target;
   if (parents_.empty()) open.target = cast.founder.recipe.target;

@@ -80,7 +80,7 @@ class FamilyDraws {
     double age = 0, reach_mm = 0;
   };
 
-  void know(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
+  void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
   void meet_parents();
   std::vector<SourceWeight> form_of(std::size_t parent) const;
   FaceKind third_contributor() const;

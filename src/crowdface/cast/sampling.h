@@ -146,7 +146,7 @@ struct Group {
 };
 
 /// A hand-written face. Values that it does not specify are drawn as for a sampled face.
-struct HandRecipe {
+struct ManualRecipe {
   struct Band {
     std::optional<PlanePoint> position;
     std::vector<WeightedHead> weights;  ///< empty: not given; excludes `position`

@@ -30,9 +30,9 @@ void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft&
   }
 }
 
-std::string write_fitted_to(const Attachments& attachments, const ConfigWriting& writing) {
-  if (attachments.head) return writing.head(*attachments.head);
-  return attachments.file.empty() ? kMean : path("").write(attachments.file, writing);
+std::string write_fitted_to(const Attachments& attachments, const WriteContext& context) {
+  if (attachments.head) return context.head(*attachments.head);
+  return attachments.file.empty() ? kMean : path("").write(attachments.file, context);
 }
 
 /// Reads the tags of an item. Refuses a combination of tags that no head has, because no face could
@@ -43,8 +43,8 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   item.tags = *tags;
   const bool any = !heads_with(*tags, draft.config.faces).empty();
   if (!any && draft.heads_known && draft.tags_known) {
-    draft.complaints.about(node,
-                           "no head has all of these tags, so no face would get this attachment");
+    draft.complaints.add_at(node,
+                            "no head has all of these tags, so no face would get this attachment");
   }
 }
 
@@ -56,7 +56,7 @@ Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
 }
 
 const Keys<Attachment>& item_keys() {
-  const auto write_tags = [](const Attachment& item, const ConfigWriting&) {
+  const auto write_tags = [](const Attachment& item, const WriteContext&) {
     return item.tags.empty() ? "" : flow_names(item.tags);
   };
   const auto has_colour = [](const Attachment& item, const auto&) { return !item.colour.empty(); };
@@ -86,10 +86,10 @@ bool is_taken(const std::string& name, const Config& config) {
 void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft) {
   const auto& items = draft.config.attachments.items;
   if (std::ranges::find(items, item.name, &Attachment::name) != items.end()) {
-    draft.complaints.about(node, concat("two attachments are called ", quoted(item.name)));
+    draft.complaints.add_at(node, concat("two attachments are called ", quoted(item.name)));
   } else if (is_taken(item.name, draft.config)) {
-    draft.complaints.about(node, concat("other files of a face already have the name ",
-                                        quoted(item.name), "; choose another name"));
+    draft.complaints.add_at(node, concat("other files of a face already have the name ",
+                                         quoted(item.name), "; choose another name"));
   }
 }
 
@@ -103,14 +103,14 @@ void read_items(const YamlNode& node, Attachments& attachments, ConfigDraft& dra
     attachments.items.push_back(std::move(item));
   }
   if (attachments.items.size() > kMaxAttachments) {
-    draft.complaints.about(node, concat("expected at most ", kMaxAttachments,
-                                        " attachments, found ", attachments.items.size()));
+    draft.complaints.add_at(node, concat("expected at most ", kMaxAttachments,
+                                         " attachments, found ", attachments.items.size()));
   }
 }
 
-std::string write_items(const Attachments& attachments, const ConfigWriting& writing) {
+std::string write_items(const Attachments& attachments, const WriteContext& context) {
   return block_list(texts_of(attachments.items, [&](const Attachment& item) {
-    return flow_map(write_keys(item_keys(), item, writing));
+    return flow_map(write_keys(item_keys(), item, context));
   }));
 }
 
@@ -128,8 +128,8 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
     if (!contains(kinds, entry.key)) {
-      draft.complaints.about(entry.value, concat("no attachment is of the kind ", quoted(entry.key),
-                                                 suggestion(entry.key, kinds)));
+      draft.complaints.add_at(entry.value, concat("no attachment is of the kind ",
+                                                  quoted(entry.key), suggestion(entry.key, kinds)));
     } else if (share) {
       attachments.none[entry.key] = *share;
     }
@@ -164,7 +164,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
     if (!share) continue;
     const Attachment* item = first_called(attachments, entry.key);
     if (item == nullptr) {
-      draft.complaints.about(
+      draft.complaints.add_at(
           entry.value, concat("no attachment is of the kind, name or colour ", quoted(entry.key),
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
@@ -173,16 +173,16 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
     // items and colours; a sum of at most 1.
     const bool is_first = !totals.contains(item->kind);
     if (attachments.none.contains(item->kind) && entry.key == item->kind) {
-      draft.complaints.about(entry.value, concat("attachments.none also sets ", entry.key,
-                                                 "; keep only one of the two"));
+      draft.complaints.add_at(entry.value, concat("attachments.none also sets ", entry.key,
+                                                  "; keep only one of the two"));
     } else if (!is_first && (entry.key == item->kind || alone.contains(item->kind))) {
-      draft.complaints.about(
+      draft.complaints.add_at(
           entry.value,
           concat(
               "expected one quota for the kind, or quotas for its names and colours, found both: ",
               item->kind));
     } else if ((totals[item->kind] += *share) > 1 + kRounding) {
-      draft.complaints.about(
+      draft.complaints.add_at(
           entry.value, concat("the quotas of the kind ", item->kind, " add up to more than 1"));
     } else {
       attachments.quotas[entry.key] = *share;
@@ -193,7 +193,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
 
 /// Writes a mapping from words to shares; empty, so that the key is left out, without shares.
 auto write_shares(std::map<std::string, double> Attachments::*shares) {
-  return [=](const Attachments& attachments, const ConfigWriting&) {
+  return [=](const Attachments& attachments, const WriteContext&) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {
       return entry(write_scalar(share.first), format_number(share.second));
     });
@@ -225,8 +225,8 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
     if (excludes == nullptr) continue;
     for (const YamlNode& name : excludes->value.items) {
       if (contains(known, name.text)) continue;
-      draft.complaints.about(name, concat("no attachment has the name or kind ", quoted(name.text),
-                                          suggestion(name.text, known)));
+      draft.complaints.add_at(name, concat("no attachment has the name or kind ", quoted(name.text),
+                                           suggestion(name.text, known)));
     }
   }
 }
@@ -250,9 +250,9 @@ std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
       "Attachments (hair, beards, glasses, …) that lie beside the heads (docs/attachments.md)."};
 }
 
-std::string write_attachments(const Config& config, const ConfigWriting& writing) {
+std::string write_attachments(const Config& config, const WriteContext& context) {
   if (config.attachments.items.empty()) return "";
-  return block_map(write_keys(attachments_keys(), config.attachments, writing));
+  return block_map(write_keys(attachments_keys(), config.attachments, context));
 }
 
 }  // namespace

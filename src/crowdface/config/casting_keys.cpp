@@ -24,8 +24,8 @@ void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& dr
   if (distance.mask->find(kTileWord) == std::string::npos) expect_file(node, *mask, draft);
 }
 
-std::string write_mask(const Config::Distance& distance, const ConfigWriting& writing) {
-  return distance.mask ? path("").write(*distance.mask, writing) : "";
+std::string write_mask(const Config::Distance& distance, const WriteContext& context) {
+  return distance.mask ? path("").write(*distance.mask, context) : "";
 }
 
 /// An entry of the former key `diversity.quotas`.
@@ -57,8 +57,8 @@ Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, co
 /// Writes the group that replaces a quota. If `quota` is null, writes the group of all faces that
 /// count for no quota.
 std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
-                       const ConfigWriting& writing) {
-  const SamplingOptions& sampling = writing.config.sampling;
+                       const WriteContext& context) {
+  const SamplingOptions& sampling = context.config.sampling;
   std::vector<std::string> entries = {entry("name", quota ? write_scalar(quota->name) : "others")};
   if (quota) entries.push_back(entry("share", format_number(quota->share)));
   const auto part = [&](auto heads, std::optional<std::size_t> band, const auto& head) {
@@ -67,14 +67,14 @@ std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
   };
   if (!heads_of(quotas, std::nullopt).empty()) {
     const auto targets = part(sampling.targets, std::nullopt, std::mem_fn(&WeightedHead::head));
-    entries.push_back(entry("targets", weighted_heads().write(targets, writing)));
+    entries.push_back(entry("targets", weighted_heads().write(targets, context)));
   }
   std::vector<std::string> bands;
   for (std::size_t b = 0; b < sampling.bands.size(); ++b) {
     if (heads_of(quotas, b).empty()) continue;
     const auto sources = part(sources_of(sampling, b), b, std::identity());
     bands.push_back(entry(write_scalar(sampling.bands[b].name),
-                          flow_map({entry("sources", head_list().write(sources, writing))})));
+                          flow_map({entry("sources", head_list().write(sources, context))})));
   }
   if (!bands.empty()) entries.push_back(entry("bands", flow_map(bands)));
   return flow_map(entries);
@@ -110,16 +110,16 @@ void refuse_quotas(const YamlNode& node, DiversityOptions& /*diversity*/, Config
   }
   std::string message = "groups have replaced quotas";
   if (quotas.size() == node.entries.size()) {
-    const ConfigWriting writing{draft.config, draft.folder};
+    const WriteContext context{draft.config, draft.folder};
     message += "; remove quotas and add to the config:\ngroups:";
     for (const Quota& quota : quotas) {
-      message += concat("\n  - ", group_text(quotas, &quota, writing));
+      message += concat("\n  - ", group_text(quotas, &quota, context));
     }
     if (total < 1 - kShareRounding) {
-      message += concat("\n  - ", group_text(quotas, nullptr, writing));
+      message += concat("\n  - ", group_text(quotas, nullptr, context));
     }
   }
-  draft.complaints.about(node, message);
+  draft.complaints.add_at(node, message);
 }
 
 const Keys<BelievabilityOptions>& believability_keys() {
@@ -151,7 +151,7 @@ Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
   return {name,
           [=](const YamlNode& node, auto&, ConfigDraft& draft) {
             if (node.text != value) {
-              draft.complaints.about(node, "crowdface no longer has this key; remove it");
+              draft.complaints.add_at(node, "crowdface no longer has this key; remove it");
             }
           },
           [](const auto&...) { return ""; }};
@@ -195,9 +195,9 @@ void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft
   }
 }
 
-std::string write_believability(const Config& config, const ConfigWriting& writing) {
+std::string write_believability(const Config& config, const WriteContext& context) {
   if (!config.believability.check) return "none";
-  return block_map(write_keys(believability_keys(), config.believability, writing));
+  return block_map(write_keys(believability_keys(), config.believability, context));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using Unit = SmoothnessDistribution::Unit;
 template <class Value, class Read, class Write>
 Codec<Value> plain(const Read& read, const Write& write, const std::string& takes) {
   return {[=](const YamlNode& node, ConfigDraft& draft) { return read(node, draft.complaints); },
-          [=](const Value& value, const ConfigWriting&) { return std::string(write(value)); },
+          [=](const Value& value, const WriteContext&) { return std::string(write(value)); },
           takes};
 }
 
@@ -67,8 +67,8 @@ Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
             const auto read = ranges.read(node, draft);
             return read ? std::optional<SmoothnessDistribution>({unit, *read}) : std::nullopt;
           },
-          [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
-            return ranges.write(smoothness.range, writing);
+          [=](const SmoothnessDistribution& smoothness, const WriteContext& context) {
+            return ranges.write(smoothness.range, context);
           },
           ranges.takes};
 }
@@ -113,9 +113,9 @@ std::vector<Eigen::Index> read_heads(const YamlNode& node, ConfigDraft& draft) {
   return {chosen.begin(), chosen.end()};
 }
 
-std::string write_heads(const std::vector<Eigen::Index>& heads, const ConfigWriting& writing) {
-  if (heads.size() == writing.config.faces.names.size()) return "all";
-  return flow_list(texts_of(heads, [&](Eigen::Index head) { return writing.head(head); }));
+std::string write_heads(const std::vector<Eigen::Index>& heads, const WriteContext& context) {
+  if (heads.size() == context.config.faces.names.size()) return "all";
+  return flow_list(texts_of(heads, [&](Eigen::Index head) { return context.head(head); }));
 }
 
 std::vector<WeightedHead> read_weighted_heads(const YamlNode& node, ConfigDraft& draft) {
@@ -126,18 +126,18 @@ std::vector<WeightedHead> read_weighted_heads(const YamlNode& node, ConfigDraft&
 }
 
 std::string write_weighted_heads(const std::vector<WeightedHead>& targets,
-                                 const ConfigWriting& writing) {
+                                 const WriteContext& context) {
   const bool weighted =
       std::ranges::any_of(targets, [](const WeightedHead& t) { return t.weight != 1; });
-  if (weighted) return write_weights(targets, writing);
+  if (weighted) return write_weights(targets, context);
   std::vector<Eigen::Index> heads;
   for (const WeightedHead& target : targets) heads.push_back(target.head);
-  return write_heads(heads, writing);
+  return write_heads(heads, context);
 }
 
 }  // namespace
 
-std::string ConfigWriting::head(Eigen::Index index) const {
+std::string WriteContext::head(Eigen::Index index) const {
   return write_scalar(config.faces.names[static_cast<std::size_t>(index)]);
 }
 
@@ -177,8 +177,8 @@ Codec<double> length(double high_mm) {
       [=](const YamlNode& node, Complaints& out) -> std::optional<double> {
         const bool is_scalar = node.kind == YamlNode::Kind::kScalar;
         if (is_scalar && parse_double(node.text)) {
-          out.about(node, concat("expected a length with its unit, such as \"8 mm\", found ",
-                                 quoted(node.text), "; mm, cm, m or in?"));
+          out.add_at(node, concat("expected a length with its unit, such as \"8 mm\", found ",
+                                  quoted(node.text), "; mm, cm, m or in?"));
           return std::nullopt;
         }
         const auto value = is_scalar ? parse_length_mm(node.text) : std::nullopt;
@@ -220,14 +220,14 @@ Codec<Range> range(const Codec<double>& one) {
             const auto high = one.read(node.items[1], draft);
             if (!low || !high) return std::nullopt;
             if (*low <= *high) return Range{*low, *high};
-            draft.complaints.about(
+            draft.complaints.add_at(
                 node, concat("expected [low, high], found ", quoted(node.items[0].text), " before ",
                              quoted(node.items[1].text)));
             return std::nullopt;
           },
-          [=](const Range& range, const ConfigWriting& writing) {
-            const std::string low = one.write(range.low, writing);
-            return range.low == range.high ? low : flow_list({low, one.write(range.high, writing)});
+          [=](const Range& range, const WriteContext& context) {
+            const std::string low = one.write(range.low, context);
+            return range.low == range.high ? low : flow_list({low, one.write(range.high, context)});
           },
           concat(one.takes, ", or a range")};
 }
@@ -236,7 +236,7 @@ Codec<Range> age() {
   return such_that(range(number(-1, 1)), [](Range age, const YamlNode& node, ConfigDraft& draft) {
     const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
       if (!heads.empty() || !draft.tags_known || !draft.heads_known) return true;
-      draft.complaints.about(node, concat("no head is tagged ", tag, " under faces.tags"));
+      draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
       return false;
     };
     const bool has_old = age.high <= 0 || has(draft.config.sampling.old_heads, "old");
@@ -261,14 +261,14 @@ Codec<SmoothnessDistribution> smoothness() {
             if (is_list && std::ranges::any_of(node.items, [&](const YamlNode& item) {
                   return is_size(item) != size;
                 })) {
-              draft.complaints.about(node,
-                                     "expected two fractions or two sizes, found one of each");
+              draft.complaints.add_at(node,
+                                      "expected two fractions or two sizes, found one of each");
               return std::nullopt;
             }
             return (size ? sizes : fractions).read(node, draft);
           },
-          [=](const SmoothnessDistribution& smoothness, const ConfigWriting& writing) {
-            return (smoothness.unit == Unit::kSize ? sizes : fractions).write(smoothness, writing);
+          [=](const SmoothnessDistribution& smoothness, const WriteContext& context) {
+            return (smoothness.unit == Unit::kSize ? sizes : fractions).write(smoothness, context);
           },
           "fraction, 0 … 1, or a size, or a range of either"};
 }
@@ -277,9 +277,9 @@ Codec<SmoothnessDistribution> iterations() {
   return in_unit(Unit::kIterations, iteration_count());
 }
 
-std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing) {
+std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context) {
   return flow_map(texts_of(weights, [&](const WeightedHead& one) {
-    return entry(writing.head(one.head), format_number(one.weight));
+    return entry(context.head(one.head), format_number(one.weight));
   }));
 }
 
@@ -298,7 +298,7 @@ Codec<Eigen::Index> head() {
             const auto name = read_name(node, draft.complaints);
             return name ? find_head(*name, node.place, node.path, draft) : std::nullopt;
           },
-          [](Eigen::Index index, const ConfigWriting& writing) { return writing.head(index); },
+          [](Eigen::Index index, const WriteContext& context) { return context.head(index); },
           "head"};
 }
 
@@ -321,7 +321,7 @@ Codec<PlanePoint> point() {
             const auto y = coordinate.read(node.items[1], draft);
             return x && y ? std::optional(PlanePoint(*x, *y)) : std::nullopt;
           },
-          [](const PlanePoint& at, const ConfigWriting&) {
+          [](const PlanePoint& at, const WriteContext&) {
             return flow_list({format_number(at.x()), format_number(at.y())});
           },
           "`[x, y]`"};
@@ -333,10 +333,10 @@ Codec<std::filesystem::path> path(const std::string& expected) {
             if (!text) return std::nullopt;
             return resolve(draft.folder, *text);
           },
-          [](const std::filesystem::path& file, const ConfigWriting& writing) {
+          [](const std::filesystem::path& file, const WriteContext& context) {
             if (file.empty()) return std::string();
             const auto absolute = std::filesystem::absolute(file).lexically_normal();
-            const auto relative = absolute.lexically_relative(writing.folder);
+            const auto relative = absolute.lexically_relative(context.folder);
             return write_scalar(relative.empty() ? absolute.string() : relative.string());
           },
           without_article(expected)};

@@ -14,7 +14,7 @@
 namespace crowdface {
 
 /// The context in which values are written as YAML.
-struct ConfigWriting {
+struct WriteContext {
   const Config& config;
   std::filesystem::path folder;  ///< absolute; written paths are relative to this folder
   bool only_for_faces = false;   ///< write only the keys that face_settings needs
@@ -28,7 +28,7 @@ struct ConfigWriting {
 template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
-  std::function<std::string(const Value&, const ConfigWriting&)> write;
+  std::function<std::string(const Value&, const WriteContext&)> write;
   std::string takes = {};  ///< the accepted values, for docs/config.md: "number, 0 … 1"
 };
 
@@ -66,7 +66,7 @@ Codec<std::vector<Eigen::Index>> head_list();
 Codec<std::vector<WeightedHead>> weighted_heads();
 Codec<PlanePoint> point();
 /// Writes weights as "{head: weight}".
-std::string write_weights(const std::vector<WeightedHead>& weights, const ConfigWriting& writing);
+std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context);
 /// A path relative to the config's folder. An empty path is not written.
 /// \param expected  for messages, such as "a folder".
 Codec<std::filesystem::path> path(const std::string& expected);
@@ -98,7 +98,7 @@ Codec<Value> word() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
             return read_choice(node, words_of<Value>(), draft.complaints);
           },
-          [](Value value, const ConfigWriting&) { return std::string(word_of(value)); },
+          [](Value value, const WriteContext&) { return std::string(word_of(value)); },
           shown_words<Value>()};
 }
 
@@ -113,9 +113,9 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
             }
             return std::optional(values);
           },
-          [=](const std::vector<Value>& values, const ConfigWriting& writing) {
+          [=](const std::vector<Value>& values, const WriteContext& context) {
             return flow_list(
-                texts_of(values, [&](const Value& value) { return item.write(value, writing); }));
+                texts_of(values, [&](const Value& value) { return item.write(value, context); }));
           },
           without_article(expected)};
 }

@@ -13,13 +13,13 @@ void Complaints::add(const YamlPlace& place, std::string what, ExitCode kind) {
   complaints_.push_back({place, std::move(what), kind});
 }
 
-void Complaints::about(const YamlNode& node, const std::string& what, ExitCode kind) {
+void Complaints::add_at(const YamlNode& node, const std::string& what, ExitCode kind) {
   if (node.kind == YamlNode::Kind::kRefused) return;
   add(node.place, node.path.empty() ? what : concat(node.path, ": ", what), kind);
 }
 
 std::nullopt_t Complaints::expected(const YamlNode& node, const std::string& expected) {
-  about(node, concat("expected ", expected, ", found ", describe(node)));
+  add_at(node, concat("expected ", expected, ", found ", describe(node)));
   return std::nullopt;
 }
 

@@ -21,7 +21,7 @@ class Complaints {
 
   void add(const YamlPlace& place, std::string what, ExitCode kind = ExitCode::kUsage);
   /// Adds "PATH: WHAT" at the node, unless the node is already refused (Kind::kRefused).
-  void about(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
+  void add_at(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
   /// Adds "PATH: expected EXPECTED, found …" at the node.
   /// \return `nullopt`, so that a function that reads a value can return this call.
   std::nullopt_t expected(const YamlNode& node, const std::string& expected);

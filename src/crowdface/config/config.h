@@ -209,7 +209,7 @@ struct Config {
   } distance;
   DiversityOptions diversity;
   BelievabilityOptions believability;
-  std::vector<HandRecipe> recipes;
+  std::vector<ManualRecipe> recipes;
   std::vector<FamilyOptions> families;
   std::vector<Group> groups;
 

@@ -21,8 +21,8 @@ bool expect_file(const YamlNode& node, const std::filesystem::path& file, Config
     return false;
   }
   if (path_exists(file)) return true;
-  draft.complaints.about(node, concat(what, quoted(file.string()), " is missing"),
-                         ExitCode::kMissingInput);
+  draft.complaints.add_at(node, concat(what, quoted(file.string()), " is missing"),
+                          ExitCode::kMissingInput);
   return false;
 }
 

@@ -40,7 +40,7 @@ struct Key {
   /// Reads the value into the section. After a complaint the section may be unchanged.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
   /// Returns the section's value as text for entry(); an empty text leaves the key out.
-  std::function<std::string(const Section&, const ConfigWriting&)> write;
+  std::function<std::string(const Section&, const WriteContext&)> write;
   std::string_view required = {};  ///< required keys only: an example, for the message
   Starter starter = {};            ///< empty: the key is not in a starter config
   std::string takes = {};          ///< accepted values, for docs/config.md
@@ -81,8 +81,8 @@ struct Key {
   template <class Is>
   Key written_if(const Is& is) const {
     Key key = *this;
-    key.write = [is, write = write](const Section& section, const ConfigWriting& writing) {
-      return is(section, writing) ? write(section, writing) : "";
+    key.write = [is, write = write](const Section& section, const WriteContext& context) {
+      return is(section, context) ? write(section, context) : "";
     };
     return key;
   }
@@ -117,12 +117,12 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
 /// also skips keys that are apart from faces or at their default.
 template <class Section>
 std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
-                                    const ConfigWriting& writing) {
+                                    const WriteContext& context) {
   std::vector<std::string> entries;
   for (const Key<Section>& key : keys) {
-    if (writing.only_for_faces && !key.shapes_faces) continue;
-    const std::string value = key.write(section, writing);
-    const bool left_out = writing.only_for_faces && value == key.write(Section{}, writing);
+    if (context.only_for_faces && !key.shapes_faces) continue;
+    const std::string value = key.write(section, context);
+    const bool left_out = context.only_for_faces && value == key.write(Section{}, context);
     if (!value.empty() && !left_out) entries.push_back(entry(key.name, value));
   }
   return entries;
@@ -158,9 +158,9 @@ std::vector<KeyRow> config_key_rows();
 /// Writes a list of sections that have the same keys.
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
-                           const ConfigWriting& writing) {
+                           const WriteContext& context) {
   return block_list(texts_of(sections, [&](const Section& section) {
-    return block_map(write_keys(keys, section, writing));
+    return block_map(write_keys(keys, section, context));
   }));
 }
 
@@ -194,12 +194,12 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
             if (auto value = codec.read(node, draft))
               section.*member = static_cast<Member>(std::move(*value));
           },
-          [=](const Section& section, const ConfigWriting& writing) -> std::string {
+          [=](const Section& section, const WriteContext& context) -> std::string {
             if constexpr (requires { (section.*member).has_value(); }) {
-              return section.*member ? codec.write(static_cast<Value>(*(section.*member)), writing)
+              return section.*member ? codec.write(static_cast<Value>(*(section.*member)), context)
                                      : "";
             } else {
-              return codec.write(static_cast<Value>(section.*member), writing);
+              return codec.write(static_cast<Value>(section.*member), context);
             }
           },
           required,
@@ -221,8 +221,8 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
         read_keys(node, keys, section.*member, draft);
         if (check) check(node, draft.complaints.size() == complaints_before, draft);
       },
-      [=, &keys](const Section& section, const ConfigWriting& writing) {
-        return block_map(write_keys(keys, section.*member, writing));
+      [=, &keys](const Section& section, const WriteContext& context) {
+        return block_map(write_keys(keys, section.*member, context));
       },
       required,
       starter_section(keys),
@@ -255,6 +255,6 @@ Key<Config> families_key();
 /// Returns the ids of a family's members and of its sampled parents.
 std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
-std::string write_review(const Config& config, const ConfigWriting& writing);
+std::string write_review(const Config& config, const WriteContext& context);
 
 }  // namespace crowdface

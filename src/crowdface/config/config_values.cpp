@@ -26,8 +26,8 @@ std::optional<std::string> number_text(const YamlNode& node, const std::string& 
                                        Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
   if (node.quoted && parse_double(node.text)) {
-    out.about(node, concat("expected ", expected, ", found text, ", quoted(node.text),
-                           "; leave the quotes out"));
+    out.add_at(node, concat("expected ", expected, ", found text, ", quoted(node.text),
+                            "; leave the quotes out"));
     return std::nullopt;
   }
   const std::size_t first = node.text.find_first_not_of("+-");
@@ -37,9 +37,9 @@ std::optional<std::string> number_text(const YamlNode& node, const std::string& 
     // Suggest the number without leading zeros: 7 for "007", 0.5 for "00.5".
     std::size_t kept = std::min(digits.find_first_not_of('0'), digits.size() - 1);
     if (digits[kept] < '0' || digits[kept] > '9') --kept;
-    out.about(node,
-              concat("the leading zero of ", node.text, " is ambiguous (YAML 1.1 reads 010 as ",
-                     "8); write ", node.text.substr(0, first), digits.substr(kept)));
+    out.add_at(node,
+               concat("the leading zero of ", node.text, " is ambiguous (YAML 1.1 reads 010 as ",
+                      "8); write ", node.text.substr(0, first), digits.substr(kept)));
     return std::nullopt;
   }
   return node.text;
@@ -68,7 +68,7 @@ const YamlNode* MapReader::find(std::string_view key) const {
   const YamlEntry* entry = node_.find(key);
   if (entry == nullptr) return nullptr;
   if (entry->value.kind == YamlNode::Kind::kNothing) {
-    complaints_.about(entry->value, "no value; write one, or leave the key out");
+    complaints_.add_at(entry->value, "no value; write one, or leave the key out");
     return nullptr;
   }
   return &entry->value;
@@ -125,7 +125,7 @@ std::optional<std::string> read_name(const YamlNode& node, Complaints& out) {
 void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out) {
   const std::string hint =
       node.kind == YamlNode::Kind::kScalar ? suggestion(node.text, words) : std::string();
-  out.about(node, concat("expected ", join(words, " or "), ", found ", describe(node), hint));
+  out.add_at(node, concat("expected ", join(words, " or "), ", found ", describe(node), hint));
 }
 
 void refuse_repeated(const YamlNode& list, Complaints& out) {
@@ -133,7 +133,7 @@ void refuse_repeated(const YamlNode& list, Complaints& out) {
     if (std::any_of(list.items.begin(), item, [&](const YamlNode& other) {
           return other.kind == YamlNode::Kind::kScalar && other.text == item->text;
         })) {
-      out.about(*item, concat(quoted(item->text), " is named twice"));
+      out.add_at(*item, concat(quoted(item->text), " is named twice"));
     }
   }
 }

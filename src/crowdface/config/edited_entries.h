@@ -17,11 +17,11 @@ namespace crowdface {
 /// \param source    name of the text in messages.
 /// \param problems  receives every problem.
 /// \return nothing if there is a problem.
-std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::string& source,
-                                            const Config& config, Problems& problems);
+std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std::string& source,
+                                                const Config& config, Problems& problems);
 
 /// Writes a recipe as YAML: one item of the list `recipes`, without its leading dash.
-std::string format_hand_recipe(const HandRecipe& recipe, const Config& config);
+std::string format_manual_recipe(const ManualRecipe& recipe, const Config& config);
 
 /// Reads the text of a review file as if the crowd's config named that file.
 /// \param source    name of the text in messages.

@@ -25,14 +25,15 @@ void add_head(const fs::path& file, const std::string& name, const YamlNode& nod
   const std::string shown = quoted(file.string());
   expect_file(node, file, draft);
   if (!is_name(name)) {
-    draft.complaints.about(node, concat("the head's name, ", quoted(name),
-                                        ", comes from its file name; expected at most 64 ",
-                                        "letters (a-z), digits, '_', '-' and '.'; rename ", shown));
+    draft.complaints.add_at(node,
+                            concat("the head's name, ", quoted(name),
+                                   ", comes from its file name; expected at most 64 ",
+                                   "letters (a-z), digits, '_', '-' and '.'; rename ", shown));
   } else if (name == "all" || name == "target") {
-    draft.complaints.about(node, concat("a head cannot have the name ", quoted(name),
-                                        ", because the word is reserved; rename ", shown));
+    draft.complaints.add_at(node, concat("a head cannot have the name ", quoted(name),
+                                         ", because the word is reserved; rename ", shown));
   } else if (contains(faces.names, name)) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, concat("two heads are called ", quoted(name), "; the second is ", shown));
   }
   faces.files.push_back(file);
@@ -50,8 +51,8 @@ void add_heads(const std::vector<fs::path>& files, const std::vector<const YamlN
 bool expect_head_count(const YamlNode& node, std::size_t count, const std::string& where,
                        Complaints& out) {
   if (count >= kMinHeads && count <= kMaxHeads) return true;
-  out.about(node,
-            concat("expected ", kMinHeads, " to ", kMaxHeads, " heads, found ", count, where));
+  out.add_at(node,
+             concat("expected ", kMinHeads, " to ", kMaxHeads, " heads, found ", count, where));
   return false;
 }
 
@@ -83,7 +84,7 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
     draft.heads_known = expect_head_count(node, files.size(), where, draft.complaints);
     add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
   } catch (const MissingInput& error) {
-    draft.complaints.about(node, error.what(), error.code());
+    draft.complaints.add_at(node, error.what(), error.code());
   }
 }
 
@@ -124,18 +125,18 @@ void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
       sound && expect_head_count(node, node.items.size(), " files", draft.complaints);
 }
 
-std::string write_files(const Faces& faces, const ConfigWriting& writing) {
+std::string write_files(const Faces& faces, const WriteContext& context) {
   return block_list(
-      texts_of(faces.files, [&](const fs::path& file) { return path("").write(file, writing); }));
+      texts_of(faces.files, [&](const fs::path& file) { return path("").write(file, context); }));
 }
 
 /// Refuses a tag that is also a head's name, `all` or `target`.
 void check_tag(const YamlNode& node, const Faces& faces, Complaints& out) {
   const std::string& tag = node.text;
   if (contains(faces.names, tag)) {
-    out.about(node, concat("the tag ", quoted(tag), " is also the name of a head"));
+    out.add_at(node, concat("the tag ", quoted(tag), " is also the name of a head"));
   } else if (tag == "all" || tag == "target") {
-    out.about(node, concat("a tag cannot have the reserved name ", quoted(tag)));
+    out.add_at(node, concat("a tag cannot have the reserved name ", quoted(tag)));
   }
 }
 
@@ -148,7 +149,7 @@ std::vector<std::string> read_tags_of_head(const YamlNode& node, const Faces& fa
     if (!tag) continue;
     check_tag(item, faces, out);
     if (contains(tags, *tag)) {
-      out.about(item, concat("the tag ", quoted(*tag), " is named twice"));
+      out.add_at(item, concat("the tag ", quoted(*tag), " is named twice"));
     }
     tags.push_back(*tag);
   }
@@ -167,7 +168,7 @@ void read_head_tags(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   draft.tags_known = draft.complaints.size() == complaints_before;
 }
 
-std::string write_tags(const Faces& faces, const ConfigWriting&) {
+std::string write_tags(const Faces& faces, const WriteContext&) {
   std::vector<std::string> heads;
   for (std::size_t i = 0; i < faces.tags.size(); ++i) {
     if (faces.tags[i].empty()) continue;
@@ -183,7 +184,7 @@ Codec<Axis> axis() {
             if (!axis) draft.complaints.expected(node, "an axis, +X, -X, +Y, -Y, +Z or -Z");
             return axis;
           },
-          [](const Axis& axis, const ConfigWriting&) { return name_of(axis); },
+          [](const Axis& axis, const WriteContext&) { return name_of(axis); },
           "axis: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`"};
 }
 
@@ -255,8 +256,9 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   YamlNode section = node;
   const bool has_files = node.find("files") != nullptr;
   if (node.kind == YamlNode::Kind::kMap && has_files == (node.find("directory") != nullptr)) {
-    draft.complaints.about(node, has_files ? "either directory or files, not both"
-                                           : "directory or files is missing; where are the heads?");
+    draft.complaints.add_at(node, has_files
+                                      ? "either directory or files, not both"
+                                      : "directory or files is missing; where are the heads?");
     std::erase_if(section.entries, [](const YamlEntry& entry) {
       return entry.key == "directory" || entry.key == "files";
     });
@@ -264,9 +266,9 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   read_keys(section, faces_keys(), faces, draft);
   if (faces.up.index == faces.front.index && draft.complaints.size() == complaints_before) {
     const YamlEntry* front = node.find("front");
-    draft.complaints.about((front != nullptr ? front : node.find("up"))->value,
-                           concat("front and up need two different axes, found up ",
-                                  name_of(faces.up), " and front ", name_of(faces.front)));
+    draft.complaints.add_at((front != nullptr ? front : node.find("up"))->value,
+                            concat("front and up need two different axes, found up ",
+                                   name_of(faces.up), " and front ", name_of(faces.front)));
   }
   for (std::size_t h = 0; h < faces.names.size(); ++h) {
     config.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
@@ -282,8 +284,8 @@ std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
                              facts.names.size(), ": ", name_some(facts.names), ".")};
 }
 
-std::string write_faces(const Config& config, const ConfigWriting& writing) {
-  return block_map(write_keys(faces_keys(), config.faces, writing));
+std::string write_faces(const Config& config, const WriteContext& context) {
+  return block_map(write_keys(faces_keys(), config.faces, context));
 }
 
 }  // namespace

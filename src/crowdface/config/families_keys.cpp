@@ -28,11 +28,11 @@ Codec<std::size_t> group() {
             const auto& groups = draft.config.groups;
             const auto found = std::ranges::find(groups, *name, &Group::name);
             if (found != groups.end()) return static_cast<std::size_t>(found - groups.begin());
-            draft.complaints.about(node, concat("no group is called ", quoted(*name)));
+            draft.complaints.add_at(node, concat("no group is called ", quoted(*name)));
             return std::nullopt;
           },
-          [](std::size_t index, const ConfigWriting& writing) {
-            return write_scalar(writing.config.groups[index].name);
+          [](std::size_t index, const WriteContext& context) {
+            return write_scalar(context.config.groups[index].name);
           },
           "name of a [group](#groups)"};
 }
@@ -58,11 +58,11 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto head = std::ranges::find(heads, *name);
   if (head != heads.end()) return Parent{head - heads.begin(), *name};
   const auto& recipes = draft.config.recipes;
-  const bool known = std::ranges::find(recipes, *name, &HandRecipe::id) != recipes.end() ||
+  const bool known = std::ranges::find(recipes, *name, &ManualRecipe::id) != recipes.end() ||
                      is_of_a_family(*name, draft.config);
   if (!known && draft.heads_known) {
-    draft.complaints.about(node, concat("expected drawn, a head, a recipe's id or a member of ",
-                                        "an earlier family (smith_01), found ", quoted(*name)));
+    draft.complaints.add_at(node, concat("expected drawn, a head, a recipe's id or a member of ",
+                                         "an earlier family (smith_01), found ", quoted(*name)));
   }
   return Parent{std::nullopt, *name};
 }
@@ -78,20 +78,20 @@ void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
   if (first && second) family.parents = {*first, *second};
 }
 
-std::string write_parent(const Parent& parent, const ConfigWriting& writing) {
+std::string write_parent(const Parent& parent, const WriteContext& context) {
   if (!parent.drawn) return write_scalar(parent.id);
-  return parent.group ? flow_map({entry("group", group().write(*parent.group, writing))}) : "drawn";
+  return parent.group ? flow_map({entry("group", group().write(*parent.group, context))}) : "drawn";
 }
 
-std::string write_parents(const FamilyOptions& family, const ConfigWriting& writing) {
+std::string write_parents(const FamilyOptions& family, const WriteContext& context) {
   if (family.parents.empty()) return "";
-  return flow_map({entry(word_of(0), write_parent(family.parents[0], writing)),
-                   entry(word_of(1), write_parent(family.parents[1], writing))});
+  return flow_map({entry(word_of(0), write_parent(family.parents[0], context)),
+                   entry(word_of(1), write_parent(family.parents[1], context))});
 }
 
 void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kMap && family.parents.empty()) {
-    draft.complaints.about(node, "expected inherit only in a family with parents; add parents");
+    draft.complaints.add_at(node, "expected inherit only in a family with parents; add parents");
   }
   if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
   // Later names override earlier ones: bands override regions, "top/skin" overrides both.
@@ -109,9 +109,9 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
   }
 }
 
-std::string write_inherit(const FamilyOptions& family, const ConfigWriting& writing) {
+std::string write_inherit(const FamilyOptions& family, const WriteContext& context) {
   if (family.parents.empty()) return "";
-  const std::vector<std::string> names = writing.config.part_names();
+  const std::vector<std::string> names = context.config.part_names();
   std::vector<std::string> entries;
   for (std::size_t part = 0; part < names.size(); ++part) {
     entries.push_back(entry(write_scalar(names[part]), std::string(word_of(family.inherit[part]))));
@@ -122,20 +122,20 @@ std::string write_inherit(const FamilyOptions& family, const ConfigWriting& writ
 void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
   const auto& families = draft.config.families;
   if (std::ranges::find(families, family.name, &FamilyOptions::name) != families.end()) {
-    draft.complaints.about(node, concat("two families are called ", quoted(family.name)));
+    draft.complaints.add_at(node, concat("two families are called ", quoted(family.name)));
   }
   if (family.name.find_first_not_of("0123456789") == std::string::npos) {
-    draft.complaints.about(node,
-                           "expected a family name with a letter; with digits only, the members "
-                           "would have the ids of sampled faces");
+    draft.complaints.add_at(node,
+                            "expected a family name with a letter; with digits only, the members "
+                            "would have the ids of sampled faces");
   }
 }
 
 void refuse_taken_ids(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
   const auto& recipes = draft.config.recipes;
   for (const std::string& id : ids_of(family, draft.config.crowd.name)) {
-    if (std::ranges::find(recipes, id, &HandRecipe::id) == recipes.end()) continue;
-    draft.complaints.about(
+    if (std::ranges::find(recipes, id, &ManualRecipe::id) == recipes.end()) continue;
+    draft.complaints.add_at(
         node, concat("the recipe ", quoted(id),
                      " has the id of a member of this family; rename the recipe or the family"));
   }
@@ -173,17 +173,17 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
           std::min(family.twins ? kTwinsMm : HUGE_VAL, kChildren * family.max_distance_mm);
     }
     if (family.max_distance_mm > 0 && family.min_distance_mm > 2 * family.max_distance_mm) {
-      draft.complaints.about(item.find("min_distance")->value,
-                             "expected at most twice max_distance, because all members are within "
-                             "max_distance of one founder");
+      draft.complaints.add_at(item.find("min_distance")->value,
+                              "expected at most twice max_distance, because all members are within "
+                              "max_distance of one founder");
     }
     refuse_taken_ids(item, family, draft);
     config.families.push_back(std::move(family));
   }
 }
 
-std::string write_families(const Config& config, const ConfigWriting& writing) {
-  return write_sections(family_keys(), config.families, writing);
+std::string write_families(const Config& config, const WriteContext& context) {
+  return write_sections(family_keys(), config.families, context);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   for (const Eigen::Index head : group.sampling.sources)
     group.sampling.targets.push_back({head, 1});
   if (group.sampling.targets.empty() && draft.heads_known && draft.tags_known) {
-    draft.complaints.about(node, "no head has all of these tags");
+    draft.complaints.add_at(node, "no head has all of these tags");
   }
 }
 
@@ -38,7 +38,7 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   for (const std::string& tag : *tags) {
     const std::vector<Eigen::Index> tagged = heads_with({tag}, draft.config.faces);
     if (known && tagged.empty()) {
-      draft.complaints.about(node, concat("no head has the tag ", quoted(tag)));
+      draft.complaints.add_at(node, concat("no head has the tag ", quoted(tag)));
     }
     const auto is_tagged = [&](Eigen::Index head) { return contains(tagged, head); };
     std::erase_if(sampling.targets, [&](const auto& target) { return is_tagged(target.head); });
@@ -49,11 +49,11 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
     }
   }
   if (known && had_some && (sampling.targets.empty() || sampling.sources.empty())) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, "the group has no head left, because each of its heads has one of these tags");
   }
   for (const std::string& band : emptied) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node,
         concat("the band ", band, " has no source left, because each of its ",
                "sources has one of these tags; set sources under bands.", band, " of the group"));
@@ -77,8 +77,8 @@ const Keys<Group>& group_keys() {
                      [read = sampled.read](const YamlNode& node, Group& group, ConfigDraft& draft) {
                        read(node, group.sampling, draft);
                      },
-                     [write = sampled.write](const Group& group, const ConfigWriting& writing) {
-                       return write(group.sampling, writing);
+                     [write = sampled.write](const Group& group, const WriteContext& context) {
+                       return write(group.sampling, context);
                      }});
     }
     // `without` must follow all keys that name heads.
@@ -92,10 +92,10 @@ const Keys<Group>& group_keys() {
 void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   const auto& groups = draft.config.groups;
   if (std::ranges::find(groups, group.name, &Group::name) != groups.end()) {
-    draft.complaints.about(node, concat("two groups are called ", quoted(group.name)));
+    draft.complaints.add_at(node, concat("two groups are called ", quoted(group.name)));
   }
   if (node.find("share") != nullptr && node.find("count") != nullptr) {
-    draft.complaints.about(node, "either share or count, not both");
+    draft.complaints.add_at(node, "either share or count, not both");
   }
 }
 
@@ -111,11 +111,11 @@ void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
     (group.share == kOpenShare ? open : shared) += group.share == kOpenShare ? 1 : group.share;
   }
   if (shared > 1 + kRounding) {
-    draft.complaints.about(node, concat("the shares sum to ", shared, ", more than 1"));
+    draft.complaints.add_at(node, concat("the shares sum to ", shared, ", more than 1"));
   }
   if (counted > draft.config.crowd.count) {
-    draft.complaints.about(node, concat("the counts sum to ", counted, ", more than crowd.count, ",
-                                        draft.config.crowd.count));
+    draft.complaints.add_at(node, concat("the counts sum to ", counted, ", more than crowd.count, ",
+                                         draft.config.crowd.count));
   }
   for (Group& group : groups) {
     if (group.share == kOpenShare) group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
@@ -150,8 +150,8 @@ std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
                       "source heads:\nseparate groups keep women and men apart."};
 }
 
-std::string write_groups(const Config& config, const ConfigWriting& writing) {
-  return config.groups.empty() ? "" : write_sections(group_keys(), config.groups, writing);
+std::string write_groups(const Config& config, const WriteContext& context) {
+  return config.groups.empty() ? "" : write_sections(group_keys(), config.groups, context);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ void read_like(const YamlNode& node, Neck& neck, ConfigDraft& draft) {
   if (!neck.mean) neck.like = head().read(node, draft);
 }
 
-std::string write_like(const Neck& neck, const ConfigWriting& writing) {
+std::string write_like(const Neck& neck, const WriteContext& context) {
   if (neck.mean) return "mean";
-  return neck.like ? writing.head(*neck.like) : "";
+  return neck.like ? context.head(*neck.like) : "";
 }
 
 const Keys<Neck>& neck_keys() {
@@ -47,13 +47,13 @@ void read_neck(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (draft.complaints.size() > before) return;
   const bool has_like = node.find("like") != nullptr;
   if (has_like == !config.neck.body.empty()) {
-    draft.complaints.about(node, "expected either body (a mesh file) or like (a head, or mean)");
+    draft.complaints.add_at(node, "expected either body (a mesh file) or like (a head, or mean)");
   }
 }
 
-std::string write_neck(const Config& config, const ConfigWriting& writing) {
+std::string write_neck(const Config& config, const WriteContext& context) {
   if (!config.neck.is_set()) return "";
-  return block_map(write_keys(neck_keys(), config.neck, writing));
+  return block_map(write_keys(neck_keys(), config.neck, context));
 }
 
 }  // namespace

@@ -30,12 +30,12 @@ void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
     expect_file(node, *file, draft, "expected none, target, nearest, or an existing file; ");
   }
   if (sheet.compare.with != With::kNothing && draft.config.output.meshes.empty()) {
-    draft.complaints.about(node, "a comparison needs meshes, but output.meshes is empty");
+    draft.complaints.add_at(node, "a comparison needs meshes, but output.meshes is empty");
   }
 }
 
-std::string write_comparison(const Sheet& sheet, const ConfigWriting& writing) {
-  return sheet.compare.with == With::kFile ? path("").write(sheet.compare.file, writing)
+std::string write_comparison(const Sheet& sheet, const WriteContext& context) {
+  return sheet.compare.with == With::kFile ? path("").write(sheet.compare.file, context)
                                            : std::string(word_of(sheet.compare.with));
 }
 
@@ -102,17 +102,17 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
   const auto& names = draft.config.shapes.names;
   const auto name = std::ranges::find_if(names, is_level_name);
   if (name != names.end()) {
-    draft.complaints.about(node,
-                           concat("a shape is called ", *name,
-                                  ", which is the name of a level of detail; rename the shape"));
+    draft.complaints.add_at(node,
+                            concat("a shape is called ", *name,
+                                   ", which is the name of a level of detail; rename the shape"));
   }
 }
 
-std::string write_lods(const Output& output, const ConfigWriting&) {
+std::string write_lods(const Output& output, const WriteContext&) {
   return flow_list(texts_of(output.lods, [](double percent) { return concat(percent, " %"); }));
 }
 
-std::string write_surfaces(const Output& output, const ConfigWriting&) {
+std::string write_surfaces(const Output& output, const WriteContext&) {
   return flow_map(texts_of(output.surfaces, [](const auto& named) {
     const auto& [name, surface] = named;
     return entry(write_scalar(name),
@@ -125,10 +125,10 @@ std::string write_surfaces(const Output& output, const ConfigWriting&) {
 /// \param faces  number of faces whose shapes are shown.
 bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
   if (faces > 0 && draft.config.shapes.names.empty()) {
-    draft.complaints.about(node, "the config has no shapes; add the key shapes");
+    draft.complaints.add_at(node, "the config has no shapes; add the key shapes");
   }
   if (faces > 0 && draft.config.output.meshes.empty()) {
-    draft.complaints.about(node, "shapes are rendered from meshes, but output.meshes is empty");
+    draft.complaints.add_at(node, "shapes are rendered from meshes, but output.meshes is empty");
   }
   return true;
 }
@@ -151,8 +151,8 @@ const Keys<Sheet>& contact_sheet_keys() {
                    const auto scale = positive_length(kLongestScaleMm).read(node, draft);
                    sheet.compare.scale_mm = scale.value_or(sheet.compare.scale_mm);
                  },
-                 [](const Sheet& sheet, const ConfigWriting& writing) {
-                   return length(kLongestScaleMm).write(sheet.compare.scale_mm, writing);
+                 [](const Sheet& sheet, const WriteContext& context) {
+                   return length(kLongestScaleMm).write(sheet.compare.scale_mm, context);
                  }}
           .taking(positive_length(kLongestScaleMm).takes)
           .apart_from_faces(),
@@ -184,15 +184,15 @@ void read_contact_sheet(const YamlNode& node, Output& output, ConfigDraft& draft
   }
   read_keys(node, contact_sheet_keys(), *output.contact_sheet, draft);
   if (!fits_on_a_page(*output.contact_sheet)) {
-    draft.complaints.about(node,
-                           "a page with this cell size, rows and columns is too large (at most "
-                           "65500 pixels per side and 5e8 in total)");
+    draft.complaints.add_at(node,
+                            "a page with this cell size, rows and columns is too large (at most "
+                            "65500 pixels per side and 5e8 in total)");
   }
 }
 
-std::string write_contact_sheet(const Output& output, const ConfigWriting& writing) {
+std::string write_contact_sheet(const Output& output, const WriteContext& context) {
   if (!output.contact_sheet) return "none";
-  return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, writing));
+  return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, context));
 }
 
 /// The first four keys, which users change most, at their defaults.

@@ -10,8 +10,8 @@
 namespace crowdface {
 namespace {
 
-using HandBand = HandRecipe::Band;
-using HandRegion = HandRecipe::Region;
+using HandBand = ManualRecipe::Band;
+using HandRegion = ManualRecipe::Region;
 using Unit = SmoothnessDistribution::Unit;
 
 void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
@@ -30,20 +30,20 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
     if (head && weight) weights.push_back({*head, *weight});
   }
   if (sound && sum <= 0) {
-    draft.complaints.about(node, "the weights sum to zero; at least one must be above 0");
+    draft.complaints.add_at(node, "the weights sum to zero; at least one must be above 0");
   }
   std::ranges::sort(weights, {}, &WeightedHead::head);
 }
 
 void read_band_weights(const YamlNode& node, HandBand& band, ConfigDraft& draft) {
   if (draft.config.blending.normalization == Normalization::kPrinted) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, "with blending.normalization: printed, expected position instead of weights");
   }
   read_head_weights(node, band.weights, draft);
 }
 
-bool in_iterations(const HandBand& band, const ConfigWriting&) {
+bool in_iterations(const HandBand& band, const WriteContext&) {
   return band.smoothness && band.smoothness->unit == Unit::kIterations;
 }
 
@@ -51,8 +51,8 @@ const Keys<HandBand>& recipe_band_keys() {
   static const Keys<HandBand> keys = {
       key("position", &HandBand::position, point()),
       Key<HandBand>{"weights", read_band_weights,
-                    [](const HandBand& band, const ConfigWriting& writing) {
-                      return band.weights.empty() ? "" : write_weights(band.weights, writing);
+                    [](const HandBand& band, const WriteContext& context) {
+                      return band.weights.empty() ? "" : write_weights(band.weights, context);
                     }}
           .taking("`{head: weight}`"),
       // Both keys are stored in one member; its unit selects the key to write.
@@ -68,14 +68,14 @@ void read_part(const YamlNode& node, const Keys<Part>& keys, Part& part, ConfigD
   for (const auto& [one, other] :
        {std::pair("position", "weights"), {"smoothness", "iterations"}}) {
     if (node.find(one) == nullptr || node.find(other) == nullptr) continue;
-    draft.complaints.about(node, concat("either ", one, " or ", other, ", not both"));
+    draft.complaints.add_at(node, concat("either ", one, " or ", other, ", not both"));
   }
 }
 
 void read_recipe_bands(const YamlNode& node, HandRegion& region, ConfigDraft& draft) {
   const std::vector<std::string> names = draft.config.plan_names().bands;
   if (names.empty()) {
-    draft.complaints.about(node, "the config has no bands; define them under sampling.bands");
+    draft.complaints.add_at(node, "the config has no bands; define them under sampling.bands");
     return;
   }
   const MapReader map(node, names, draft.complaints);
@@ -86,13 +86,13 @@ void read_recipe_bands(const YamlNode& node, HandRegion& region, ConfigDraft& dr
   }
 }
 
-std::string write_recipe_bands(const HandRegion& region, const ConfigWriting& writing) {
+std::string write_recipe_bands(const HandRegion& region, const WriteContext& context) {
   std::vector<std::string> entries;
   for (std::size_t b = 0; b < region.bands.size(); ++b) {
     const std::vector<std::string> values =
-        write_keys(recipe_band_keys(), region.bands[b], writing);
+        write_keys(recipe_band_keys(), region.bands[b], context);
     if (values.empty()) continue;
-    entries.push_back(entry(write_scalar(writing.config.sampling.bands[b].name), flow_map(values)));
+    entries.push_back(entry(write_scalar(context.config.sampling.bands[b].name), flow_map(values)));
   }
   return entries.empty() ? "" : flow_map(entries);
 }
@@ -117,7 +117,7 @@ HandRegion read_region(const YamlNode& node, ConfigDraft& draft) {
 
 /// Reads the values of the regions. A region without an entry takes that of `all`; without `all`,
 /// sampling chooses its values.
-void read_regions_of(const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
+void read_regions_of(const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
   if (!draft.complaints.expect_map(node, "a mapping from regions, or all, to their values")) return;
   const std::vector<std::string>& names = draft.config.regions.names;
   std::vector<std::string> keys = names;
@@ -134,12 +134,12 @@ void read_regions_of(const YamlNode& node, HandRecipe& recipe, ConfigDraft& draf
   }
 }
 
-std::string write_regions_of(const HandRecipe& recipe, const ConfigWriting& writing) {
-  const std::vector<std::string> names = writing.config.region_names();
+std::string write_regions_of(const ManualRecipe& recipe, const WriteContext& context) {
+  const std::vector<std::string> names = context.config.region_names();
   std::vector<std::string> entries;
   for (std::size_t i = 0; i < recipe.regions.size(); ++i) {
     entries.push_back(entry(write_scalar(names[i]),
-                            flow_map(write_keys(region_keys(), recipe.regions[i], writing))));
+                            flow_map(write_keys(region_keys(), recipe.regions[i], context))));
   }
   return block_map(entries);
 }
@@ -157,42 +157,43 @@ bool looks_sampled(std::string_view id, std::string_view crowd) {
 void check_id(const YamlNode& node, const std::string& id, std::map<std::string, YamlPlace>& places,
               ConfigDraft& draft) {
   if (looks_sampled(id, draft.config.crowd.name)) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, concat("ids like ", quoted(id), " belong to the sampled faces; choose another"));
   }
   const auto [first, is_new] = places.emplace(id, node.place);
   if (!is_new) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, concat("the id ", quoted(id), " is used twice; first ", "at ", first->second.text()));
   }
 }
 
-const Keys<HandRecipe>& recipe_keys() {
-  static const Keys<HandRecipe> keys = {
-      key("id", &HandRecipe::id, name(), "the name of the face"),
-      key("target", &HandRecipe::target, head()),
-      key("age", &HandRecipe::age, age()),
-      key("asymmetry", &HandRecipe::asymmetry, asymmetry()),
-      key("mirrored", &HandRecipe::mirrored, word<bool>()),
-      Key<HandRecipe>{"colours",
-                      [](const YamlNode& node, HandRecipe& recipe, ConfigDraft& draft) {
-                        if (draft.config.textures.blend != TextureBlend::kAuto) {
-                          draft.complaints.about(node, "requires textures.blend: auto");
-                        }
-                        read_head_weights(node, recipe.colours, draft);
-                      },
-                      [](const HandRecipe& recipe, const ConfigWriting& writing) {
-                        return recipe.colours.empty() ? "" : write_weights(recipe.colours, writing);
-                      }}
+const Keys<ManualRecipe>& recipe_keys() {
+  static const Keys<ManualRecipe> keys = {
+      key("id", &ManualRecipe::id, name(), "the name of the face"),
+      key("target", &ManualRecipe::target, head()),
+      key("age", &ManualRecipe::age, age()),
+      key("asymmetry", &ManualRecipe::asymmetry, asymmetry()),
+      key("mirrored", &ManualRecipe::mirrored, word<bool>()),
+      Key<ManualRecipe>{"colours",
+                        [](const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
+                          if (draft.config.textures.blend != TextureBlend::kAuto) {
+                            draft.complaints.add_at(node, "requires textures.blend: auto");
+                          }
+                          read_head_weights(node, recipe.colours, draft);
+                        },
+                        [](const ManualRecipe& recipe, const WriteContext& context) {
+                          return recipe.colours.empty() ? ""
+                                                        : write_weights(recipe.colours, context);
+                        }}
           .taking("`{head: weight}`"),
-      Key<HandRecipe>{"regions", read_regions_of, write_regions_of}
+      Key<ManualRecipe>{"regions", read_regions_of, write_regions_of}
           .taking("`{region: {…}}`")
           .holding(region_keys())};
   return keys;
 }
 
-std::optional<HandRecipe> read_recipe(const YamlNode& node, ConfigDraft& draft) {
-  HandRecipe recipe;
+std::optional<ManualRecipe> read_recipe(const YamlNode& node, ConfigDraft& draft) {
+  ManualRecipe recipe;
   recipe.regions.resize(draft.config.region_names().size());
   if (!read_keys(node, recipe_keys(), recipe, draft)) return std::nullopt;
   return recipe;
@@ -202,15 +203,15 @@ void read_recipes(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of recipes, [{id: …, target: …, regions: …}]");
   std::map<std::string, YamlPlace> places;
   for (const YamlNode& item : node.items) {
-    std::optional<HandRecipe> recipe = read_recipe(item, draft);
+    std::optional<ManualRecipe> recipe = read_recipe(item, draft);
     if (!recipe) continue;
     if (!recipe->id.empty()) check_id(item.find("id")->value, recipe->id, places, draft);
     config.recipes.push_back(std::move(*recipe));
   }
 }
 
-std::string write_recipes(const Config& config, const ConfigWriting& writing) {
-  return write_sections(recipe_keys(), config.recipes, writing);
+std::string write_recipes(const Config& config, const WriteContext& context) {
+  return write_sections(recipe_keys(), config.recipes, context);
 }
 
 }  // namespace
@@ -219,19 +220,19 @@ Key<Config> recipes_key() {
   return Key<Config>{"recipes", read_recipes, write_recipes}.holding(recipe_keys());
 }
 
-std::optional<HandRecipe> parse_hand_recipe(std::string_view text, const std::string& source,
-                                            const Config& config, Problems& problems) {
+std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std::string& source,
+                                                const Config& config, Problems& problems) {
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.config = config;
   draft.heads_known = true;
-  std::optional<HandRecipe> recipe;
+  std::optional<ManualRecipe> recipe;
   if (const auto node = parse_yaml(text, source, complaints)) recipe = read_recipe(*node, draft);
   complaints.tell(problems);
   return complaints.empty() ? std::move(recipe) : std::nullopt;
 }
 
-std::string format_hand_recipe(const HandRecipe& recipe, const Config& config) {
+std::string format_manual_recipe(const ManualRecipe& recipe, const Config& config) {
   return block_map(write_keys(recipe_keys(), recipe, {config, {}}));
 }
 

@@ -24,9 +24,9 @@ void read_mask_image(const YamlNode& node, Regions& regions, ConfigDraft& draft)
     expect_file(node, *mask, draft, "the mask ");
   } else if (mask->filename().string().find(kTileWord) == std::string::npos ||
              text.find(kTileWord, tiles + 1) != std::string::npos) {
-    draft.complaints.about(node, "expected <UDIM> only once, in the file name");
+    draft.complaints.add_at(node, "expected <UDIM> only once, in the file name");
   } else if (find_tiles(*mask).empty()) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node,
         concat("no tile of the mask ", quoted(text),
                " exists; expected a file such as the one with 1001 in place of <UDIM>"),
@@ -41,9 +41,9 @@ void read_masks(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
   for (const YamlNode& item : node.items) read_mask_image(item, regions, draft);
 }
 
-std::string write_masks(const Regions& regions, const ConfigWriting& writing) {
+std::string write_masks(const Regions& regions, const WriteContext& context) {
   return block_list(texts_of(
-      regions.mask, [&](const std::string& mask) { return path("").write(mask, writing); }));
+      regions.mask, [&](const std::string& mask) { return path("").write(mask, context); }));
 }
 
 /// Reads a region name. Region names are also keys of the config and part of the columns of
@@ -54,10 +54,10 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   const auto name = read_name(node, out);
   if (!name) return;
   if (reserved.contains(*name)) {
-    out.about(node, concat("a region cannot have the name ", quoted(*name),
-                           ", because the word is reserved"));
+    out.add_at(node, concat("a region cannot have the name ", quoted(*name),
+                            ", because the word is reserved"));
   } else if (contains(names, *name)) {
-    out.about(node, concat("the region ", quoted(*name), " is named twice"));
+    out.add_at(node, concat("the region ", quoted(*name), " is named twice"));
   }
   names.push_back(*name);
 }
@@ -106,9 +106,9 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
                       "image masks one\nregion. \"regions: none\" makes the head a single region."};
 }
 
-std::string write_regions(const Config& config, const ConfigWriting& writing) {
+std::string write_regions(const Config& config, const WriteContext& context) {
   if (config.regions.names.empty()) return "none";
-  return block_map(write_keys(regions_keys(), config.regions, writing));
+  return block_map(write_keys(regions_keys(), config.regions, context));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr std::size_t kLongestNote = 2000;
 /// Returns every id of this config's crowd except those of sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
   std::vector<std::string> ids;
-  for (const HandRecipe& recipe : config.recipes) ids.push_back(recipe.id);
+  for (const ManualRecipe& recipe : config.recipes) ids.push_back(recipe.id);
   for (const FamilyOptions& family : config.families) {
     const std::vector<std::string> own = ids_of(family, config.crowd.name);
     ids.insert(ids.end(), own.begin(), own.end());
@@ -58,7 +58,7 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
     const std::vector<std::size_t> found =
         names.empty() ? std::vector<std::size_t>() : find_parts(*name, draft.config);
     if (found.empty() && draft.regions_known) {
-      draft.complaints.about(
+      draft.complaints.add_at(
           item, names.empty()
                     ? "the config has no regions, so nothing can be locked"
                     : concat(banded ? "no region or band is called " : "no region is called ",
@@ -69,7 +69,7 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   std::ranges::sort(mark.locked);
   mark.locked.erase(std::unique(mark.locked.begin(), mark.locked.end()), mark.locked.end());
   if (!names.empty() && mark.locked.size() == draft.config.part_names().size()) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, "every region is locked, so nothing is left to redraw; unlock at least one");
   }
   mark.verdict = Verdict::kReject;
@@ -78,7 +78,7 @@ void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 void read_verdict(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   mark.verdict = word<Verdict>().read(node, draft).value_or(mark.verdict);
   if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node, "expected mark: reject with lock, found keep; a kept face is not redrawn");
   }
 }
@@ -95,7 +95,7 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   if (node.kind != YamlNode::Kind::kMap) return read_verdict(node, mark, draft);
   static const Keys<ReviewMark> keys = {
       {"lock", read_lock, {}}, {"mark", read_verdict, {}}, {"note", read_note, {}}};
-  if (node.entries.empty()) draft.complaints.about(node, "expected mark, lock or note");
+  if (node.entries.empty()) draft.complaints.add_at(node, "expected mark, lock or note");
   read_keys(node, keys, mark, draft);
 }
 
@@ -129,7 +129,7 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
     }
     const auto& recipes = draft.config.recipes;
     if (mark.verdict == Verdict::kReject &&
-        std::ranges::find(recipes, entry.key, &HandRecipe::id) != recipes.end()) {
+        std::ranges::find(recipes, entry.key, &ManualRecipe::id) != recipes.end()) {
       draft.complaints.add(entry.key_place,
                            concat(quoted(entry.key), " is written by hand and cannot be rejected; ",
                                   "change its recipe"));
@@ -164,8 +164,8 @@ void read_review(const YamlNode& node, Config& config, ConfigDraft& draft) {
   for (const YamlNode& item : node.items) read_one(item);
 }
 
-std::string write_review(const Config& config, const ConfigWriting& writing) {
-  return list(path(""), "").write(config.review.files, writing);
+std::string write_review(const Config& config, const WriteContext& context) {
+  return list(path(""), "").write(config.review.files, context);
 }
 
 Review parse_review(std::string_view text, const std::string& source, const Config& config,

@@ -77,7 +77,7 @@ void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
   const Config::Textures& textures = draft.config.textures;
   const auto complain = [&](const char* key, const std::string& text) {
     const YamlEntry* entry = node.find(key);
-    draft.complaints.about(entry != nullptr ? entry->value : node, text);
+    draft.complaints.add_at(entry != nullptr ? entry->value : node, text);
   };
   if (textures.colours == ColourWeights::kDrawn && textures.blend != TextureBlend::kAuto) {
     complain("colours", "drawn requires textures.blend: auto");
@@ -104,9 +104,9 @@ void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
   }
 }
 
-std::string write_anchors(const Plane& plane, const ConfigWriting& writing) {
+std::string write_anchors(const Plane& plane, const WriteContext& context) {
   return block_map(texts_of(plane.anchors, [&](const auto& anchor) {
-    return entry(writing.head(anchor.first), point().write(anchor.second, writing));
+    return entry(context.head(anchor.first), point().write(anchor.second, context));
   }));
 }
 
@@ -128,7 +128,7 @@ void check_plane(const YamlNode& node, bool sound, ConfigDraft& draft) {
     }
   }
   if (!missing.empty()) {
-    draft.complaints.about(
+    draft.complaints.add_at(
         node.find("layout")->value,
         concat("manual needs an anchor for every head; missing in plane.anchors: ", join(missing)));
   }
@@ -156,9 +156,9 @@ void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft) {
   }
 }
 
-std::string write_parts(const Config& config, const ConfigWriting& writing) {
+std::string write_parts(const Config& config, const WriteContext& context) {
   if (!config.parts.follow) return "none";
-  return block_map(write_keys(parts_keys(), config.parts, writing));
+  return block_map(write_keys(parts_keys(), config.parts, context));
 }
 
 /// A key whose value is an existing file or `none`.
@@ -170,8 +170,8 @@ Key<Config> file_key(std::string_view name, std::filesystem::path Config::*membe
             const auto file = path(expected).read(node, draft);
             if (file && expect_file(node, *file, draft)) config.*member = *file;
           },
-          [=](const Config& config, const ConfigWriting& writing) {
-            const std::string file = path("").write(config.*member, writing);
+          [=](const Config& config, const WriteContext& context) {
+            const std::string file = path("").write(config.*member, context);
             return file.empty() ? "none" : file;
           }};
 }
@@ -183,14 +183,15 @@ void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
       config.textures.formats, [](TextureFormat format) { return format == TextureFormat::kExr; });
   if (!sound || !contains(config.output.meshes, MeshFormat::kGlb) || !only_exr) return;
   const YamlEntry* entry = node.find("meshes");
-  draft.complaints.about(entry != nullptr ? entry->value : node,
-                         "GLB files cannot hold EXR textures; add png or jpeg to textures.formats");
+  draft.complaints.add_at(
+      entry != nullptr ? entry->value : node,
+      "GLB files cannot hold EXR textures; add png or jpeg to textures.formats");
 }
 
 void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kScalar && !node.quoted && parse_unsigned(node.text) == 1U)
     return;
-  draft.complaints.about(node, concat("this crowdface reads schema 1, found ", describe(node)));
+  draft.complaints.add_at(node, concat("this crowdface reads schema 1, found ", describe(node)));
 }
 
 /// Returns the default sampling options, for one region.
@@ -248,9 +249,9 @@ std::vector<KeyRow> config_key_rows() {
 }
 
 std::string effective_config(const Config& config, const std::filesystem::path& directory) {
-  const ConfigWriting writing = {config,
-                                 std::filesystem::absolute(directory / "").lexically_normal()};
-  return block_map(write_keys(root_keys(), config, writing)).substr(1) + '\n';
+  const WriteContext context = {config,
+                                std::filesystem::absolute(directory / "").lexically_normal()};
+  return block_map(write_keys(root_keys(), config, context)).substr(1) + '\n';
 }
 
 std::string face_settings(const Config& config) {

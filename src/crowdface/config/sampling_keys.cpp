@@ -43,7 +43,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
                                                        entry.value.kind == YamlNode::Kind::kMap);
     const bool empty = entry.value.kind == YamlNode::Kind::kNothing;
     if (empty && (is_region || entry.key == "default")) {
-      draft.complaints.about(entry.value, "no value; write one, or leave the key out");
+      draft.complaints.add_at(entry.value, "no value; write one, or leave the key out");
     } else if (is_region) {
       split.of_region.emplace_back(region - regions.begin(), &entry.value);
     } else if (entry.key == "default") {
@@ -61,11 +61,11 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
     }
   }
   if (!direct.entries.empty() && split.whole) {
-    draft.complaints.about(node, "either default or the values directly, not both");
+    draft.complaints.add_at(node, "either default or the values directly, not both");
   } else if (!direct.entries.empty()) {
     split.whole = std::move(direct);
   } else if (node.entries.empty()) {
-    draft.complaints.about(node, "expected a value, found an empty mapping");
+    draft.complaints.add_at(node, "expected a value, found an empty mapping");
   }
   return split;
 }
@@ -87,11 +87,11 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
               own.read(*value, section.regions[region], draft);
             }
           },
-          [own = key(name, member, codec)](const Section& section, const ConfigWriting& writing) {
-            const Names& names = writing.config.regions.names;
+          [own = key(name, member, codec)](const Section& section, const WriteContext& context) {
+            const Names& names = context.config.regions.names;
             std::vector<std::string> entries;
             for (std::size_t i = 0; i < section.regions.size(); ++i) {
-              const std::string value = own.write(section.regions[i], writing);
+              const std::string value = own.write(section.regions[i], context);
               if (value.empty()) continue;
               entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]), value));
             }
@@ -108,8 +108,8 @@ const Key<PositionDistribution> kFaceKey = {
     [](const YamlNode& node, PositionDistribution& position, ConfigDraft& draft) {
       if (!is_word(node, "target")) position.head = head().read(node, draft);
     },
-    [](const PositionDistribution& position, const ConfigWriting& writing) {
-      return position.head ? writing.head(*position.head) : "target";
+    [](const PositionDistribution& position, const WriteContext& context) {
+      return position.head ? context.head(*position.head) : "target";
     }};
 
 const Keys<PositionDistribution>& position_keys() {
@@ -158,11 +158,11 @@ std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDr
   return position;
 }
 
-std::string write_position(const PositionDistribution& position, const ConfigWriting& writing) {
+std::string write_position(const PositionDistribution& position, const WriteContext& context) {
   Keys<PositionDistribution> keys = position_keys();
   std::erase_if(keys,
                 [&](const auto& key) { return !contains(keys_of(position.kind).keys, key.name); });
-  return flow_map(write_keys(keys, position, writing));
+  return flow_map(write_keys(keys, position, context));
 }
 
 /// A smoothness as in smoothness(), or `{iterations: …}`.
@@ -173,10 +173,10 @@ Codec<SmoothnessDistribution> sampled_smoothness() {
             const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
             return count == nullptr ? std::nullopt : iterations().read(*count, draft);
           },
-          [](const SmoothnessDistribution& value, const ConfigWriting& writing) {
+          [](const SmoothnessDistribution& value, const WriteContext& context) {
             return value.unit == SmoothnessDistribution::Unit::kIterations
-                       ? flow_map({entry("iterations", iterations().write(value, writing))})
-                       : smoothness().write(value, writing);
+                       ? flow_map({entry("iterations", iterations().write(value, context))})
+                       : smoothness().write(value, context);
           },
           concat(smoothness().takes, ", or `{iterations: …}`")};
 }
@@ -240,7 +240,7 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       band->regions.resize(sampling.regions.size());
       const YamlNode& value = entry.value;
       if (!first && value.kind == YamlNode::Kind::kMap && value.find("smoothness") == nullptr) {
-        draft.complaints.about(
+        draft.complaints.add_at(
             value, "smoothness: missing; write the size at which the band begins, such as 8 mm");
       }
     }
@@ -248,15 +248,15 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
   }
 }
 
-std::string write_bands(const SamplingOptions& sampling, const ConfigWriting& writing) {
+std::string write_bands(const SamplingOptions& sampling, const WriteContext& context) {
   if (sampling.bands.empty()) return "";
   return block_map(texts_of(sampling.bands, [&](const BandSampling& band) {
-    return entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, writing)));
+    return entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, context)));
   }));
 }
 
-bool is_mirrored(const SamplingOptions& sampling, const ConfigWriting& writing) {
-  return mirrors(sampling) || mirrors(writing.config.sampling);
+bool is_mirrored(const SamplingOptions& sampling, const WriteContext& context) {
+  return mirrors(sampling) || mirrors(context.config.sampling);
 }
 
 }  // namespace
@@ -285,7 +285,7 @@ const Keys<SamplingOptions>& sampling_keys() {
                       const auto most = whole(1, kMaxSources).read(node, draft);
                       if (most) sampling.max_sources = static_cast<int>(*most);
                     },
-                    [](const Sampling& sampling, const ConfigWriting&) {
+                    [](const Sampling& sampling, const WriteContext&) {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
           .taking(concat("`all`, or ", whole(1, kMaxSources).takes))

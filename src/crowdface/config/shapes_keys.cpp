@@ -32,12 +32,12 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
     if (is_neutral) continue;
     const std::string name = file.stem().string();
     if (!is_name(name)) {
-      draft.complaints.about(
+      draft.complaints.add_at(
           node, concat("the name of a shape is its file name; expected at most 64 letters (a-z), "
                        "digits, '_', '-' and '.', found ",
                        quoted(name)));
     } else if (std::ranges::any_of(shapes, [&](const auto& one) { return one.first == name; })) {
-      draft.complaints.about(node, concat("two shapes are called ", quoted(name)));
+      draft.complaints.add_at(node, concat("two shapes are called ", quoted(name)));
     }
     shapes.emplace_back(name, file);
   }
@@ -55,10 +55,10 @@ void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& dra
       shapes.files.push_back(file);
     }
   } catch (const MissingInput& error) {
-    return draft.complaints.about(node, error.what(), error.code());
+    return draft.complaints.add_at(node, error.what(), error.code());
   }
   if (shapes.files.empty()) {
-    draft.complaints.about(node, concat("there is no OBJ file in ", quoted(node.text)));
+    draft.complaints.add_at(node, concat("there is no OBJ file in ", quoted(node.text)));
   }
 }
 
@@ -76,7 +76,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
   if (!folder) return;
   shapes.heads = *folder;
   if (!is_folder(*folder)) {
-    return draft.complaints.about(
+    return draft.complaints.add_at(
         node, concat("the folder ", quoted(folder->string()), " does not exist"),
         ExitCode::kMissingInput);
   }
@@ -89,7 +89,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
       if (!shapes.files.empty() && !path_exists(of_head)) continue;
       found[h] = list_shapes(node, of_head, faces.files[h], draft);
     } catch (const MissingInput& error) {
-      draft.complaints.about(node, error.what(), error.code());
+      draft.complaints.add_at(node, error.what(), error.code());
     }
     for (const auto& [name, file] : found[h]) add_name(name, shapes);
   }
@@ -107,13 +107,13 @@ const Keys<Shapes>& shapes_keys() {
   static const Keys<Shapes> keys = {
       key("neutral", &Shapes::neutral, obj_file()),
       Key<Shapes>{"directory", read_shape_directory,
-                  [](const Shapes& shapes, const ConfigWriting& writing) {
-                    return path("").write(shapes.directory, writing);
+                  [](const Shapes& shapes, const WriteContext& context) {
+                    return path("").write(shapes.directory, context);
                   }}
           .taking("folder"),
       Key<Shapes>{"heads", read_shape_heads,
-                  [](const Shapes& shapes, const ConfigWriting& writing) {
-                    return path("").write(shapes.heads, writing);
+                  [](const Shapes& shapes, const WriteContext& context) {
+                    return path("").write(shapes.heads, context);
                   }}
           .taking("folder")};
   return keys;
@@ -143,14 +143,15 @@ void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draf
 void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
   if (shapes.neutral.empty() != shapes.directory.empty() ||
       (shapes.neutral.empty() && shapes.heads.empty())) {
-    return draft.complaints.about(node,
-                                  "expected neutral (the template's mesh at rest, an OBJ file) and "
-                                  "directory (the folder of its shapes), or heads (a folder that "
-                                  "has a subfolder of shapes for each head), or all three");
+    return draft.complaints.add_at(
+        node,
+        "expected neutral (the template's mesh at rest, an OBJ file) and "
+        "directory (the folder of its shapes), or heads (a folder that "
+        "has a subfolder of shapes for each head), or all three");
   }
   if (shapes.heads.empty() ? shapes.names.empty() : !draft.heads_known) return;
   if (shapes.names.empty() || shapes.names.size() > kMaxShapes) {
-    return draft.complaints.about(
+    return draft.complaints.add_at(
         node, concat("expected 1 to ", kMaxShapes, " shapes, found ", shapes.names.size()));
   }
   check_lacking(node, shapes, draft);
@@ -167,9 +168,9 @@ void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (draft.complaints.size() == before) check_shapes(node, config.shapes, draft);
 }
 
-std::string write_shapes(const Config& config, const ConfigWriting& writing) {
+std::string write_shapes(const Config& config, const WriteContext& context) {
   if (config.shapes.names.empty()) return "none";
-  return block_map(write_keys(shapes_keys(), config.shapes, writing));
+  return block_map(write_keys(shapes_keys(), config.shapes, context));
 }
 
 }  // namespace

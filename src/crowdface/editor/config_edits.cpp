@@ -86,8 +86,8 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
 
 }  // namespace
 
-fs::path put_recipe(const HandRecipe& recipe, const Config& config) {
-  const YamlNode node = parsed(format_hand_recipe(recipe, config), "recipe");
+fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
+  const YamlNode node = parsed(format_manual_recipe(recipe, config), "recipe");
   return put_edit(config.file, concat("recipes: [", in_flow(node), "]\n"));
 }
 

@@ -15,7 +15,7 @@ namespace crowdface {
 /// Saves a recipe, in place of a recipe with the same id.
 /// \return the file of the edits.
 /// \throws Error with every problem that the new config would have; in this case no file changes.
-std::filesystem::path put_recipe(const HandRecipe& recipe, const Config& config);
+std::filesystem::path put_recipe(const ManualRecipe& recipe, const Config& config);
 
 /// Saves regions, in place of the config's regions.
 /// \param config  file of the config.

@@ -38,7 +38,7 @@ FacePlan draw_one(const CastingOptions& casting, const DrawRequest& request,
                   std::uint32_t attempt) {
   const bool keeps_target = request.like || !request.locked.empty();
   const FacePlan& old = request.like ? *request.like : request.from;
-  HandRecipe open;
+  ManualRecipe open;
   open.id = request.from.id;
   open.age = Range{0, 0};
   if (keeps_target) open.target = old.recipe.target;

@@ -106,8 +106,8 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
   require_own_config();
   const Json body = body_of(request);
   const Config& config = session_.job().config;
-  const HandRecipe recipe =
-      hand_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
+  const ManualRecipe recipe =
+      manual_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
   const std::lock_guard lock(building_);
   require_masks_of_config();
   return json_answer(file_json(crowdface::put_recipe(recipe, config)));

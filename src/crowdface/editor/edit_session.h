@@ -110,7 +110,7 @@ class EditSession {
   std::shared_future<Judging> judging_;
   CastingOptions casting_;
   PreviewMesh preview_;
-  FacesAround around_;
+  VertexFaces around_;
 };
 
 }  // namespace crowdface

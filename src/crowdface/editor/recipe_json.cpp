@@ -105,10 +105,10 @@ Json recipe_to_json(const FacePlan& face, const CastingOptions& casting, const C
   return json;
 }
 
-HandRecipe hand_recipe_of_json(const Json& recipe, const Config& config) {
+ManualRecipe manual_recipe_of_json(const Json& recipe, const Config& config) {
   if (!recipe.is_object()) throw UsageError("recipe: expected a mapping");
   Problems problems;
-  auto hand = parse_hand_recipe(recipe.dump(), "recipe", config, problems);
+  auto hand = parse_manual_recipe(recipe.dump(), "recipe", config, problems);
   problems.throw_if_any();
   return std::move(*hand);
 }
@@ -120,11 +120,11 @@ FacePlan face_of_json(const Json& recipe, const CastingOptions& casting, const C
     mixture = read_mixture(entry["mixture"], config);
     entry.erase("mixture");
   }
-  HandRecipe hand = hand_recipe_of_json(entry, config);
+  ManualRecipe hand = manual_recipe_of_json(entry, config);
   if (!hand.age) hand.age = Range{0, 0};
   if (!hand.asymmetry) hand.asymmetry = Range{1, 1};
   if (!hand.mirrored) hand.mirrored = false;
-  FacePlan face = draw_hand_recipe(casting, hand);
+  FacePlan face = draw_manual_recipe(casting, hand);
   if (!is_unmirrored(face.recipe) && mirroring_key(config).empty()) {
     throw UsageError(
         "asymmetry and mirrored: expected a config that has sampling.asymmetry, "

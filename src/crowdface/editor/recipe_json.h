@@ -21,6 +21,6 @@ FacePlan face_of_json(const nlohmann::ordered_json& recipe, const CastingOptions
 
 /// Converts the entry for saving in a config's `recipes` section.
 /// \throws UsageError as face_of_json does, and for a mixture.
-HandRecipe hand_recipe_of_json(const nlohmann::ordered_json& recipe, const Config& config);
+ManualRecipe manual_recipe_of_json(const nlohmann::ordered_json& recipe, const Config& config);
 
 }  // namespace crowdface

@@ -325,7 +325,7 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
   }
   std::uint64_t bytes = 0;
   for (const auto& [map, unread] : maps) bytes += map_bytes(map);
-  const fs::path out_of_memory = bytes > free_image_memory() / 2 ? scratch : fs::path();
+  const fs::path out_of_memory = bytes > available_image_memory() / 2 ? scratch : fs::path();
   read_maps(maps, out_of_memory);
 
   result.blended.maps.resize(pictures.size());

@@ -74,8 +74,9 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
     placed.push_back({&inputs_.attachments.items[i], bound.carrier->carry(positions, normals)});
     PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {
-      one.moves.push_back(bound.bend ? bound.bend->in_shape(positions, one.positions, shape)
-                                     : Displacements{{}, Positions(0, 3)});
+      one.moves.push_back(bound.bend
+                              ? bound.bend->shape_displacements(positions, one.positions, shape)
+                              : Displacements{{}, Positions(0, 3)});
     }
   }
   return placed;

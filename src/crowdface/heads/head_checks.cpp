@@ -95,10 +95,10 @@ void check_stance(const Config& config, const Inputs& inputs) {
   // without eyeballs, because only the skin is searched for the face
   const HeadShape head{inputs.mean, skin_of(inputs), {}};
   const Topology& topology = inputs.faces.topology;
-  const Bearing asked{config.faces.up, config.faces.front};
+  const Orientation asked{config.faces.up, config.faces.front};
   auto marks = find_face_marks(topology, head, axes_of(asked));
   if (!marks) {
-    const auto found = find_bearing(topology, head);
+    const auto found = find_orientation(topology, head);
     if (!found || *found == asked) return;
     throw InvalidInput(
         concat("the heads look along ", name_of(found->front), " with ", name_of(found->up),

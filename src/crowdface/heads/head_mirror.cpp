@@ -25,7 +25,7 @@ std::string mirroring_key(const Config& config) {
   for (const Group& group : config.groups) {
     if (key.empty()) key = key_of(group.sampling, concat("groups.", group.name));
   }
-  for (const HandRecipe& recipe : config.recipes) {
+  for (const ManualRecipe& recipe : config.recipes) {
     if (!key.empty()) break;
     if (recipe.asymmetry.value_or(Range{1, 1}) != Range{1, 1}) {
       key = concat("recipes.", recipe.id, ".asymmetry");

@@ -282,9 +282,9 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : same_persons(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
-  for (std::string& text : odd_expressions(inputs.faces, skin_of(inputs),
-                                           axes_of(Bearing{config.faces.up, config.faces.front}),
-                                           mm_per(config.faces.units))) {
+  for (std::string& text : odd_expressions(
+           inputs.faces, skin_of(inputs), axes_of(Orientation{config.faces.up, config.faces.front}),
+           mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
   if (auto text = unknown_surfaces(config, inputs)) inputs.warn(std::move(*text));

@@ -59,7 +59,7 @@ Rim find_rim(const Config& config, const Inputs& inputs) {
 
 /// The sum of the area vectors of the polygons around each vertex of the rim, #rim by 3.
 Positions areas_around(const Topology& topology, const Positions& positions, const Rim& rim) {
-  const FacesAround around(topology);
+  const VertexFaces around(topology);
   Positions areas = Positions::Zero(static_cast<Index>(rim.size()), 3);
   for (std::size_t i = 0; i < rim.size(); ++i) {
     for (const std::uint32_t face : around.of(rim[i])) {

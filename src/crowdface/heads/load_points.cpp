@@ -40,8 +40,8 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   if (names.empty()) {
     for (const YamlEntry& entry : node.entries) {
       if (!is_name(entry.key))
-        complaints.about(entry.value,
-                         "not a valid name; expected letters (a-z), digits, '_', '-' and '.'");
+        complaints.add_at(entry.value,
+                          "not a valid name; expected letters (a-z), digits, '_', '-' and '.'");
       names.push_back(entry.key);
     }
     if (names.empty() || names.size() > kMaxPoints) {
@@ -52,7 +52,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   for (std::size_t p = 0; p < names.size(); ++p) {
     const YamlEntry* entry = node.find(names[p]);
     if (entry == nullptr) {
-      complaints.about(node, concat("the point ", crowdface::quoted(names[p]), " is missing"));
+      complaints.add_at(node, concat("the point ", crowdface::quoted(names[p]), " is missing"));
       continue;
     }
     if (const auto position = read_position(entry->value, complaints)) {
@@ -61,7 +61,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   }
   for (const YamlEntry& entry : node.entries) {
     if (std::ranges::find(names, entry.key) != names.end()) continue;
-    complaints.about(entry.value, "the first head has no such point");
+    complaints.add_at(entry.value, "the first head has no such point");
   }
   return positions;
 }
@@ -72,7 +72,7 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
   for (const Head& head : inputs.faces.heads) {
     const YamlEntry* entry = node.find(head.name);
     if (entry == nullptr) {
-      complaints.about(node, concat("the head ", quoted(head.name), " is missing"));
+      complaints.add_at(node, concat("the head ", quoted(head.name), " is missing"));
       continue;
     }
     points.positions.push_back(read_set(entry->value, points.names, complaints));
@@ -93,8 +93,8 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
   const Topology& topology = inputs.faces.topology;
   if (entry == nullptr) {
     if (!neutral.empty()) return read_positions(neutral, topology, "the heads");
-    complaints.about(root,
-                     "the key template is missing; write the OBJ file that the points belong to");
+    complaints.add_at(root,
+                      "the key template is missing; write the OBJ file that the points belong to");
     return {};
   }
   return read_positions(file.parent_path() / entry->value.text, topology, "the heads");

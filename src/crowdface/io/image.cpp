@@ -271,7 +271,7 @@ ImageMemory take_image_memory(const path& file, std::uint64_t bytes) {
           }};
 }
 
-std::uint64_t free_image_memory() {
+std::uint64_t available_image_memory() {
   const std::lock_guard lock(taking);
   return free_of(input_limits().image_bytes);
 }

@@ -22,7 +22,7 @@ using ImageMemory = std::shared_ptr<const void>;
 ImageMemory take_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
 /// Number of bytes not reserved at present.
-std::uint64_t free_image_memory();
+std::uint64_t available_image_memory();
 
 /// An image with values exactly as in the file: same type, no gamma conversion, alpha not
 /// premultiplied.

@@ -26,7 +26,7 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
 
 /// Walks along the surface from a vertex towards `point`: each step searches the faces around the
 /// nearest vertex so far. Returns the smallest distance.
-double walk(const DetailLevel& level, const FacesAround& around, const Positions& rows,
+double walk(const DetailLevel& level, const VertexFaces& around, const Positions& rows,
             std::uint32_t start, const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 16;
   SurfacePoint best = nearest_around(level.topology, around, rows, start, point);
@@ -56,7 +56,7 @@ LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const D
   std::vector<std::uint32_t> all(level.vertices.size());
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(rows, all);
-  const FacesAround around(level.topology);
+  const VertexFaces around(level.topology);
   const std::vector<std::uint32_t> starts = nearest_along_edges(adjacency, typical, level.vertices);
   map.triangles.resize(map.vertices.size());
   parallel_for_each(map.vertices.size(), kVerticesPerBlock, [&](std::size_t i) {
@@ -72,7 +72,7 @@ LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const D
 
 LevelError level_error(const DetailLevel& level, const LevelMap& map,
                        std::span<const Positions* const> meshes) {
-  const FacesAround around(level.topology);
+  const VertexFaces around(level.topology);
   std::vector<double> distances(map.triangles.size());
   const auto mean_square = [&] {
     double sum = 0;

@@ -35,7 +35,7 @@ Positions face_area_vectors(const Topology& topology, const Positions& positions
   return areas;
 }
 
-NormalFans::NormalFans(const Topology& topology) : faces_(FacesAround(topology)) {}
+NormalFans::NormalFans(const Topology& topology) : faces_(VertexFaces(topology)) {}
 
 NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows,
                        Index rows)

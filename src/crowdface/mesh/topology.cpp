@@ -28,7 +28,7 @@ void Topology::add_face(std::span<const std::uint32_t> vertices,
   face_offsets.push_back(static_cast<std::uint32_t>(corner_vertices.size()));
 }
 
-FacesAround::FacesAround(const Topology& topology) {
+VertexFaces::VertexFaces(const Topology& topology) {
   const auto for_each_corner = [&](const auto& put) {
     for (Index f = 0; f < topology.face_count(); ++f) {
       for (const std::uint32_t v : topology.face(f)) put(v, static_cast<std::uint32_t>(f));

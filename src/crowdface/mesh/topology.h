@@ -56,8 +56,8 @@ struct Topology {
 };
 
 /// The polygons that meet at each vertex, ascending.
-struct FacesAround : CompressedRows<std::uint32_t> {
-  explicit FacesAround(const Topology& topology);
+struct VertexFaces : CompressedRows<std::uint32_t> {
+  explicit VertexFaces(const Topology& topology);
 };
 
 /// A complete mesh: generators produce it and writers write it.

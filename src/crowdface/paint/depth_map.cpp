@@ -10,7 +10,7 @@
 namespace crowdface {
 
 DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square)
-    : square_(square) {
+    : cell_size_(square) {
   if (samples.rows() == 0) return;  // no surface anywhere
   const Eigen::Vector3d side = axes.side();
   Positions seen(samples.rows(), 3);
@@ -19,8 +19,8 @@ DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square
     seen.row(i) << p.dot(side), p.dot(axes.up), p.dot(axes.front);
     box_.extend(Eigen::Vector2d(seen(i, 0), seen(i, 1)));
   }
-  columns_ = static_cast<Index>(box_.sizes().x() / square_) + 1;
-  rows_ = static_cast<Index>(box_.sizes().y() / square_) + 1;
+  columns_ = static_cast<Index>(box_.sizes().x() / cell_size_) + 1;
+  rows_ = static_cast<Index>(box_.sizes().y() / cell_size_) + 1;
   depths_.assign(static_cast<std::size_t>(columns_ * rows_), kNoDepth);
   for (Index i = 0; i < seen.rows(); ++i) {
     double& depth = depths_[index(seen(i, 0), seen(i, 1))];
@@ -49,7 +49,7 @@ void DepthMap::soften() {
 DepthMap::Lookup DepthMap::look_up(double offset, double extent, Index count) const {
   Lookup lookup;
   if (!(offset >= 0 && offset <= extent)) return lookup;
-  const double place = offset / square_;
+  const double place = offset / cell_size_;
   lookup.nearest = std::min(static_cast<Index>(place), count - 1);
   if (place < 0.5) return lookup;
   const auto below = static_cast<Index>(place - 0.5);
@@ -98,8 +98,8 @@ double DepthMap::at(const Lookup& column, const Lookup& row) const {
 }
 
 std::size_t DepthMap::index(double x, double y) const {
-  const auto column = std::min(static_cast<Index>((x - box_.min().x()) / square_), columns_ - 1);
-  const auto row = std::min(static_cast<Index>((y - box_.min().y()) / square_), rows_ - 1);
+  const auto column = std::min(static_cast<Index>((x - box_.min().x()) / cell_size_), columns_ - 1);
+  const auto row = std::min(static_cast<Index>((y - box_.min().y()) / cell_size_), rows_ - 1);
   return static_cast<std::size_t>(row * columns_ + column);
 }
 

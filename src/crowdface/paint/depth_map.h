@@ -47,7 +47,7 @@ class DepthMap {
   std::size_t index(double x, double y) const;
 
   Eigen::AlignedBox2d box_;
-  double square_;
+  double cell_size_;
   Index columns_ = 0, rows_ = 0;
   std::vector<double> depths_;
 };

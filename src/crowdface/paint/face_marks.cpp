@@ -332,32 +332,32 @@ std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadSha
   return marks_of_face(topology, head, *face);
 }
 
-HeadAxes axes_of(const Bearing& bearing) {
-  return {unit_vector(bearing.front), unit_vector(bearing.up)};
+HeadAxes axes_of(const Orientation& orientation) {
+  return {unit_vector(orientation.front), unit_vector(orientation.up)};
 }
 
-std::vector<Bearing> all_bearings() {
-  std::vector<Bearing> bearings;
+std::vector<Orientation> all_orientations() {
+  std::vector<Orientation> orientations;
   for (int up = 0; up < 3; ++up) {
     for (int front = 0; front < 3; ++front) {
       for (int signs = 0; signs < 4; ++signs) {
         if (up == front) continue;
-        bearings.push_back({{up, signs % 2 == 0 ? 1 : -1}, {front, signs / 2 == 0 ? 1 : -1}});
+        orientations.push_back({{up, signs % 2 == 0 ? 1 : -1}, {front, signs / 2 == 0 ? 1 : -1}});
       }
     }
   }
-  return bearings;
+  return orientations;
 }
 
-std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& head) {
-  const std::vector<Bearing> bearings = all_bearings();
+std::optional<Orientation> find_orientation(const Topology& topology, const HeadShape& head) {
+  const std::vector<Orientation> orientations = all_orientations();
   std::vector<HeadAxes> axes;
-  for (const Bearing& bearing : bearings) axes.push_back(axes_of(bearing));
+  for (const Orientation& orientation : orientations) axes.push_back(axes_of(orientation));
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, axes, head.eyeballs);
   if (!match || match->votes < kMinVotes) return std::nullopt;
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
-  return bearings[match->view];
+  return orientations[match->view];
 }
 
 }  // namespace crowdface

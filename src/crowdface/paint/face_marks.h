@@ -49,16 +49,16 @@ std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadSha
                                          const HeadAxes& axes);
 
 /// The up and front directions of a head.
-struct Bearing {
+struct Orientation {
   Axis up, front;
-  bool operator==(const Bearing&) const = default;
+  bool operator==(const Orientation&) const = default;
 };
-HeadAxes axes_of(const Bearing& bearing);
-std::vector<Bearing> all_bearings();  ///< the 24 axis-aligned orientations of a head
+HeadAxes axes_of(const Orientation& orientation);
+std::vector<Orientation> all_orientations();  ///< the 24 axis-aligned orientations of a head
 
 /// Tries all 24 axis-aligned orientations of a head and returns the one in which the relief of a
 /// face matches best.
 /// \return nothing if no orientation shows a face.
-std::optional<Bearing> find_bearing(const Topology& topology, const HeadShape& head);
+std::optional<Orientation> find_orientation(const Topology& topology, const HeadShape& head);
 
 }  // namespace crowdface

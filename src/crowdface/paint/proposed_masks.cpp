@@ -50,12 +50,13 @@ int mask_size(Index vertices) {
 }
 
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
-                                     const Bearing& bearing, const std::vector<Band>& bands) {
-  const auto marks = find_face_marks(topology, mean, axes_of(bearing));
+                                     const Orientation& orientation,
+                                     const std::vector<Band>& bands) {
+  const auto marks = find_face_marks(topology, mean, axes_of(orientation));
   if (!marks) {
-    const auto other = find_bearing(topology, mean);
-    throw InvalidInput(concat("no face is found that looks along ", name_of(bearing.front),
-                              " with ", name_of(bearing.up), " up: ",
+    const auto other = find_orientation(topology, mean);
+    throw InvalidInput(concat("no face is found that looks along ", name_of(orientation.front),
+                              " with ", name_of(orientation.up), " up: ",
                               other ? concat("the heads look along ", name_of(other->front),
                                              " with ", name_of(other->up), " up")
                                     : "no part of the mean head has the relief of a face (nose, "
@@ -65,15 +66,16 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
   return propose_bands(topology, mean, *marks, bands);
 }
 
-PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean, const Bearing& bearing,
-                           const std::vector<Band>& bands, int size) {
+PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean,
+                           const Orientation& orientation, const std::vector<Band>& bands,
+                           int size) {
   if (faces.topology.corner_uvs.empty()) {
     throw InvalidInput(
         "the heads have no texture coordinates (vt lines), which a mask image needs: unwrap the "
         "mesh, the same way for all heads, or blend without regions");
   }
   return paint_masks(faces.topology, faces.uvs,
-                     propose_regions(faces.topology, mean, bearing, bands), mean.skin, size);
+                     propose_regions(faces.topology, mean, orientation, bands), mean.skin, size);
 }
 
 }  // namespace crowdface

@@ -23,12 +23,14 @@ int mask_size(Index vertices);
 /// \throws InvalidInput as propose_bands does, and if no face is found in the front direction; the
 ///     message then names the directions in which a face is found, if there are any.
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
-                                     const Bearing& bearing, const std::vector<Band>& bands);
+                                     const Orientation& orientation,
+                                     const std::vector<Band>& bands);
 
 /// Computes the same regions as images in the layout of the heads' texture.
 /// \param size  width and height in texels.
 /// \throws InvalidInput as propose_regions and paint_masks do.
-PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean, const Bearing& bearing,
-                           const std::vector<Band>& bands, int size);
+PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean,
+                           const Orientation& orientation, const std::vector<Band>& bands,
+                           int size);
 
 }  // namespace crowdface

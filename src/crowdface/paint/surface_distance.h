@@ -40,7 +40,7 @@ class SurfaceDistance {
   const Topology& topology_;
   const Positions& positions_;
   Adjacency adjacency_;
-  FacesAround faces_;
+  VertexFaces faces_;
   /// #V: links coinciding boundary vertices of different components in rings; a vertex without a
   /// twin links to itself.
   std::vector<std::uint32_t> twins_;

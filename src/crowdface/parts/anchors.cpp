@@ -14,7 +14,7 @@ namespace crowdface {
 namespace {
 
 /// Returns the vertices of all faces around the corners, ascending.
-std::vector<std::uint32_t> ring_of(const Topology& topology, const FacesAround& faces,
+std::vector<std::uint32_t> ring_of(const Topology& topology, const VertexFaces& faces,
                                    const std::array<std::uint32_t, 3>& corners) {
   std::vector<std::uint32_t> ring;
   for (const std::uint32_t corner : corners) {
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> ring_of(const Topology& topology, const FacesAround& 
 
 }  // namespace
 
-Anchors::Anchors(const Topology& topology, const FacesAround& faces, const Positions& positions,
+Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
                  const PointGrid& skin, std::vector<std::uint32_t> bound)
     : bound_(std::move(bound)) {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> known;

@@ -24,7 +24,7 @@ class Anchors {
   /// \param positions  The head on which the nearest skin is found.
   /// \param skin       The skin's vertices at these positions.
   /// \param bound      Vertices to bind, ascending.
-  Anchors(const Topology& topology, const FacesAround& faces, const Positions& positions,
+  Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& skin, std::vector<std::uint32_t> bound);
 
   const std::vector<std::uint32_t>& bound() const { return bound_; }

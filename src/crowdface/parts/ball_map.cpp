@@ -11,7 +11,7 @@ namespace {
 /// Returns where a ray from the centre intersects the surface, by Newton steps on the tangent
 /// planes at the nearest points. In a hole of the surface, the result lies on the plane next to the
 /// hole.
-double radius_along(const Topology& topology, const FacesAround& faces, const Positions& head,
+double radius_along(const Topology& topology, const VertexFaces& faces, const Positions& head,
                     const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, double radius,
                     std::uint32_t& nearest) {
   constexpr int kSteps = 3;
@@ -31,7 +31,7 @@ double radius_along(const Topology& topology, const FacesAround& faces, const Po
 
 }  // namespace
 
-BallMap::BallMap(const Topology& topology, const FacesAround& faces, const Positions& head,
+BallMap::BallMap(const Topology& topology, const VertexFaces& faces, const Positions& head,
                  std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre,
                  double radius, const HeadAxes& axes)
     : axes_(axes),

@@ -18,7 +18,7 @@ class BallMap {
   /// \param vertices  Vertices of the eyeball's surface.
   /// \param centre    Centre of the eyeball.
   /// \param radius    Radius of the eyeball.
-  BallMap(const Topology& topology, const FacesAround& faces, const Positions& head,
+  BallMap(const Topology& topology, const VertexFaces& faces, const Positions& head,
           std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre, double radius,
           const HeadAxes& axes);
 

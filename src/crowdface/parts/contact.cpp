@@ -39,7 +39,7 @@ enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepS
 
 }  // namespace
 
-Contact::Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
+Contact::Contact(const Topology& topology, const VertexFaces& faces, const Positions& positions,
                  const PointGrid& grid, std::span<const std::uint32_t> skin,
                  std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads)
     : topology_(&topology), faces_(&faces), reach_(reach), middle_(centre_of(positions, part)) {
@@ -136,7 +136,7 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {
         const Eigen::Vector3d point = head.positions.row(pairs_[i].vertex).transpose();
-        return rough_height(pairs_[i], point, head.positions);
+        return approximate_height(pairs_[i], point, head.positions);
       };
       const double here = rough(cluster.middle());
       for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
@@ -146,8 +146,8 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
   }
 }
 
-double Contact::rough_height(const Pair& pair, const Eigen::Vector3d& point,
-                             const Positions& skin) const {
+double Contact::approximate_height(const Pair& pair, const Eigen::Vector3d& point,
+                                   const Positions& skin) const {
   const Eigen::Vector3d place = point_on(skin, pair.corners, pair.shares);
   return side_ * area_vector(skin, pair.corners).normalized().dot(point - place);
 }
@@ -193,7 +193,7 @@ RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
   RigidMotion cleared = motion;
   const auto rough = [&](const Pair& pair) {
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
-    return rough_height(pair, point, after);
+    return approximate_height(pair, point, after);
   };
   std::vector<std::uint32_t> near;
   for (const Cluster& cluster : clusters_) {

@@ -25,7 +25,7 @@ class Contact {
   /// \param skin       The skin's vertices.
   /// \param part       The part's vertices.
   /// \param reach      Largest distance of a pair.
-  Contact(const Topology& topology, const FacesAround& faces, const Positions& positions,
+  Contact(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& grid, std::span<const std::uint32_t> skin,
           std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
 
@@ -71,7 +71,8 @@ class Contact {
   void find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                    const std::vector<Head>& heads);
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
-  double rough_height(const Pair& pair, const Eigen::Vector3d& point, const Positions& skin) const;
+  double approximate_height(const Pair& pair, const Eigen::Vector3d& point,
+                            const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// Improves `motion` by one step.
   ///
@@ -81,7 +82,7 @@ class Contact {
             double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
   const Topology* topology_ = nullptr;
-  const FacesAround* faces_ = nullptr;
+  const VertexFaces* faces_ = nullptr;
   double reach_ = 0;
   double side_ = 1;    ///< −1: the skin's normals point away from the part
   double radius_ = 0;  ///< of the part: root mean square distance from its middle

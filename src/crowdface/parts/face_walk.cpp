@@ -6,7 +6,7 @@
 
 namespace crowdface {
 
-MirroredWalk::MirroredWalk(const Topology& topology, const FacesAround& around)
+MirroredWalk::MirroredWalk(const Topology& topology, const VertexFaces& around)
     : topology_(topology),
       around_(around),
       partner_of_(static_cast<std::size_t>(topology.vertex_count), kNoIndex),

@@ -27,7 +27,7 @@ class MirroredWalk {
  public:
   /// \param topology  Must outlive this object.
   /// \param around    Must outlive this object.
-  MirroredWalk(const Topology& topology, const FacesAround& around);
+  MirroredWalk(const Topology& topology, const VertexFaces& around);
 
   /// Walks from face to face on both sides simultaneously, with opposite winding on the second
   /// side, as long as corresponding faces have equally many corners and each vertex always gets the
@@ -62,7 +62,7 @@ class MirroredWalk {
   void forget();
 
   const Topology& topology_;
-  const FacesAround& around_;
+  const VertexFaces& around_;
   // State of the current walk:
   /// #V; kNoIndex for vertices without partner
   std::vector<std::uint32_t> partner_of_, vertex_of_;

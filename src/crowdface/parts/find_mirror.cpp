@@ -85,7 +85,7 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
 /// Finds the partners of a component's vertices on another component, or on itself.
 class PlaceFinder {
  public:
-  PlaceFinder(const Topology& topology, const FacesAround& around, const Positions& mean,
+  PlaceFinder(const Topology& topology, const VertexFaces& around, const Positions& mean,
               const MirrorPlane& plane, double extent)
       : topology_(topology),
         around_(around),
@@ -196,7 +196,7 @@ class PlaceFinder {
   }
 
   const Topology& topology_;
-  const FacesAround& around_;
+  const VertexFaces& around_;
   const Positions& mean_;
   const MirrorPlane& plane_;
   double extent_;
@@ -261,7 +261,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   const Vertices& skin = of_component[components.largest()];
   FoundMirror found;
   MirrorMap& map = found.map;
-  const FacesAround around(topology);
+  const VertexFaces around(topology);
   map.corners.resize(components.of_vertex.size());
   map.shares.resize(components.of_vertex.size());
   const Box box = bounding_box(mean, skin);

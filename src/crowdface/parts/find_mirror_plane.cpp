@@ -16,7 +16,7 @@ using Vertices = std::vector<std::uint32_t>;
 
 class PlaneSearch {
  public:
-  PlaneSearch(const Topology& topology, const FacesAround& around, const Positions& mean,
+  PlaneSearch(const Topology& topology, const VertexFaces& around, const Positions& mean,
               const Vertices& skin, const MirrorPlane& start)
       : topology_(topology),
         around_(around),
@@ -72,7 +72,7 @@ class PlaneSearch {
   }
 
   const Topology& topology_;
-  const FacesAround& around_;
+  const VertexFaces& around_;
   const Positions& mean_;
   const MirrorPlane& start_;
   PointGrid grid_;
@@ -99,7 +99,7 @@ MirrorPlane PlaneFit::plane(const Eigen::Vector3d& side) const {
   return plane;
 }
 
-MirrorPlane find_mirror_plane(const Topology& topology, const FacesAround& around,
+MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& around,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start) {
   return PlaneSearch(topology, around, mean, skin, start).find();

@@ -58,7 +58,7 @@ struct RigidPart {
 /// The mean head and its skin, to which parts are bound.
 struct SkinOfMean {
   const HeadSet& faces;
-  const FacesAround& around;
+  const VertexFaces& around;
   const HeadAxes& axes;
   const Positions& mean;
   std::vector<double> areas;            ///< #V
@@ -115,7 +115,7 @@ RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& 
 
 struct PartFollower::State {
   const HeadSet& faces;
-  FacesAround around;
+  VertexFaces around;
   PartShape shape;
   double extent;  ///< extent of the skin
   std::vector<RigidPart> rigid;
@@ -138,7 +138,7 @@ struct PartFollower::State {
 PartFollower::PartFollower(const HeadSet& faces, const PartList& parts, const HeadAxes& axes,
                            PartShape shape) {
   auto state =
-      std::make_unique<State>(State{faces, FacesAround(faces.topology), shape, 0, {}, {}, {}, {}});
+      std::make_unique<State>(State{faces, VertexFaces(faces.topology), shape, 0, {}, {}, {}, {}});
   for (const ComponentShape& component : parts.shapes) {
     state->extent = std::max(state->extent, component.extent);
   }

@@ -231,7 +231,7 @@ Components join_skin(const Components& components, const PartList& parts) {
   return joined;
 }
 
-std::vector<std::uint32_t> skin_of(const PartList& parts, const FacesAround& around) {
+std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& around) {
   std::vector<bool> is_skin(around.group_count(), true);
   for (const Part& part : parts.parts) {
     for (const std::uint32_t v : part.vertices) is_skin[v] = false;

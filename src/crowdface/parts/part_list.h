@@ -61,6 +61,6 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
 Components join_skin(const Components& components, const PartList& parts);
 
 /// Returns the vertices that belong to a face but to no part, ascending.
-std::vector<std::uint32_t> skin_of(const PartList& parts, const FacesAround& around);
+std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& around);
 
 }  // namespace crowdface

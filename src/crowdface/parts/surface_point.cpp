@@ -42,7 +42,7 @@ Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
          shares[2] * row3(positions, corners[2]);
 }
 
-SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
+SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point) {
   std::vector<std::uint32_t> near;
@@ -58,7 +58,7 @@ SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
   return best;
 }
 
-std::uint32_t descend(const Topology& topology, const FacesAround& faces,
+std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
                       const Positions& positions, std::uint32_t start,
                       const Eigen::Vector3d& point) {
   const auto square_to = [&](std::uint32_t vertex) {
@@ -80,7 +80,7 @@ std::uint32_t descend(const Topology& topology, const FacesAround& faces,
   }
 }
 
-SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
+SurfacePoint nearest_from(const Topology& topology, const VertexFaces& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 64;

@@ -23,20 +23,20 @@ Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
                          const std::array<double, 3>& shares);
 
 /// Returns the nearest point on the faces around a vertex and around its neighbours.
-SurfacePoint nearest_around(const Topology& topology, const FacesAround& faces,
+SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
 /// Walks from `start` over the mesh as long as a vertex of an adjacent face is nearer to the point.
 /// This is cheaper than nearest_from, and the result is a good start for nearest_from.
-std::uint32_t descend(const Topology& topology, const FacesAround& faces,
+std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
                       const Positions& positions, std::uint32_t start,
                       const Eigen::Vector3d& point);
 
 /// Returns a point of the surface near the query point. Walks from `start` from triangle to
 /// triangle as long as the distance decreases. Allocates no memory. Meant for query points near a
 /// known vertex.
-SurfacePoint nearest_from(const Topology& topology, const FacesAround& faces,
+SurfacePoint nearest_from(const Topology& topology, const VertexFaces& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point);
 

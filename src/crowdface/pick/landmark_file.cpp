@@ -24,7 +24,8 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     return places;
   }
   if (node->entries.size() > kMax) {
-    out.about(*node, concat("expected at most ", kMax, " landmarks, found ", node->entries.size()));
+    out.add_at(*node,
+               concat("expected at most ", kMax, " landmarks, found ", node->entries.size()));
     return places;
   }
   for (const YamlEntry& entry : node->entries) {

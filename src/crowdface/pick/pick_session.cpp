@@ -25,9 +25,9 @@ PoseHint guess_bearing(const Scan& scan) {
   HeadShape head;
   head.positions = scan.positions;
   head.skin = used_vertices({scan.positions, reduced});
-  const auto bearing = find_bearing(topology_of(reduced, scan.positions.rows()), head);
-  if (!bearing) return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
-  return {unit_vector(bearing->up), unit_vector(bearing->front)};
+  const auto orientation = find_orientation(topology_of(reduced, scan.positions.rows()), head);
+  if (!orientation) return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  return {unit_vector(orientation->up), unit_vector(orientation->front)};
 }
 
 /// The largest power of ten that is at most a millionth of the mesh's bounding box diagonal.

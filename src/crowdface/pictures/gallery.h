@@ -56,7 +56,7 @@ class GalleryMeshes {
   const Config& config_;
   const Inputs& inputs_;
   PreviewMesh mesh_;
-  FacesAround around_;
+  VertexFaces around_;
   PackingFrame frame_;
   ShownAttachments attachments_;
   VertexColours colours_;    ///< of the surfaces without textures, per vertex of the reduced mesh

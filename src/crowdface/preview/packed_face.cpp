@@ -63,7 +63,7 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
 }
 
 std::string pack_face(
-    const Topology& topology, std::span<const std::uint32_t> vertices, const FacesAround& around,
+    const Topology& topology, std::span<const std::uint32_t> vertices, const VertexFaces& around,
     const PackingFrame& frame, const Positions& positions,
     const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",

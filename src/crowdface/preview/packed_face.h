@@ -33,7 +33,7 @@ struct PackingFrame {
 ///                  of the full mesh.
 /// \param lean      lean(i, normal): replaces the normal of vertices[i]; may be empty.
 std::string pack_face(
-    const Topology& topology, std::span<const std::uint32_t> vertices, const FacesAround& around,
+    const Topology& topology, std::span<const std::uint32_t> vertices, const VertexFaces& around,
     const PackingFrame& frame, const Positions& positions,
     const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean = {});
 

@@ -37,7 +37,7 @@ class AttachmentSurface {
   const std::vector<Quad>& quads() const { return quads_; }
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }
 
-  /// Colour and opacity at a point of a quad. \param shares  from quad_shares.
+  /// Colour and opacity at a point of a quad. \param shares  from bilinear_weights.
   Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
   float opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const;
 
@@ -59,7 +59,7 @@ struct AttachmentMesh {
 };
 
 /// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.
-inline Eigen::Vector4f quad_shares(const Quad& quad, float u, float v) {
+inline Eigen::Vector4f bilinear_weights(const Quad& quad, float u, float v) {
   if (quad[2] == quad[3]) return {1 - u - v, u, v, 0};
   return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
 }

@@ -32,7 +32,7 @@ AttachmentStage::AttachmentStage(const RayDevice& device,
   scene_ = std::make_unique<const RayScene>(
       device, std::move(points), quads_, [this](std::uint32_t quad, float u, float v) {
         const Part& part = part_of(quad);
-        return part.surface->opacity(quad - part.first_quad, quad_shares(quads_[quad], u, v));
+        return part.surface->opacity(quad - part.first_quad, bilinear_weights(quads_[quad], u, v));
       });
 }
 
@@ -45,7 +45,7 @@ const AttachmentStage::Part& AttachmentStage::part_of(std::uint32_t quad) const 
 
 AttachmentStage::Place AttachmentStage::at(const RayHit& hit) const {
   const Quad& quad = quads_[hit.primitive];
-  const Eigen::Vector4f shares = quad_shares(quad, hit.u, hit.v);
+  const Eigen::Vector4f shares = bilinear_weights(quad, hit.u, hit.v);
   const Part& part = part_of(hit.primitive);
   Place place{Eigen::Vector3f::Zero(),
               part.surface->colour(hit.primitive - part.first_quad, shares)};

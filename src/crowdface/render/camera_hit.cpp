@@ -95,7 +95,7 @@ void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& 
 
 CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const Quad& quad = stage.quads[hit.primitive];
-  const Eigen::Vector4f weights = quad_shares(quad, hit.u, hit.v);
+  const Eigen::Vector4f weights = bilinear_weights(quad, hit.u, hit.v);
   CameraHit result;
   result.point = stage.viewer + hit.distance * direction;
   result.surface.kind = stage.kinds[hit.primitive];

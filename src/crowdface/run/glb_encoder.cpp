@@ -163,7 +163,7 @@ MeshEncoders glb_encoders(const MeshSource& source) {
   using Form = MeshWithAttachments<GlbTemplate, GlbPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
-    encoders.push_back(encoder_by(
+    encoders.push_back(make_encoder(
         std::make_shared<const Form>(
             Form{GlbTemplate(level.topology(inputs), level.uvs(inputs),
                              glb_options(source.config, inputs, source.shared, level)),

@@ -102,12 +102,12 @@ MeshEncoders ply_encoders(const MeshSource& source) {
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
     encoders.push_back(
-        encoder_by(std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
-                   [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
-                     const bool with_normals = has_normals(inputs, face.target);
-                     return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows,
-                                       face.what, *face.colours);
-                   }));
+        make_encoder(std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
+                     [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
+                       const bool with_normals = has_normals(inputs, face.target);
+                       return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows,
+                                         face.what, *face.colours);
+                     }));
   }
   return encoders;
 }

@@ -74,7 +74,7 @@ using MeshEncoders = std::vector<MeshEncoder>;
 /// Makes an encoder from a form, which holds what all faces share. \param encode  called with the
 /// form and a face
 template <class Form, class Encode>
-MeshEncoder encoder_by(std::shared_ptr<const Form> form, const Encode& encode) {
+MeshEncoder make_encoder(std::shared_ptr<const Form> form, const Encode& encode) {
   return {[=](const FaceMesh& face) { return encode(*form, face); }, form->memory_bytes(),
           form->encode_bytes()};
 }

@@ -11,16 +11,16 @@
 namespace crowdface {
 namespace {
 
-/// Viewing directions from the front to both sides, at face height and from above and below.
-Viewing viewing_of(const Config& config) {
+/// ViewSetup directions from the front to both sides, at face height and from above and below.
+ViewSetup viewing_of(const Config& config) {
   const HeadAxes axes = head_axes(config);
-  Viewing viewing{{}, mm_per(config.faces.units)};
+  ViewSetup view_setup{{}, mm_per(config.faces.units)};
   for (const double aside : {-1.5, -0.6, 0.0, 0.6, 1.5}) {
     for (const double above : {-0.45, 0.0, 0.45}) {
-      viewing.directions.emplace_back(axes.front + aside * axes.side() + above * axes.up);
+      view_setup.directions.emplace_back(axes.front + aside * axes.side() + above * axes.up);
     }
   }
-  return viewing;
+  return view_setup;
 }
 
 }  // namespace
@@ -51,9 +51,9 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
   };
 }
 
-std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
-                                      const std::vector<FacePlan>& crowd,
-                                      const std::vector<FaceResult>& files) {
+std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
+                                       const std::vector<FacePlan>& crowd,
+                                       const std::vector<FaceResult>& files) {
   std::vector<std::string> beyond;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (!files[i].skin) continue;

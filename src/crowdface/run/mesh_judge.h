@@ -27,8 +27,8 @@ MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceB
 
 /// Warns about faces whose whole mesh exceeds a limit although their samples did not. \return the
 /// warning.
-std::vector<std::string> judge_meshes(const BelievabilityOptions& limits,
-                                      const std::vector<FacePlan>& crowd,
-                                      const std::vector<FaceResult>& files);
+std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
+                                       const std::vector<FacePlan>& crowd,
+                                       const std::vector<FaceResult>& files);
 
 }  // namespace crowdface

@@ -157,27 +157,27 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
   const std::string libraries = library_line(
       item.materials.files, std::filesystem::path(shared) / attachment_folder(item.name));
   if (level == nullptr) {
-    return encoder_by(std::make_shared<const ObjTemplate>(item.file, item.file.topology),
-                      [libraries](const ObjTemplate& obj, const FaceMesh& mesh) {
-                        EncodedFile file = obj.encode(*mesh.positions, mesh.what);
-                        if (!libraries.empty()) file.replace_line("mtllib", libraries);
-                        return file;
-                      });
+    return make_encoder(std::make_shared<const ObjTemplate>(item.file, item.file.topology),
+                        [libraries](const ObjTemplate& obj, const FaceMesh& mesh) {
+                          EncodedFile file = obj.encode(*mesh.positions, mesh.what);
+                          if (!libraries.empty()) file.replace_line("mtllib", libraries);
+                          return file;
+                        });
   }
   using Normals = PlainObjTemplate::Normals;
   std::shared_ptr<const NormalFans> fans;
   if (!item.file.corner_normals.empty()) fans = std::make_shared<NormalFans>(level->topology);
-  return encoder_by(std::make_shared<const PlainObjTemplate>(
-                        level->topology, level->uvs,
-                        material_ranges(item.file, item.file.topology.face_count(), *level),
-                        fans ? Normals::kVertex : Normals::kNone),
-                    [=](const PlainObjTemplate& obj, const FaceMesh& mesh) {
-                      Positions normals;
-                      if (fans) normals = vertex_normals(*fans, level->topology, *mesh.positions);
-                      return obj.encode(
-                          concat(libraries, libraries.empty() ? "" : "\n", "o ", mesh.id, '\n'),
-                          *mesh.positions, normals, mesh.what);
-                    });
+  return make_encoder(std::make_shared<const PlainObjTemplate>(
+                          level->topology, level->uvs,
+                          material_ranges(item.file, item.file.topology.face_count(), *level),
+                          fans ? Normals::kVertex : Normals::kNone),
+                      [=](const PlainObjTemplate& obj, const FaceMesh& mesh) {
+                        Positions normals;
+                        if (fans) normals = vertex_normals(*fans, level->topology, *mesh.positions);
+                        return obj.encode(
+                            concat(libraries, libraries.empty() ? "" : "\n", "o ", mesh.id, '\n'),
+                            *mesh.positions, normals, mesh.what);
+                      });
 }
 
 }  // namespace crowdface

@@ -106,11 +106,11 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
   for (const Group& group : config.groups) {
     check_sampling(group.sampling, concat("group ", group.name, ", "), config, inputs, problems);
   }
-  for (const HandRecipe& recipe : config.recipes) {
+  for (const ManualRecipe& recipe : config.recipes) {
     const std::string where = concat("recipe ", recipe.id);
-    for (const HandRecipe::Region& region : recipe.regions) {
+    for (const ManualRecipe::Region& region : recipe.regions) {
       if (region.smoothness) check_smoothness(*region.smoothness, where, config, inputs, problems);
-      for (const HandRecipe::Band& band : region.bands) {
+      for (const ManualRecipe::Band& band : region.bands) {
         if (band.smoothness) check_smoothness(*band.smoothness, where, config, inputs, problems);
       }
     }

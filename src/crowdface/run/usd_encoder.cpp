@@ -97,7 +97,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
     // Levels of detail are not subdivided: they are coarse on purpose.
     const Subdivision subdivision =
         level.whole() ? source.config.output.subdivision : Subdivision::kNone;
-    encoders.push_back(encoder_by(
+    encoders.push_back(make_encoder(
         std::make_shared<const Form>(Form{
             UsdaTemplate(level.topology(inputs), level.uvs(inputs),
                          glb_options(source.config, inputs, source.shared, level), subdivision),

@@ -66,7 +66,7 @@ class Rings {
 
  private:
   const std::vector<Triangle>& triangles_;
-  FacesAround around_;
+  VertexFaces around_;
   /// #triangles: the triangle whose search reached this one last
   std::vector<std::uint32_t> seen_;
   std::vector<std::uint32_t> reached_;

@@ -88,7 +88,7 @@ struct PreparedShapes {
   const HeadSet& faces;
   const ShapeSet& set;
   HeadAxes axes;
-  FacesAround around;
+  VertexFaces around;
   std::vector<std::uint32_t> skin;  ///< vertices of the skin, ascending
   std::vector<RigidPart> rigid;
   /// #rigid by #regions: mean weights of the skin at each part

@@ -15,9 +15,9 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. Largest distance on the template of two
-// triangles that may intersect on a face: kMeets for any triangles, kFacing for triangles that face
+// triangles that may intersect on a face: kMaxTemplateGap for any triangles, kMaxFacingTemplateGap for triangles that face
 // each other.
-constexpr double kMeets = 0.008, kFacing = 0.02;
+constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // rings of triangles to search around skin that may meet
 constexpr int kRings = 2;
 // Distances from intersections, at rest: up to kEvened, displacements are averaged fully; from
@@ -27,7 +27,7 @@ constexpr double kEvened = 0.002, kNotEvened = 0.005;
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
 // factor on these lengths where skin is arranged as on the template
-constexpr double kLaid = 0.7;
+constexpr double kSameLayoutFactor = 0.7;
 /// Fraction of the averaging's vertical change that is applied to lids, so that the eye stays
 /// closed.
 constexpr double kClosing = 0.3;
@@ -203,7 +203,7 @@ class SkinCrossings::Mending {
   /// Arranges skin as on the template in the shape: averages the difference between face and
   /// template over skin that is close in the template's shape.
   void lay(const std::vector<Pair>& meeting, double grown) {
-    const double unit = kLaid * grown * skin_.extent_;
+    const double unit = kSameLayoutFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
     std::vector<Eigen::Vector3d> around;
     const auto shaped = [&](std::uint32_t i) { return row3(watched_.shaped, i); };
@@ -290,7 +290,7 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
       skin_.triangles.push_back(triangle);
     }
   }
-  skin_.around = FacesAround(topology_of(skin_.triangles, topology.vertex_count));
+  skin_.around = VertexFaces(topology_of(skin_.triangles, topology.vertex_count));
 }
 
 SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
@@ -320,8 +320,8 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
     return meets[t[0]] || meets[t[1]] || meets[t[2]];
   });
   watched.excused.assign(triangles.size(), false);
-  watched.search =
-      CrossingSearch(std::move(triangles), shaped, kMeets * extent_, kFacing * extent_);
+  watched.search = CrossingSearch(std::move(triangles), shaped, kMaxTemplateGap * extent_,
+                                  kMaxFacingTemplateGap * extent_);
   // Ignore the intersections of the template in the shape.
   excuse(shaped, watched);
   return watched;
@@ -350,7 +350,7 @@ CrossingSearch SkinCrossings::watch_all(const Positions& neutral,
   }
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  return {std::move(all), neutral, kMeets * extent_, kFacing * extent_};
+  return {std::move(all), neutral, kMaxTemplateGap * extent_, kMaxFacingTemplateGap * extent_};
 }
 
 std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,

@@ -36,8 +36,8 @@ void narrow(const float* from, std::size_t count, float scale, std::int16_t* to)
 /// Multiplies and adds with separate rounding (no FMA), so that the number of fields kept does not
 /// depend on the instruction set. Each level adds fields from the last to the first until the error
 /// exceeds the limit; that field and all before it must be kept.
-MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
-                        std::size_t stride, std::size_t levels, float most) {
+MissedLevel choose_fewest_functions(const float* fields, std::size_t count, const float* functions,
+                                    std::size_t stride, std::size_t levels, float most) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
   const auto limit = hn::Set(lanes, most);
@@ -103,16 +103,17 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 
 HWY_EXPORT(narrow);
-HWY_EXPORT(keep_fewest);
+HWY_EXPORT(choose_fewest_functions);
 HWY_EXPORT(row_products);
 
 void narrow(const float* from, std::size_t count, float scale, std::int16_t* to) {
   HWY_DYNAMIC_DISPATCH(narrow)(from, count, scale, to);
 }
 
-MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
-                        std::size_t stride, std::size_t levels, float most) {
-  return HWY_DYNAMIC_DISPATCH(keep_fewest)(fields, count, functions, stride, levels, most);
+MissedLevel choose_fewest_functions(const float* fields, std::size_t count, const float* functions,
+                                    std::size_t stride, std::size_t levels, float most) {
+  return HWY_DYNAMIC_DISPATCH(choose_fewest_functions)(fields, count, functions, stride, levels,
+                                                       most);
 }
 
 void row_products(const float* columns, std::size_t count, std::size_t row, double* products) {

@@ -23,8 +23,8 @@ struct MissedLevel {
 /// \param fields     `count` by 3 by kFieldTile.
 /// \param functions  `levels` rows of `count` values; the rows start `stride` floats apart.
 /// \param most       the largest squared distance allowed.
-MissedLevel keep_fewest(const float* fields, std::size_t count, const float* functions,
-                        std::size_t stride, std::size_t levels, float most);
+MissedLevel choose_fewest_functions(const float* fields, std::size_t count, const float* functions,
+                                    std::size_t stride, std::size_t levels, float most);
 
 /// products[i] = Σ_c columns[c][i]·columns[c][row] in double precision, added in the order of c by
 /// fused multiply-add (one rounding per term).

@@ -80,9 +80,9 @@ class TileFitter {
     for (Index p = 0; p < functions.cols(); ++p) {
       peaks_.push_back(functions.col(p).cwiseAbs().maxCoeff());
     }
-    for (Index n = 0; n < directions.combining.rows(); ++n) {
-      for (Index p = 0; p < directions.combining.cols(); ++p) {
-        combining_.push_back(static_cast<float>(directions.combining(n, p)));
+    for (Index n = 0; n < directions.combination.rows(); ++n) {
+      for (Index p = 0; p < directions.combination.cols(); ++p) {
+        combining_.push_back(static_cast<float>(directions.combination(n, p)));
       }
     }
   }
@@ -120,9 +120,9 @@ class TileFitter {
       const double most =
           std::min(tolerance_ - rounded.back(), kLeftOutShare * tolerance_) - unseen;
       const MissedLevel left_out =
-          keep_fewest(by_coordinate.data(), looked_at, functions_.data(), count_,
-                      static_cast<std::size_t>(directions_.functions.rows()),
-                      most > 0 ? static_cast<float>(most * most) : 0.0F);
+          choose_fewest_functions(by_coordinate.data(), looked_at, functions_.data(), count_,
+                                  static_cast<std::size_t>(directions_.functions.rows()),
+                                  most > 0 ? static_cast<float>(most * most) : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept);
       const double missed =
           std::sqrt(static_cast<double>(left_out.squared)) + unseen + rounded[left_out.kept];

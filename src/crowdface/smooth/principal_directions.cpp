@@ -82,7 +82,7 @@ Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd
   const Eigen::MatrixXd u = symmetric_eigen(product(product(t, moments), t.transpose())).vectors;
   Directions directions;
   directions.mixing = solve_triangle(t, u);
-  directions.combining = product(t.transpose(), u);
+  directions.combination = product(t.transpose(), u);
   directions.functions = product(tested.weights, directions.mixing);
   return directions;
 }
@@ -103,7 +103,7 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
       double field[3] = {};
       for (Index n = 0; n < nodes; ++n) {
         for (Index c = 0; c < 3; ++c) {
-          field[c] += directions.combining(n, p) * displacement[3 * n + c];
+          field[c] += directions.combination(n, p) * displacement[3 * n + c];
         }
       }
       for (Index c = 0; c < 3; ++c) {

@@ -28,9 +28,9 @@ struct NodeDisplacements {
 /// important first. All directions together reproduce the displacements at the nodes; the first few
 /// reproduce most of them.
 struct Directions {
-  Eigen::MatrixXd mixing;     ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
-  Eigen::MatrixXd combining;  ///< #nodes by #nodes: c_p = Σ_n combining(n, p) (S_{N_n} x − x)
-  Eigen::MatrixXd functions;  ///< #levels by #nodes: φ_p at the tested levels
+  Eigen::MatrixXd mixing;       ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
+  Eigen::MatrixXd combination;  ///< #nodes by #nodes: c_p = Σ_n combining(n, p) (S_{N_n} x − x)
+  Eigen::MatrixXd functions;    ///< #levels by #nodes: φ_p at the tested levels
   /// #levels by #nodes + 1: largest error at the sample if only the first 0, 1, … directions are
   /// used.
   Eigen::MatrixXd missed;

@@ -59,24 +59,24 @@ int points_along_edge(const Corners& at, double mm_per_unit) {
 /// \param in_the_way  #directions: the last occluder found for each viewer, tested first for the
 ///                    next ray.
 double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
-                     const Viewing& viewing, std::span<std::uint32_t> in_the_way) {
+                     const ViewSetup& view_setup, std::span<std::uint32_t> in_the_way) {
   const Eigen::Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
   std::vector<std::size_t> behind;
-  for (std::size_t i = 0; i < viewing.directions.size(); ++i) {
-    const Eigen::Vector3d& viewer = viewing.directions[i];
+  for (std::size_t i = 0; i < view_setup.directions.size(); ++i) {
+    const Eigen::Vector3d& viewer = view_setup.directions[i];
     if (-normal.dot(viewer) > kFlattestCosine * normal.norm() * viewer.norm()) {
       behind.push_back(i);
     }
   }
   if (behind.empty()) return 0;
-  const int n = points_along_edge(at, viewing.mm_per_unit);
+  const int n = points_along_edge(at, view_setup.mm_per_unit);
   int shown = 0;
   const auto look_at = [&](int thirds_b, int thirds_c) {
     const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
     const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
     shown += std::ranges::any_of(behind, [&](std::size_t viewer) {
       std::uint32_t& other = in_the_way[viewer];
-      other = scene.intersected_by(point, viewing.directions[viewer], triangle, other);
+      other = scene.intersected_by(point, view_setup.directions[viewer], triangle, other);
       return other == kNoIndex;
     });
   };
@@ -96,8 +96,8 @@ double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_
 /// \param around        the triangles at each vertex.
 /// \param intersecting  pairs of intersecting triangles.
 double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& triangles,
-                    const Positions& positions, const FacesAround& around,
-                    const std::vector<TrianglePair>& intersecting, const Viewing& viewing) {
+                    const Positions& positions, const VertexFaces& around,
+                    const std::vector<TrianglePair>& intersecting, const ViewSetup& view_setup) {
   std::vector<bool> seen(triangles.size(), false);
   std::vector<std::uint32_t> waiting;
   const auto look_around = [&](std::uint32_t triangle) {
@@ -113,13 +113,13 @@ double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& tri
     look_around(a);
     look_around(b);
   }
-  std::vector<std::uint32_t> in_the_way(viewing.directions.size(), kNoIndex);
+  std::vector<std::uint32_t> in_the_way(view_setup.directions.size(), kNoIndex);
   double exposed = 0;
   while (!waiting.empty()) {
     const std::uint32_t t = waiting.back();
     waiting.pop_back();
     const double share =
-        exposed_share(scene, corners_of(positions, triangles[t]), t, viewing, in_the_way);
+        exposed_share(scene, corners_of(positions, triangles[t]), t, view_setup, in_the_way);
     if (share == 0) continue;
     exposed += 0.5 * share * area_vector(positions, triangles[t]).norm();
     look_around(t);
@@ -134,11 +134,11 @@ struct Crossing {
 };
 
 Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree& tree,
-                     const Positions& positions, const FacesAround& around,
-                     const Viewing& viewing) {
+                     const Positions& positions, const VertexFaces& around,
+                     const ViewSetup& view_setup) {
   const TriangleScene scene(triangles, tree, positions, margin_of(positions));
   std::vector<TrianglePair> pairs = scene.crossing_pairs();
-  const double exposed = exposed_back(scene, triangles, positions, around, pairs, viewing);
+  const double exposed = exposed_back(scene, triangles, positions, around, pairs, view_setup);
   return {std::move(pairs), exposed};
 }
 
@@ -146,12 +146,12 @@ Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree&
 
 SkinCheck::SkinCheck(const Topology& topology, const Components& components,
                      const std::vector<Head>& heads, const std::set<Index>& targets,
-                     Viewing viewing)
+                     ViewSetup view_setup)
     : triangles_(outward(triangles_of(topology, components, components.largest()),
                          first_of(heads).positions)),
       tree_(triangles_, heads.front().positions),
       around_(topology_of(triangles_, topology.vertex_count)),
-      viewing_(std::move(viewing)) {
+      view_setup_(std::move(view_setup)) {
   const std::vector<Index> asked(targets.begin(), targets.end());
   std::vector<std::optional<Target>> ready(asked.size());
   parallel_for_each(asked.size(), [&](std::size_t t) {
@@ -161,7 +161,7 @@ SkinCheck::SkinCheck(const Topology& topology, const Components& components,
 }
 
 SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
-  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, viewing_);
+  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, view_setup_);
   return {TargetTriangles(triangles_, positions),
           NewIntersections(triangles_, positions.rows(), crossing.pairs), crossing.exposed};
 }
@@ -177,10 +177,10 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Positions& targ
 SkinDefects SkinCheck::compare(const Positions& positions, const Target& target) const {
   SkinDefects defects;
   defects.local = target.triangles.compare(positions);
-  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, viewing_);
+  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, view_setup_);
   defects.intersecting = target.intersections.count(crossing.pairs);
-  defects.exposed_mm2 = std::max(0.0, crossing.exposed - target.exposed) * viewing_.mm_per_unit *
-                        viewing_.mm_per_unit;
+  defects.exposed_mm2 = std::max(0.0, crossing.exposed - target.exposed) * view_setup_.mm_per_unit *
+                        view_setup_.mm_per_unit;
   return defects;
 }
 

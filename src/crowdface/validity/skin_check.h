@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// The directions from which skin is viewed when SkinCheck measures how much of its back side is
 /// visible, and the length of the mesh's unit.
-struct Viewing {
+struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;
   double mm_per_unit = 1;
@@ -36,7 +36,7 @@ class SkinCheck {
   /// \param targets  indices of the heads that `compare` may name.
   /// \throws BrokenPrecondition if there is no head.
   SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
-            const std::set<Index>& targets, Viewing viewing);
+            const std::set<Index>& targets, ViewSetup view_setup);
 
   /// Compares positions with a target.
   /// \param target  one of the targets passed to the constructor.
@@ -60,8 +60,8 @@ class SkinCheck {
 
   std::vector<Triangle> triangles_;  ///< oriented with normals pointing outwards
   TriangleTree tree_;
-  FacesAround around_;
-  Viewing viewing_;
+  VertexFaces around_;
+  ViewSetup view_setup_;
   std::map<Index, Target> targets_;
 };
 

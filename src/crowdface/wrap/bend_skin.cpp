@@ -24,7 +24,7 @@ constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
 /// The correspondence found for a vertex of the skin or for a point of the scan.
-struct Pull {
+struct Correspondence {
   bool found = false;
   Eigen::Vector3d normal, offset;  ///< normal of the scan; vector from the skin to the scan
   double weight = 0;
@@ -36,10 +36,11 @@ double robust(double distance, double spread) {
   return root * root;
 }
 
-double spread_of(const std::vector<Pull>& pulls, double reach) {
+double spread_of(const std::vector<Correspondence>& correspondences, double reach) {
   std::vector<double> distances;
-  for (const Pull& pull : pulls) {
-    if (pull.found) distances.push_back(std::abs(pull.normal.dot(pull.offset)));
+  for (const Correspondence& correspondence : correspondences) {
+    if (correspondence.found)
+      distances.push_back(std::abs(correspondence.normal.dot(correspondence.offset)));
   }
   return outlier_distance(std::move(distances), reach);
 }
@@ -97,10 +98,10 @@ class Bending {
 
   /// Selects the outer boundaries of skin and scan, without small holes.
   void choose_rims() {
-    const auto ends = long_rims(scan_.scan().triangles, scan_.scan().positions, kEndMm);
+    const auto ends = long_boundaries(scan_.scan().triangles, scan_.scan().positions, kEndMm);
     if (ends.empty()) return;
     scan_end_grid_.emplace(scan_.scan().positions, ends);
-    for (const std::uint32_t v : long_rims(skin_.triangles, base_, kEndMm)) {
+    for (const std::uint32_t v : long_boundaries(skin_.triangles, base_, kEndMm)) {
       if (visible_[v] > 0) skin_end_.push_back(v);
     }
   }
@@ -148,51 +149,53 @@ class Bending {
   /// Adds data terms from each vertex of the skin to the closest point of the scan.
   void ask_scan(const Positions& current, double reach, double tangential, DataTerms& data_terms) {
     const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
-    std::vector<Pull> pulls(visible_.size());
-    parallel_for_each(static_cast<std::uint32_t>(pulls.size()), 128, [&](std::uint32_t v) {
-      const double seen = visible_[v];
-      if (seen == 0) return;
-      const Eigen::Vector3d point = row3(current, v);
-      const auto place =
-          scan_.nearest(point, row3(normals, v), kMinCosine, reach, found_on_scan_[v]);
-      found_on_scan_[v] = place.triangle;
-      if (place.found) pulls[v] = {true, place.normal, place.point - point, areas_(v) * seen};
-    });
-    const double spread = spread_of(pulls, reach);
-    for (std::uint32_t v = 0; v < pulls.size(); ++v) {
-      const Pull& pull = pulls[v];
-      if (!pull.found) continue;
-      const double weight = pull.weight * robust(pull.offset.norm(), spread);
-      data_terms.add(v, pull.normal, weight * (1 - tangential), weight * tangential,
-                     pull.offset + row3(displacements_, v));
+    std::vector<Correspondence> correspondences(visible_.size());
+    parallel_for_each(
+        static_cast<std::uint32_t>(correspondences.size()), 128, [&](std::uint32_t v) {
+          const double seen = visible_[v];
+          if (seen == 0) return;
+          const Eigen::Vector3d point = row3(current, v);
+          const auto place =
+              scan_.nearest(point, row3(normals, v), kMinCosine, reach, found_on_scan_[v]);
+          found_on_scan_[v] = place.triangle;
+          if (place.found)
+            correspondences[v] = {true, place.normal, place.point - point, areas_(v) * seen};
+        });
+    const double spread = spread_of(correspondences, reach);
+    for (std::uint32_t v = 0; v < correspondences.size(); ++v) {
+      const Correspondence& correspondence = correspondences[v];
+      if (!correspondence.found) continue;
+      const double weight = correspondence.weight * robust(correspondence.offset.norm(), spread);
+      data_terms.add(v, correspondence.normal, weight * (1 - tangential), weight * tangential,
+                     correspondence.offset + row3(displacements_, v));
     }
   }
 
   /// Adds data terms from sampled points of the scan to the closest point of the skin.
   void ask_skin(const Positions& current, double reach, double tangential, DataTerms& data_terms) {
     const SurfaceTree tree(current, skin_.triangles);
-    std::vector<Pull> pulls(scan_points_.size());
+    std::vector<Correspondence> correspondences(scan_points_.size());
     std::vector<SurfaceHit>& hits = found_on_skin_;
-    parallel_for_each(pulls.size(), 128, [&](std::size_t i) {
+    parallel_for_each(correspondences.size(), 128, [&](std::size_t i) {
       const std::uint32_t s = scan_points_[i];
       const Eigen::Vector3d point = row3(scan_.scan().positions, s);
       const Eigen::Vector3d normal = row3(scan_.normals(), s);
       const SurfaceHit hit = hits[i] =
           tree.nearest_facing(point, normal, kMinCosine, reach, hits[i].triangle);
       if (hit.triangle == kNoIndex || at_rim(hit)) return;
-      pulls[i] = {true, normal, point - hit.point, scan_weight_ * scan_areas_(s)};
+      correspondences[i] = {true, normal, point - hit.point, scan_weight_ * scan_areas_(s)};
     });
-    const double spread = spread_of(pulls, reach);
-    for (std::size_t i = 0; i < pulls.size(); ++i) {
-      const Pull& pull = pulls[i];
-      if (!pull.found) continue;
-      const double weight = pull.weight * robust(pull.offset.norm(), spread);
+    const double spread = spread_of(correspondences, reach);
+    for (std::size_t i = 0; i < correspondences.size(); ++i) {
+      const Correspondence& correspondence = correspondences[i];
+      if (!correspondence.found) continue;
+      const double weight = correspondence.weight * robust(correspondence.offset.norm(), spread);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = skin_.triangles[hits[i].triangle][k];
         const double share = weight * hits[i].shares[k] * visible_[v];
         if (share == 0) continue;
-        data_terms.add(v, pull.normal, share * (1 - tangential), share * tangential,
-                       pull.offset + row3(displacements_, v));
+        data_terms.add(v, correspondence.normal, share * (1 - tangential), share * tangential,
+                       correspondence.offset + row3(displacements_, v));
       }
     }
   }

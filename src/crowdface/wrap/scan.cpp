@@ -63,8 +63,8 @@ std::vector<bool> used_vertices(const Scan& scan) {
   return used;
 }
 
-std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
-                                     const Positions& positions, double min_length) {
+std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangles,
+                                           const Positions& positions, double min_length) {
   const std::vector<Edge> edges = rim_edges(triangles);
   DisjointSets rims(static_cast<std::size_t>(positions.rows()));
   for (const auto& [a, b] : edges) rims.join(a, b);

@@ -20,8 +20,8 @@ std::vector<bool> used_vertices(const Scan& scan);
 
 /// The vertices of boundary loops that are at least `min_length` long, ascending: where a surface
 /// ends.
-std::vector<std::uint32_t> long_rims(const std::vector<Triangle>& triangles,
-                                     const Positions& positions, double min_length);
+std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangles,
+                                           const Positions& positions, double min_length);
 
 /// Removes connected components with less than `min_share` of the largest component's area, and
 /// triangles with a repeated vertex. Keeps all vertices, so that vertex indices do not change.

@@ -12,7 +12,7 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   if (hint) {
     axes.push_back({hint->front, hint->up});
   } else {
-    for (const Bearing& bearing : all_bearings()) axes.push_back(axes_of(bearing));
+    for (const Orientation& orientation : all_orientations()) axes.push_back(axes_of(orientation));
   }
   const CentredScan moved = centred(scan, {});
   const Index vertices = scan.positions.rows();

@@ -86,7 +86,7 @@ double Hair::falling(const Vector3d& p) const {
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
 }
 
-double above_hairline(const Vector3d& p, bool low_edge, double receding) {
+double height_above_hairline(const Vector3d& p, bool low_edge, double receding) {
   // clang-format off
   const std::array<Vector2d, 9> high = {{
       {0.0, 7.6 + 3.2 * receding}, {0.25, 7.5 + 4.2 * receding}, {0.42, 6.6 + 3.0 * receding},

@@ -24,7 +24,7 @@ struct HairStyle {
 /// Returns the height of a point above the hairline, cm; negative below.
 /// \param low_edge  hairline of women, which covers the temples.
 /// \param receding  0 (full hairline) … 1 (bald); ignored if `low_edge` is set.
-double above_hairline(const Eigen::Vector3d& p, bool low_edge, double receding = 0);
+double height_above_hairline(const Eigen::Vector3d& p, bool low_edge, double receding = 0);
 
 /// Returns whether a person's hair is curly.
 bool has_curls(std::uint64_t seed, std::uint64_t index);
@@ -45,7 +45,7 @@ class Hair {
 
  private:
   double above_edge(const Eigen::Vector3d& p) const {
-    return above_hairline(p, style_.low_edge, receding_);
+    return height_above_hairline(p, style_.low_edge, receding_);
   }
   double thinned(const Eigen::Vector3d& p) const;
   double falling(const Eigen::Vector3d& p) const;

@@ -50,7 +50,8 @@ Vector3d away_from_head(const Vector3d& p) {
 }
 
 double hair_within(const HairCut& cut, const Vector3d& p) {
-  const double above = above_hairline(p, cut.female), height = p.y() + 0.25 * std::max(0.0, p.z());
+  const double above = height_above_hairline(p, cut.female),
+               height = p.y() + 0.25 * std::max(0.0, p.z());
   if (cut.crown_bald) return std::min(above, 6.2 - height);
   return cut.sides > 0 ? above : std::min(above, height - 4.3);
 }
