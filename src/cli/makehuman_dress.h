@@ -41,8 +41,8 @@ class MakeHumanDress {
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;
   int max_texels_;
-  std::set<std::set<std::string>> tags_;               ///< the different tag sets of the added
-                                                       ///< persons
+  /// the different tag sets of the added persons
+  std::set<std::set<std::string>> tags_;
   std::map<std::string, std::filesystem::path> eyes_;  ///< eye textures in use, by colour
 };
 

@@ -102,7 +102,7 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 /// Returns the landmarks from the files. If these are too few and the pose of the scan is known,
 /// adds landmarks that are detected by shape.
 /// \param hint  pose of the scan. Receives the face that is found in the scan's relief and, if
-///     `hint` was empty, the axes of this face.
+///              `hint` was empty, the axes of this face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
