@@ -48,7 +48,8 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
       areas_(static_cast<std::size_t>(topology.vertex_count), 0.0) {
   require(mesh_.rows() == topology.vertex_count && skin_.size() >= 3, "fitted skin: ", mesh_.rows(),
           " positions, ", skin_.size(), " vertices of skin");
-  // Compute the vertices' areas, and the sign of the volume, which tells the winding.
+  // Compute the vertices' areas, and the sign of the volume, which shows whether normals point
+  // inwards.
   const Positions vectors = face_area_vectors(topology, mesh_);
   std::vector<bool> is_skin(areas_.size(), false);
   for (const std::uint32_t v : skin_) is_skin[v] = true;

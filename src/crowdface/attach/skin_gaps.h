@@ -50,9 +50,9 @@ class SkinGaps {
   const FittedSkin& skin_;
   /// #P: signed distances on the fitted mesh; infinite if the point is far from the skin
   std::vector<double> heights_;
-  std::vector<std::uint32_t> starts_;  ///< #P: a skin vertex near each point, where the search for
-                                       ///< the nearest skin starts
-  Adjacency neighbours_;               ///< #P
+  /// #P: a skin vertex near each point, where the search for the nearest skin starts
+  std::vector<std::uint32_t> starts_;
+  Adjacency neighbours_;  ///< #P
 };
 
 }  // namespace crowdface
