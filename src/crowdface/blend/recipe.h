@@ -21,12 +21,12 @@ struct SourceWeight {
 /// A band of detail: the heads that lend it, its strength, and the level at which it begins. A band
 /// ends where the next finer band begins; the finest band ends at level 0.
 struct BandRecipe {
-  std::optional<PlanePoint> position;  ///< m_k, if the weights were computed from a position on the
-                                       ///< plane
-  std::vector<SourceWeight> weights;   ///< ω̂_ki, by ascending head, none zero
-  double smoothness = 0;               ///< L_k/L_max
-  std::uint64_t iterations = 0;        ///< L_k
-  double extrapolation = 1;            ///< e_k, the factor of Fig. 6
+  /// m_k, if the weights were computed from a position on the plane
+  std::optional<PlanePoint> position;
+  std::vector<SourceWeight> weights;  ///< ω̂_ki, by ascending head, none zero
+  double smoothness = 0;              ///< L_k/L_max
+  std::uint64_t iterations = 0;       ///< L_k
+  double extrapolation = 1;           ///< e_k, the factor of Fig. 6
 };
 
 /// The recipe of one region: its coarsest band (all that Eq. 7 needs) and its finer bands.
@@ -115,7 +115,8 @@ Matrix target_matrix(const Recipe& recipe, const Of& of) {
 /// \param anchors      #heads
 /// \param sources      heads that lend detail, ascending.
 /// \param max_sources  keeps only this many of the largest weights (of equal weights, the first)
-///     and normalises them again; ω_0 is always kept and does not count towards this number.
+///                     and normalises them again; ω_0 is always kept and does not count towards
+///                     this number.
 std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
                                      const std::vector<Index>& sources, const PlanePoint& position,
                                      Normalization normalization, std::optional<int> max_sources);

@@ -10,9 +10,9 @@ namespace crowdface {
 inline constexpr double kMaxPlaneCoordinate = 1e6;  ///< absolute value of a plane coordinate
 inline constexpr double kMaxExtrapolation = 4;      ///< absolute value of e_k, the factor of Fig. 6
 inline constexpr double kMaxAsymmetry = 4;          ///< largest asymmetry factor; the smallest is 0
-inline constexpr double kLargestWeight = 1e6;       ///< largest weight of a head before
-                                                    ///< normalisation
-inline constexpr std::uint64_t kMaxIterations = 10'000'000;  ///< largest number of iterations that
-                                                             ///< a config or plan may give
+/// largest weight of a head before normalisation
+inline constexpr double kLargestWeight = 1e6;
+/// largest number of iterations that a config or plan may give
+inline constexpr std::uint64_t kMaxIterations = 10'000'000;
 
 }  // namespace crowdface
