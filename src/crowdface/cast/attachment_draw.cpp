@@ -119,7 +119,7 @@ class AttachmentDrawing {
   /// Returns the items of a kind that a head's tags allow.
   ///
   /// \param colour  A colour that the face already has; an item of this colour is allowed even if
-  ///     the head lacks the item's tags.
+  ///                the head lacks the item's tags.
   Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;

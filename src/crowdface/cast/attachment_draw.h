@@ -16,9 +16,9 @@ namespace crowdface {
 struct AttachmentDraw {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  std::map<std::string, double> none;  ///< by kind: fraction of the faces that wear no item of this
-                                       ///< kind
-  HeadTags tags;                       ///< #heads
+  /// by kind: fraction of the faces that wear no item of this kind
+  std::map<std::string, double> none;
+  HeadTags tags;  ///< #heads
   /// By kind, name or colour: fraction of each group's sampled faces that wear such an item. A kind
   /// has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
@@ -46,7 +46,7 @@ struct AttachmentDraw {
 /// \param crowd     In the order of the plan.
 /// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
 /// \param rejected  Faces that reviews rejected, in order. Their replacements are processed last,
-///     so that no other face changes.
+///                  so that no other face changes.
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {});
 

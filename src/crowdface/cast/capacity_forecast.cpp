@@ -10,8 +10,8 @@ namespace {
 /// 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kMinPlaced = 256;
-constexpr std::uint64_t kMinTooNear = 100;  ///< smallest number of near candidates in the earlier
-                                            ///< of the two complete stretches
+/// smallest number of near candidates in the earlier of the two complete stretches
+constexpr std::uint64_t kMinTooNear = 100;
 
 }  // namespace
 

@@ -24,11 +24,9 @@ enum class Reason {
   kFlipped,             ///< part of the skin is turned inside out or collapsed
   kStretched,           ///< part of the skin is stretched too far
   kIntersecting,        ///< the skin intersects itself where the target's does not
-  kGap,                 ///< skin that nearly touches in the heads, such as the lips, is farther
-                        ///< apart than in any head
-  kExposed,             ///< intrudes into another family (FamilySeparation), or breaks a limit of
-                        ///< its own family
-  kFamily,              ///< nearer to another family than allowed, or too far from its own
+  kGap,                 ///< the gap between lips (or similar skin) is wider than in any head
+  kExposed,             ///< the back side of the skin is visible near an intersection
+  kFamily,              ///< intrudes into another family, or breaks a limit of its own family
   kRejected,            ///< too similar to a face that a review rejected
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;

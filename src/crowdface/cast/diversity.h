@@ -19,11 +19,11 @@ struct DiversityOptions {
   double min_distance_to_faces_mm = 0;  ///< from every input head
   /// Between a rejected face and its replacement; empty: half the crowd's median distance.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;                      ///< largest weight of one head in one region
-  int max_attempts = 1000;                    ///< number of draws for one face before casting gives
-                                              ///< up
-  static constexpr std::uint64_t kPool = 10;  ///< kSpread: size of the pool, in multiples of the
-                                              ///< crowd's size
+  double max_weight = 1;  ///< largest weight of one head in one region
+  /// number of draws for one face before casting gives up
+  int max_attempts = 1000;
+  /// kSpread: size of the pool, in multiples of the crowd's size
+  static constexpr std::uint64_t kPool = 10;
 
   /// Number of acceptable candidates for one face, of which kFirstFit keeps the one farthest from
   /// the crowd. Must not depend on the size of the crowd.
@@ -46,14 +46,14 @@ struct BelievabilityOptions {
     kJudge,
   };
   Meshes meshes = Meshes::kAuto;
-  bool check = true;           ///< false: candidates are not checked for believability
-  double max_deviation = 2.5;  ///< largest Plausibility of a face: its deviation from the heads'
-                               ///< mean
-  double max_stretch = 3;      ///< 99th percentile of the stretch of the skin's triangles
+  bool check = true;  ///< false: candidates are not checked for believability
+  /// largest Plausibility of a face: its deviation from the heads' mean
+  double max_deviation = 2.5;
+  double max_stretch = 3;  ///< 99th percentile of the stretch of the skin's triangles
   /// fraction of the skin's triangles that are turned over or collapsed
   double max_flipped = 0.003;
-  double max_intersecting = 0.01;  ///< fraction of triangles that intersect others where the
-                                   ///< target's do not
+  /// fraction of triangles that intersect others where the target's do not
+  double max_intersecting = 0.01;
   /// how much farther apart the lips may be than in any head, see SkinContacts
   double max_gap_mm = 0.5;
   /// Area of skin that may show its back side, in addition to that of the target; see skin_check.h.

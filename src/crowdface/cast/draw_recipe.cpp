@@ -71,7 +71,7 @@ PlanePoint draw_in_hull(const CastingOptions& casting, const std::vector<Index>&
 }
 
 /// \param retry  Number of earlier positions that gave one head too much weight. Each retry may go
-///     farther from the anchor.
+///               farther from the anchor.
 PlanePoint draw_position(const CastingOptions& casting, const PositionDistribution& distribution,
                          const std::vector<Index>& sources, Index target, const FaceDraws& draws,
                          const std::string& region, std::uint32_t retry) {

@@ -67,8 +67,8 @@ std::string face_id(const std::string& crowd, std::uint64_t index);
 struct DrawKey {
   std::uint64_t index = 0;    ///< of the face, from 1
   std::uint32_t attempt = 0;  ///< number of earlier draws of this face that were rejected
-  std::string who = {};       ///< empty for a sampled face; otherwise separates the random numbers
-                              ///< of other faces
+  /// empty for a sampled face; otherwise separates the random numbers of other faces
+  std::string who = {};
 };
 
 /// Draws everything that `hand` does not specify; for a sampled face, `hand` specifies nothing. A

@@ -42,8 +42,8 @@ class FaceSearch {
   struct Candidate {
     FacePlan face;
     FaceSpace::Point point;
-    double nearest_mm = HUGE_VAL;  ///< distance to the nearest face, or an upper bound of this
-                                   ///< distance
+    /// distance to the nearest face, or an upper bound of this distance
+    double nearest_mm = HUGE_VAL;
     bool known = true;
     bool judged = false;  ///< whether `check_skin` was called
     std::optional<Reason> broken = std::nullopt;

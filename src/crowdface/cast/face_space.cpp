@@ -126,7 +126,7 @@ void FaceSpace::put_function(const Value& value, float* row) const {
 /// Returns the functions whose sums are the faces; three rows (x, y, z) for each.
 ///
 /// \param peaks  #modes: largest coefficient of each mode at any level. Modes have unit length, so
-///     their rows are scaled by this.
+///               their rows are scaled by this.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
   const Index size = roots_.size(), regions = heads_.alpha.cols();

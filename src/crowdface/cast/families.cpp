@@ -11,9 +11,9 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kFounders = 12;         ///< founders tried before giving up
-constexpr std::uint32_t kCouples = 200;         ///< couples of drawn parents tried in addition to
-                                                ///< the founders
+constexpr std::uint32_t kFounders = 12;  ///< founders tried before giving up
+/// couples of drawn parents tried in addition to the founders
+constexpr std::uint32_t kCouples = 200;
 constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
 constexpr int kFounderCandidates = 24;
 

@@ -32,9 +32,9 @@ struct FamilyOptions {
   std::vector<Parent> parents;  ///< empty, or mother and father
   /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 from neither
   std::vector<int> inherit;
-  double max_distance_mm = 2.5;  ///< largest distance of a member from the founder, who is not in
-                                 ///< the crowd
-  double min_distance_mm = 0;    ///< between members
+  /// largest distance of a member from the founder, who is not in the crowd
+  double max_distance_mm = 2.5;
+  double min_distance_mm = 0;  ///< between members
   /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
   bool twins = false;
   Range age = {0, 0};  ///< see apply_age

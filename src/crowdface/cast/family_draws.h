@@ -102,7 +102,7 @@ class FamilyDraws {
   std::vector<KnownParent> parents_;  ///< #parents; empty entries are still to be drawn
   std::vector<std::size_t> to_draw_;  ///< indices of parents that were not in the crowd
   std::vector<FaceSearch::Found> drawn_;
-  FaceKind others_;  ///< where members get what they inherit from neither parent
+  FaceKind others_;  ///< parameters for what members inherit from neither parent
   /// replaces targets of the parents by targets of the family's group
   SubstituteHeads form_;
   /// by band: replaces the parents' sources by sources of the group; empty: no group

@@ -61,9 +61,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge) {
-  constexpr std::uint64_t kBetter = 8;  // safety factor; spread finds at most twice as many faces
-                                        // as first fit
-                                        // and a trial casts a quarter of that
+  constexpr std::uint64_t kBetter = 8;  // with a margin: spread finds twice as many faces at most
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {

@@ -8,8 +8,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kRidge = 0.1;  ///< variance added in every direction, as a fraction of the mean
-                                ///< variance of the heads
+/// variance added in every direction, as a fraction of the mean variance of the heads
+constexpr double kRidge = 0.1;
 
 }  // namespace
 
