@@ -191,7 +191,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   }
 }
 
-/// Writes a mapping from words to shares; empty, so that the key is left out, without shares.
+/// Writes a mapping from words to shares. Without shares the text is empty, which leaves the key
+/// out.
 auto write_shares(std::map<std::string, double> Attachments::*shares) {
   return [=](const Attachments& attachments, const WriteContext&) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {

@@ -13,8 +13,8 @@ namespace crowdface {
 namespace {
 
 constexpr double kShareRounding = 1e-9;
-constexpr Eigen::Index kMaxJudged = 200'000;  // largest number of vertices for which a starter
-                                              // config has `meshes: judge`
+// largest number of vertices for which a starter config has `meshes: judge`
+constexpr Eigen::Index kMaxJudged = 200'000;
 
 /// Reads the path of one image, or of a set of UDIM tiles.
 void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {

@@ -34,8 +34,8 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
 }
 
 void Complaints::tell(Problems& problems) const {
-  constexpr std::size_t kMaxTold = 100;  // a longer list would push the first problems off the
-                                         // screen
+  // a longer list would push the first problems off the screen
+  constexpr std::size_t kMaxTold = 100;
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);

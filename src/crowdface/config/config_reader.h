@@ -27,8 +27,8 @@ struct ConfigOverrides {
 
 /// A config that may be read only in part because of problems.
 struct ConfigReading {
-  Config config;               ///< if there were problems, only the parts that the flags declare
-                               ///< valid may be used
+  /// if there were problems, only the parts that the flags declare valid may be used
+  Config config;
   bool complete = false;       ///< there was no problem; the whole config is valid
   bool heads_known = false;    ///< faces.files and faces.names are valid
   bool regions_known = false;  ///< regions.names and regions.mask are valid

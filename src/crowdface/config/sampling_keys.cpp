@@ -25,8 +25,8 @@ struct PerRegion {
 /// Splits a value by region. The value may be one value for all regions, `{default: …, top: …}`, or
 /// a mapping whose keys are parameters of the value and names of regions.
 /// \param parameters  the keys of a value that is itself a mapping. A region may have the same name
-///     as a parameter, if the parameter's value is never a mapping: a mapping under this name
-///     belongs to the region.
+///                    as a parameter, if the parameter's value is never a mapping: a mapping under
+///                    this name belongs to the region.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {
