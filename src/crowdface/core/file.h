@@ -65,7 +65,7 @@ class MappedFile {
   /// and the kernel caches them in free memory. The file disappears when the process ends, even if
   /// the process is killed.
   /// \param folder  folder of the temporary file; created if missing. \throws CannotCreate,
-  ///     IoError.
+  ///                IoError.
   static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
   /// Wraps a text in memory, for code that expects a file.
   static MappedFile of_text(std::string text);

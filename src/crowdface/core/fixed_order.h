@@ -27,7 +27,7 @@ inline void subtract_scaled(double factor, std::span<const double> from, std::sp
 /// \param count      number of orthonormal directions.
 /// \param direction  direction(m) returns direction m, as long as `vector`.
 /// \param share      callback: share(m, part) receives the component along direction m that a pass
-///     removes; called once per direction and pass.
+///                   removes; called once per direction and pass.
 /// \return           length of the remainder before scaling.
 template <class Direction, class Share>
 double orthonormalize(std::span<double> vector, std::size_t count, const Direction& direction,

@@ -49,7 +49,8 @@ void parallel_for_each(Count count, const Body& body) {
   detail::run_items(static_cast<std::ptrdiff_t>(count),
                     [&](std::ptrdiff_t i) { body(static_cast<Count>(i)); });
 }
-/// The same with one task per block, as in `parallel_blocks`. For many light items.
+/// Calls `body(i)` for each i, with one task per block, as in `parallel_blocks`. For many light
+/// items.
 template <std::integral Count, class Body>
 void parallel_for_each(Count count, std::type_identity_t<Count> block, const Body& body) {
   parallel_blocks(count, block, [&](Count begin, Count end) {
