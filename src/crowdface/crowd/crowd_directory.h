@@ -71,7 +71,7 @@ struct CrowdDirectory {
   std::filesystem::path stage() const { return root / "crowd.usda"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
   /// \param part  a level of detail, a shape, or all shapes. '+' separates the id from the part,
-  ///     because no face's id contains '+'.
+  ///              because no face's id contains '+'.
   std::filesystem::path mesh(const std::string& id, MeshFormat format,
                              const std::string& part = {}) const;
   /// Arrays that define the polygons of positions-only meshes (MeshFormat::kPoints).

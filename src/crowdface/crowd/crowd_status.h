@@ -21,8 +21,7 @@ struct ShardStatus {
   std::optional<double> faces_a_second;  ///< speed of the last run
   std::optional<double> seconds_left;    ///< set while the shard is working and its speed is known
   std::optional<double>
-      silent_seconds;  ///< set while working: seconds since the shard's last write, by this
-                       ///< machine's clock
+      silent_seconds;  ///< set while working: seconds since the shard's last write
   std::string machine;
   std::string reason;  ///< why the last run ended early
 };

@@ -26,7 +26,8 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   return json;
 }
 
-/// The values of the first band directly, and those of the other bands under their names.
+/// The first band's values stand directly in the object, those of the other bands under their
+/// names.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
   for (std::size_t b = 1; b < band_count(region); ++b) {

@@ -73,8 +73,8 @@ class Ledger {
   /// unfinished.
   /// \param own     the ledger to append to; created if it does not exist.
   /// \param others  ledgers of other runs, which are only read. If several ledgers list an item,
-  ///     any of their lines may prove that the item is finished: the order of the lines in time is
-  ///     unknown, so none takes precedence.
+  ///                any of their lines may prove that the item is finished: the order of the lines
+  ///                in time is unknown, so none takes precedence.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 
