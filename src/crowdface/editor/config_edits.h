@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of a config: what the editor saves, in the file that the config names as `edits`. If the
-// config names no such file, the editor adds a line to the config that names `NAME_edits.yaml` in
-// the same folder.
+// Edits of a config: the changes that the editor saves, in the file that the config's key `edits`
+// names. If the config has no such key, the editor adds it to the config, with the file
+// `NAME_edits.yaml` in the same folder.
 #pragma once
 
 #include <filesystem>

@@ -42,7 +42,8 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
   return json;
 }
 
-/// The values of the first band directly, and those of the other bands under their names.
+/// The first band's values stand directly in the object, those of the other bands under their
+/// names.
 Json region_to_json(const RegionRecipe& region, Index target, const CastingOptions& casting,
                     const std::vector<std::string>& heads) {
   const SamplingOptions& sampling = casting.sampling;

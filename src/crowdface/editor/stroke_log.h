@@ -19,7 +19,7 @@ class StrokeLog {
   /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
   /// last line.
   /// \param painted_on  identifies the masks and the preview. Strokes that were painted on other
-  ///     masks are discarded with a log message.
+  ///                    masks are discarded with a log message.
   StrokeLog(std::filesystem::path file, const Digest& painted_on);
 
   /// The strokes in the order of the calls of `add`.
