@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// Makes a FaceSpace (see its constructor), with its tables from the cache if they are there.
+/// Makes a FaceSpace (see its constructor). Takes its tables from the cache if the cache has them.
 FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
                             const std::vector<double>& weights, std::size_t bands);
 

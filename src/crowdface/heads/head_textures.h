@@ -97,7 +97,7 @@ HeadTextures load_render_textures(HeadsTextures found, int max_px);
 /// has the length `size`.
 /// \param size     texels of the longer side; nothing: as the largest file, at most 4,096
 /// \param scratch  folder for the maps if they would together need more than half of the memory
-///     left for images
+///                 left for images
 /// \throws InvalidInput if a file is damaged, or is not of the kind that its material says, such as
 ///     a grey image as a normal map.
 HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& materials,

@@ -95,9 +95,9 @@ struct Inputs {
   std::uint64_t max_level = 0;        ///< L_max
   std::vector<Digest> head_digests;   ///< #heads, hashes of the positions in use
   Digest topology_digest;
-  Digest mask_digest;                 ///< hash of α
-  HeadTextures textures;              ///< colour textures, if they are blended or rendered;
-                                      ///< otherwise empty
+  Digest mask_digest;  ///< hash of α
+  /// colour textures, if they are blended or rendered; otherwise empty
+  HeadTextures textures;
   std::vector<HeadTextures> maps;     ///< textures of other kinds, if faces get blended ones
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads what the config transfers to every face: shapes, points, a rig, attachments. Each function
-// requires inputs whose heads and parts are known, and adds all problems that it finds.
+// Loads the parts of the config that are transferred to every face: shapes, points, a rig,
+// attachments. Each function requires inputs whose heads and parts are known, and adds all problems
+// that it finds.
 #pragma once
 
 #include "crowdface/config/config.h"

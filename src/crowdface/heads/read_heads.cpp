@@ -181,7 +181,7 @@ const fs::path& scratch_folder() {
 /// files. The files are in a folder of the cache, or in a scratch folder if no cache can be
 /// written.
 /// \return the path that the material file is relative to, and the file's name; empty if there are
-///     no textures
+///         no textures
 std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
                                                const FileMesh& mesh) {
   if (mesh.textures.empty()) return {};
