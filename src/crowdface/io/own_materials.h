@@ -15,7 +15,7 @@ class OwnMaterials {
  public:
   /// \param mesh, libraries  as for `find_material_files`; unreadable files are skipped.
   /// \param shared  path from the new file to the textures that are not replaced, such as "..";
-  ///     empty: the same folder.
+  ///                empty: the same folder.
   OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
                const std::string& shared = {});
 

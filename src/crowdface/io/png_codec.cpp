@@ -28,7 +28,7 @@ struct PngError {
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*warning*/) {}
 
-/// Call this before each row. A signal then is an error, which image.cpp reports as what it is.
+/// Call this before each row. After a signal it fails; image.cpp then reports the interruption.
 void give_up_if_interrupted(png_structp png) {
   if (interrupted()) png_error(png, "interrupted by a signal");
 }

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-inline constexpr std::size_t kVectorSize = 3 * sizeof(float);  ///< size in bytes of three single-
-                                                               ///< precision numbers
+/// size in bytes of three single-precision numbers
+inline constexpr std::size_t kVectorSize = 3 * sizeof(float);
 /// Number of rows that a thread encodes at a time.
 inline constexpr Index kRowsPerBlock = 1 << 15;
 

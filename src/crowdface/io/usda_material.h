@@ -19,8 +19,8 @@ struct UsdaSurface {
   std::string holes = {};
   /// Whether the mask is the file's alpha channel; otherwise it is the first channel.
   bool holes_in_alpha = false;
-  bool overlay = false;  ///< textures use the primvar `st1` and are clamped; otherwise they use
-                         ///< `st` and repeat
+  /// textures use the primvar `st1` and are clamped; otherwise they use `st` and repeat
+  bool overlay = false;
 };
 
 /// A Scope prim below the root that contains Material prims with preview surfaces; an empty text if
