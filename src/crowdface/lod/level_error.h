@@ -15,8 +15,8 @@ namespace crowdface {
 struct LevelMap {
   /// Vertices of the whole mesh that faces use and the level lacks, ascending.
   std::vector<std::uint32_t> vertices;
-  std::vector<Triangle> triangles;  ///< #vertices: for each, a triangle, given by indices of the
-                                    ///< level's vertices
+  /// #vertices: for each, a triangle, given by indices of the level's vertices
+  std::vector<Triangle> triangles;
 };
 /// Finds the triangles of a LevelMap.
 /// \param typical  #V by 3: the head on which distances are measured.
