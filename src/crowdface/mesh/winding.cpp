@@ -42,9 +42,9 @@ float winding(const Topology& topology, const Positions& positions) {
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  constexpr double kClearly = 0.2;  // for comparison: 1 for a sphere, about 0.3 for an open mask of
-                                    // a face
-  constexpr double kFlat = 0.8;     // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
+  // for comparison: 1 for a sphere, about 0.3 for an open mask of a face
+  constexpr double kClearly = 0.2;
+  constexpr double kFlat = 0.8;  // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);
   Eigen::RowVector3d middle(0, 0, 0);
   double weight = 0;
