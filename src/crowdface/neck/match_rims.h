@@ -17,18 +17,18 @@ namespace crowdface {
 Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const Eigen::Vector3d& up,
                double mm);
 
-/// How a body's rim lies relative to the heads' rim.
+/// The match of a body's rim with the heads' rim.
 struct RimMatch {
   Rim rim;            ///< the body's vertex for each vertex of the heads' rim
   double off_mm = 0;  ///< distance between the centroids
   std::string fault;  ///< why the rims do not match; empty if they do
 };
 
-/// Matches two rims of equal length: of all starts and both directions, the one with the smallest
-/// sum of squared distances.
+/// Matches the vertices of two rims of equal length: tries every start in both directions and takes
+/// the order with the smallest sum of squared distances.
 /// \param head     the heads' rim, #rim by 3, in mm, in order
 /// \param body     positions of the whole body, in mm
-/// \param reach_mm largest offset: the falloff
+/// \param reach_mm largest distance of the rims: the falloff
 RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm);
 
 /// Finds the rim of a body that matches the heads' rim.

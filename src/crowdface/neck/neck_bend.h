@@ -11,9 +11,10 @@
 
 namespace crowdface {
 
-/// Smooth displacements of the skin above a rim: given at the rim, zero with zero slope at the
-/// distance `falloff` along the surface, and of least bending energy between (the biharmonic
-/// equation, discretised with the cotangent Laplacian). One factorisation serves all displacements.
+/// Smooth displacements of the skin above a rim. They are given at the rim, and zero with zero
+/// slope at the distance `falloff` along the surface. Between, they have the least bending energy
+/// (the biharmonic equation, discretised with the cotangent Laplacian). One factorisation serves
+/// all displacements.
 class NeckBend {
  public:
   /// \param falloff  in the unit of the positions, measured along edges of `positions`

@@ -14,7 +14,7 @@ namespace crowdface {
 using Rim = std::vector<std::uint32_t>;
 
 /// The open rims of a mesh: closed loops of edges that have exactly one polygon, ordered by their
-/// lowest vertices. A vertex where two rims touch breaks both, and they are left out.
+/// lowest vertices. Two rims that touch at a vertex are omitted, because neither is a simple loop.
 std::vector<Rim> open_rims(const Topology& topology, const Adjacency& adjacency);
 
 /// The closed loop that the edges among these vertices form; empty if they do not form exactly one.

@@ -19,7 +19,7 @@ struct Seam {
   void bend_like(const Positions& other, Positions& mesh) const;
   /// Changes a shape's displacements smoothly so that they are zero at the rim.
   void hold(Displacements& moves) const;
-  /// Gives the rim the seam's normals. \param of_mesh  #V by 3; may be empty
+  /// Sets the normals of the rim to the seam's. \param of_mesh  #V by 3; may be empty
   void set_normals(Positions& of_mesh) const;
 };
 
