@@ -358,9 +358,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  constexpr double kCoarser = 1.5;  // step width is larger in the rotated views, because there are
-                                    // many
-  constexpr double kTurn = 25;      // rotation of the rotated views, in degrees
+  // step width is larger in the rotated views, because there are many
+  constexpr double kCoarser = 1.5;
+  constexpr double kTurn = 25;  // rotation of the rotated views, in degrees
   // A face within this angle in degrees counts as aligned with the axes.
   constexpr double kStraight = 5;
   constexpr double kMinPitch = 10;  // smaller angles come from posture or the form of the face

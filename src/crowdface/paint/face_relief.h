@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-inline constexpr Index kSkinSamples = 150'000;  ///< number of samples with which a face is found
-                                                ///< even on a bust
+/// number of samples with which a face is found even on a bust
+inline constexpr Index kSkinSamples = 150'000;
 
 /// Samples the skin evenly by area, so that measurements on the samples do not depend on the
 /// tessellation of the mesh.
@@ -28,8 +28,8 @@ struct ReliefMatch {
   /// The agreement, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15 if
   /// they are elsewhere.
   double votes = -1;
-  std::size_t view = 0;    ///< index of those of the requested axes that are nearest to the face's
-                           ///< axes
+  /// index of those of the requested axes that are nearest to the face's axes
+  std::size_t view = 0;
   double degrees_off = 0;  ///< angle between these requested axes and the axes of the face
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
   /// Axes in which the face is symmetric and as upright as the mean face. Small angles between

@@ -20,8 +20,8 @@ enum class BrushMode : std::uint8_t {
 
 struct Brush {
   BrushMode mode = BrushMode::kAdd;
-  double radius = 1;    ///< radius of the brush along the surface, in the unit of the positions,
-                        ///< above 0
+  /// radius of the brush along the surface, in the unit of the positions, above 0
+  double radius = 1;
   double strength = 1;  ///< change at the centre of the brush, 0 to 1
   /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
   double falloff = 1;
@@ -47,7 +47,7 @@ class MaskPainter {
   /// Applies one brush stroke at several places. Where the places overlap, the largest strength
   /// counts.
   /// \param goes_on  whether the stroke continues the previous stroke, so that one undo reverts
-  ///     both.
+  ///                 both.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
