@@ -62,7 +62,7 @@ class Ties {
   /// \param rigid      Vertices of each rigid part.
   /// \param bound      Vertices that may be tied.
   /// \param reach      Distance at which a tie ends: vertices farther from a part than this are
-  ///     free; vertices at the part follow it completely.
+  ///                   free; vertices at the part follow it completely.
   Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
        std::span<const std::uint32_t> bound, double reach);
 

@@ -39,7 +39,7 @@ struct ContactPlace {
 /// Returns places spread evenly over a group, with profiles that are still empty.
 ///
 /// \param spacing  Minimum distance between two places; every pair of the group is within this
-///     distance of some place.
+///                 distance of some place.
 std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing);
 
 /// Cuts the profiles of a place. Either profile may be empty.

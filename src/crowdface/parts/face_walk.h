@@ -35,9 +35,9 @@ class MirroredWalk {
   ///
   /// \param edge     An edge of a face on the first side.
   /// \param other    Its mirror image on the second side: from the partner of edge.to to the
-  ///     partner of edge.from.
+  ///                 partner of edge.from.
   /// \param goes_on  Called once for each new pair. If it returns false, the walk ends without
-  ///     result.
+  ///                 result.
   /// \return         All pairs found, or nothing if the two sides do not match.
   std::optional<std::vector<MirroredPair>> from(
       DirectedEdge edge, DirectedEdge other,

@@ -27,7 +27,7 @@ constexpr double kReach = 0.008;    // largest distance of skin that nearly touc
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // largest overlap: lips that touch intersect a little on the mean head; lids are thicker
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;  // for kSideways, a smaller gap counts as this
+constexpr double kAside = 0.0035;  // smallest gap used in the test of kSideways
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
 // largest distance between the midpoints of one group's pairs; larger in a coarse mesh
 constexpr double kTogether = 0.015;

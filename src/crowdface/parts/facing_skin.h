@@ -27,7 +27,7 @@ using FacingGroup = std::vector<FacingPair>;
 ///
 /// \param positions  #V by 3; preferably the mean head.
 /// \param skin       The skin's vertices, ascending; at least one. A dense skin is subsampled
-///     evenly.
+///                   evenly.
 std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjacency& adjacency,
                                           const Positions& positions,
                                           std::span<const std::uint32_t> skin);

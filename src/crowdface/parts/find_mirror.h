@@ -9,8 +9,8 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  Index vertices = 0;  ///< number of vertices whose partner is another vertex that has them as its
-                       ///< partner
+  /// number of vertices whose partner is another vertex that has them as its partner
+  Index vertices = 0;
   /// number of vertices whose partner is a point on the surface; the remaining vertices have none
   Index on_surface = 0;
   /// Distance of the mean head from its mirror image, in its unit: root mean square and maximum

@@ -35,7 +35,7 @@ class PlaneFit {
 /// \param mean   #V by 3.
 /// \param skin   The surface's vertices; at least one.
 /// \param start  First guess. Its normal is a unit vector along the axis from the head's right to
-///     its left, in either direction.
+///               its left, in either direction.
 MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& around,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start);

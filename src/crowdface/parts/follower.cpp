@@ -20,8 +20,8 @@ namespace {
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
 /// Number of a part's vertices used to find its socket.
 constexpr std::size_t kMaxRough = 4000;
-/// Parts nearer to the skin than kContactReach are kept out of it; kContactMargin is the smallest
-/// clearance to keep. Fractions of the skin's extent.
+/// kContactReach: distance from the skin within which a part is kept out of the skin.
+/// kContactMargin: smallest clearance to keep. Fractions of the skin's extent.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
 /// Gums nearer to a tooth than this follow it, as a fraction of the skin's extent.
 constexpr double kTieReach = 0.01;

@@ -25,8 +25,8 @@ struct Part {
   std::vector<std::uint32_t> components;  ///< ascending
   std::vector<std::uint32_t> vertices;    ///< vertices of all components, ascending
   std::uint32_t ball = kNoIndex;          ///< only for an eyeball: index of its largest component
-  std::vector<std::uint32_t> surface;     ///< only for an eyeball: the vertices of its largest
-                                          ///< component
+  /// only for an eyeball: the vertices of its largest component
+  std::vector<std::uint32_t> surface;
 };
 
 /// The parts of a mesh.

@@ -93,7 +93,7 @@ class SkinContacts {
   /// \param most   Largest amplitude.
   /// \param asked  Amplitudes of the contact's places; updated.
   /// \return       Changes in the order in which they were made. The depths of `profiles` are not
-  ///     updated.
+  ///               updated.
   std::vector<Change> ask(const Contact& contact, std::span<const Range> ranges, double most,
                           Profiles& profiles, std::vector<double>& asked) const;
   static void move_depths(const Contact& contact, std::span<const Change> changes,
