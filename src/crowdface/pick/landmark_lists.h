@@ -16,7 +16,7 @@ namespace crowdface {
 /// markups), NumPy arrays (n by 3 points, or n vertex numbers). The name of a nameless point is its
 /// position in the list, from 1.
 /// \return nothing if the file has the form that read_landmarks reads (keys `template` and `scan`)
-///     or if its format is unknown.
+///         or if its format is unknown.
 /// \throws UsageError that names the faulty place.
 std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     std::string_view bytes, const std::filesystem::path& path);

@@ -34,7 +34,7 @@ class PickSession {
  public:
   /// Reads the landmark file if it exists.
   /// \param inputs  its `shape` must outlive this object
-  /// \throws Error naming what is wrong in the file
+  /// \throws Error that names the fault in the file
   explicit PickSession(PickInputs inputs);
 
   const PickInputs& inputs() const { return inputs_; }
