@@ -77,7 +77,7 @@ std::string list_of(std::size_t faces, const Of& of) {
   return text + ']';
 }
 
-/// {"12":…} with of(face) for each face, keyed by index; faces whose value is null are left out.
+/// {"12":…} with of(face) for each face, keyed by index. Faces whose value is null are omitted.
 template <class Of>
 Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
   Json json = Json::object();

@@ -32,7 +32,7 @@ constexpr std::size_t kMaxTriangles = 24'000;
 constexpr std::size_t kMaxHidden = 2'000;
 /// Width and height of a face's textures; half of this if there are more than two textures.
 constexpr int kMaxTexels = 1024;
-constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are left out
+constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are omitted
 constexpr float kMinLight = 0.004F;  ///< lower bound of `open_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 

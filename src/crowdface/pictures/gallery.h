@@ -32,7 +32,7 @@ class GalleryMeshes {
   /// The file data/faces/NAME.js or data/heads/NAME.js.
   /// \param moves    displacements of each shape of the face.
   /// \param texture_set  textures of the face; if null, it shows vertex colours or the colours
-  ///     shared by all faces.
+  ///                     shared by all faces.
   /// \param colours  vertex colours of the face, or null.
   /// \param placed   the attachments that the face wears.
   std::string face_script(const std::string& name, const Positions& positions,
