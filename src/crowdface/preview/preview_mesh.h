@@ -24,7 +24,7 @@ struct PreviewMesh {
 
 /// Builds a reduced mesh; its looks differ by texture tile only.
 /// \param uvs            the texture coordinates to show, two per row; used where faces have
-///     texture coordinates.
+///                       texture coordinates.
 /// \param typical        #V by 3: positions for measuring the error of edge collapses.
 /// \param drawn          #F: whether the preview shows each face; empty: all.
 /// \param max_vertices  approximate largest number of vertices before splitting.
