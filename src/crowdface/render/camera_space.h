@@ -19,7 +19,7 @@ namespace crowdface {
 /// Transforms positions to camera space: x, y, z of each vertex. \throws InvalidInput if a position
 /// is not finite.
 std::vector<float> to_camera(const Positions& positions, const Camera& camera);
-/// The same, written to existing memory.
+/// Transforms positions to camera space and writes them to existing memory.
 void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points);
 
 /// Transforms an axis of the file to a unit vector in camera space.

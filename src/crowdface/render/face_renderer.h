@@ -35,8 +35,9 @@ struct RenderOptions {
 class FaceRenderer {
  public:
   /// \param typical  #V by 3, an average face. If given, the ray tracer's tree is built once for it
-  ///     and refitted to each face, which saves most of the time on large meshes; and all faces are
-  ///     assumed to have its winding. Otherwise the tree is rebuilt for every face.
+  ///                 and refitted to each face, which saves most of the time on large meshes; and
+  ///                 all faces are assumed to have its winding. Otherwise the tree is rebuilt for
+  ///                 every face.
   /// \throws BrokenPrecondition if sizes or options are invalid.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);

@@ -27,12 +27,12 @@ struct TexturedQuad {
 
 /// A head in camera space (see camera_space.h), with all data for rendering it.
 struct Stage {
-  const std::vector<float>& points;             ///< x, y, z of each vertex
-  const ScreenQuads& screen;                    ///< rasterizer of all quads
-  const RayScene& occluders;                    ///< meshes that occlude light: the full mesh or a
-                                                ///< reduced one
-  float clearance;                              ///< distance between a surface and the origins of
-                                                ///< rays that start there
+  const std::vector<float>& points;  ///< x, y, z of each vertex
+  const ScreenQuads& screen;         ///< rasterizer of all quads
+  /// meshes that occlude light: the full mesh or a reduced one
+  const RayScene& occluders;
+  /// distance between a surface and the origins of rays that start there
+  float clearance;
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
   float winding;                                ///< +1, or −1 if the winding is inside out
   const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
