@@ -21,7 +21,7 @@ template <class Form>
 class AttachmentForms {
  public:
   /// \param make  returns the form of an attachment. Its second argument is the attachment's level
-  ///     of detail, or null if the attachment is not reduced.
+  ///              of detail, or null if the attachment is not reduced.
   template <class Make>
   AttachmentForms(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
     for (const Attachment* item : level.items(set)) {

@@ -53,7 +53,7 @@ class FaceBuilder {
   /// any head, in mm.
   double wider_mm(const Recipe& recipe, const Positions& face) const;
 
-  /// Memory for building this many faces at once, including their positions, in bytes.
+  /// Memory for building the given number of faces at once, including their positions, in bytes.
   std::uint64_t bytes(std::size_t faces) const;
 
  private:

@@ -113,8 +113,8 @@ class FaceEncoders {
   std::vector<AttachmentForms<MeshEncoder>> attachments_;
   std::optional<OwnTextures> own_;               ///< empty if faces have no textures of their own
   std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
-  std::optional<NormalFans> fans_;  ///< normal fans of the vertices; empty if no format needs
-                                    ///< normals
+  /// normal fans of the vertices; empty if no format needs normals
+  std::optional<NormalFans> fans_;
 };
 
 /// The shapes for which an attachment has files: those for which the faces have files, if the

@@ -38,8 +38,8 @@ struct FaceMesh {
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
   const Positions* joints = &kNoRows;  ///< positions of the rig's joints
-  std::span<const std::string_view> images = {};  ///< the face's own textures, as bytes of image
-                                                  ///< files; may be empty
+  /// the face's own textures, as bytes of image files; may be empty
+  std::span<const std::string_view> images = {};
   std::span<const std::string> image_names = {};  ///< #images: their paths relative to the mesh
   std::string material_file = {};  ///< the face's own material file; empty: the target's
 };

@@ -12,7 +12,7 @@ namespace crowdface {
 /// Writes one face outside a crowd: the mesh and, next to it, the files that a crowd's folder would
 /// contain: the face's own textures and materials, and its attachments.
 /// \param textures   blends the face's own textures; has no images if faces have no textures of
-///     their own
+///                   their own
 /// \param positions  #V by 3
 /// \throws CannotCreate, IoError.
 void write_face(const Job& job, const FaceTextures& textures, const FacePlan& face,
