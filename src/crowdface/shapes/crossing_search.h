@@ -48,7 +48,7 @@ class CrossingSearch {
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
   /// \param excused  Returns whether a triangle is excused. A pair is ignored if both of its
-  ///     triangles are excused.
+  ///                 triangles are excused.
   std::vector<Pair> crossing(const Positions& mesh, const Boxes& boxes,
                              const std::function<bool(std::uint32_t)>& excused) const;
 

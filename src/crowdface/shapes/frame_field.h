@@ -60,8 +60,8 @@ class FrameField {
   std::vector<std::uint32_t> some_skin_;
   std::vector<double> ones_;  ///< #some_skin_
   std::vector<Place> places_;
-  CompressedRows<Share> shares_;  ///< #used: the nodes between which each vertex interpolates, with
-                                  ///< weights
+  /// #used: the nodes between which each vertex interpolates, with weights
+  CompressedRows<Share> shares_;
 };
 
 /// Inverts a regular 3 by 3 matrix by cofactors.

@@ -126,9 +126,9 @@ class LidClosure {
   struct Lid {
     std::uint32_t row, vertex;
     std::uint32_t number;  ///< index among the skin around the eye
-    double share;          ///< how strongly closing moves this vertex: 1 near the eye, less farther
-                           ///< away
-    double hold;           ///< how strongly the vertex is kept off the eyeball: 1 near its surface
+    /// how strongly closing moves this vertex: 1 near the eye, less farther away
+    double share;
+    double hold;  ///< how strongly the vertex is kept off the eyeball: 1 near its surface
   };
 
   void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
@@ -158,8 +158,8 @@ class LidClosure {
   std::vector<Place> places_;
   std::vector<Lid> lids_;
   std::size_t in_profiles_ = 0;  ///< number of lids that appear in profiles; they come first
-  std::vector<double> heard_;    ///< #lids by #places: effect of each place's gain on each lid
-                                 ///< vertex
+  /// #lids by #places: effect of each place's gain on each lid vertex
+  std::vector<double> heard_;
 };
 
 }  // namespace crowdface

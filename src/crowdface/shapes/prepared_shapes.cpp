@@ -19,7 +19,7 @@ namespace {
 
 /// Number of vertices of an eyeball or jaw used to fit its motion.
 constexpr std::size_t kMaxFitted = 500;
-/// Skin this near to an eyeball's centre belongs to the eye; in radii.
+/// Distance from an eyeball's centre, in radii, within which skin belongs to the eye.
 constexpr double kEyeSkin = 3;
 /// Depth by which a shape must move the lips through each other to count as corrective (see
 /// companions_of), as a fraction of the skin's extent; about 5 mm.

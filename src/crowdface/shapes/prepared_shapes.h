@@ -33,7 +33,7 @@ struct ActingEye {
 struct PartMove {
   std::size_t part;
   std::vector<std::uint32_t> rows, vertices;
-  std::vector<RigidTurn> turns;  ///< #sets
+  std::vector<RigidTurn> turns;  ///< #sets: the part's motion in each set of shapes
 };
 
 /// The movement of an eye's lids in a shape.
@@ -60,7 +60,7 @@ struct Hanging {
 std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
                                                       const GapPreserver& contacts, double extent);
 
-/// One shape: what it moves, and the data for its corrections on a face.
+/// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
 struct PreparedShape {
   /// the other shape, if this one is corrective: lips and intersections are corrected in their sum
   std::optional<std::size_t> companion;

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Returns the quaternion (w, x, y, z) of a rotation by less than half a turn.
+/// Returns the quaternion (w, x, y, z) of a rotation by less than 180°.
 std::array<double, 4> quaternion_of(const RigidMotion& motion) {
   constexpr double kMin = 1e-6;
   const Eigen::Matrix3d& r = motion.rotation;

@@ -76,7 +76,7 @@ class SkinCrossings {
   /// \param mesh   The face at rest; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
   /// \param harm   Additional cost of displacements, in units of one intersecting triangle. The
-  ///     round with the lowest total cost is kept.
+  ///               round with the lowest total cost is kept.
   /// \return       Number of triangles that still intersect others.
   Index mend(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
              const Harm& harm = {}) const;

@@ -30,7 +30,7 @@ class SkinOverParts {
                 std::span<const std::uint32_t> inner, std::span<const std::uint32_t> moved,
                 const HeadAxes& axes, double extent);
 
-  /// Pushes skin outwards until it covers on the face what it covers on the template.
+  /// Pushes skin outwards until it covers the same vertices on the face as on the template.
   ///
   /// \param rest   The mesh to which the shape is added, #V by 3.
   /// \param whole  Motion from the template to the face.

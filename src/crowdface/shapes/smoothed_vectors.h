@@ -18,7 +18,7 @@ class SmoothedVectors {
   /// \param cell    Cell size of the grid over which vectors are averaged.
   /// \param whole   Up to this distance from a centre, the average replaces a vector completely.
   /// \param none    From this distance on, a vector does not change. Between `whole` and `none` the
-  ///     effect fades.
+  ///                effect fades.
   SmoothedVectors(std::vector<Eigen::Vector3d> around, double cell, double whole, double none);
 
   /// Returns whether a sample at this position can affect the result.
