@@ -35,7 +35,7 @@ struct Probes {
 class ChebyshevFilter {
  public:
   /// \param positions  #V by 3, any head of the topology. The filter uses them to group nearby
-  ///     vertices into tiles; they affect only its speed.
+  ///                   vertices into tiles; they affect only its speed.
   ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions);
 
   Index vertex_count() const { return static_cast<Index>(tiling_.order.size()); }

@@ -104,10 +104,11 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
 /// \param levels     levels at which the error is bounded.
 /// \param order      #V: all vertices, consecutive vertices close to each other (patch_order).
 /// \param tolerance  largest compression error of any vertex of any head at any of the levels, in
-///     the unit of the positions. Rounding to quantization steps adds to this error; no step of a
-///     patch exceeds the largest step of the tiles that contain the patch's vertices.
+///                   the unit of the positions. Rounding to quantization steps adds to this error;
+///                   no step of a patch exceeds the largest step of the tiles that contain the
+///                   patch's vertices.
 /// \param progress   called by any thread with the number of patches it has just finished; an
-///     exception thrown by it stops the work.
+///                   exception thrown by it stops the work.
 FieldPatches interpolate_fields(
     std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
     std::span<const std::uint32_t> order, double tolerance,

@@ -20,7 +20,7 @@ class LevelNodes {
  public:
   /// \param max_level  L_max, at least 1.
   /// \param missed     largest residual of any level, as a fraction of the displacement at L_max;
-  ///     nodes are added until it is reached.
+  ///                   nodes are added until it is reached.
   LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed = 2e-4);
 
   std::uint64_t max_level() const { return max_level_; }

@@ -41,7 +41,7 @@ struct Directions {
 /// decomposition; Berkooz, Holmes & Lumley 1993). A few rounds reweight the levels by their largest
 /// error (after Lawson 1961), which reduces the maximum error instead of the mean error.
 /// \param tolerance  largest allowed error at the sample: the result has the lowest rank found that
-///     meets it, or rank #nodes.
+///                   meets it, or rank #nodes.
 Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
                                 double tolerance);
 
