@@ -12,7 +12,7 @@ namespace crowdface {
 // Products are rounded before they are added (no FMA), so that results are bit-identical to plain
 // loops on any instruction set.
 
-/// Kernels may write up to this many floats beyond the end of a row.
+/// Largest number of floats that a kernel may write beyond the end of a row.
 inline constexpr std::size_t kRowSlack = 16;
 
 /// The arithmetic sequence first, first + step, …
