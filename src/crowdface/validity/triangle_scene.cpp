@@ -84,8 +84,8 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
 template <class Keep>
 void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                                    std::vector<TrianglePair>& found) const {
-  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;  // the bits 8 i + j with j > i: each
-                                                            // pair of a leaf with itself once
+  // the bits 8 i + j with j > i: each pair of a leaf with itself once
+  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
   std::uint64_t left = overlapping(leaves_[one], leaves_[other]);
   if (one == other) left &= kLaterOnes;

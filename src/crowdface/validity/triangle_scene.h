@@ -40,7 +40,7 @@ class TriangleScene {
   /// \param direction  of any length except zero
   /// \param start      index of the triangle from which the ray starts, or kNoIndex
   /// \param guess      position to test first, usually the result for the previous ray, because
-  ///     neighbouring rays often hit the same triangle; or kNoIndex
+  ///                   neighbouring rays often hit the same triangle; or kNoIndex
   std::uint32_t intersected_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                std::uint32_t start, std::uint32_t guess) const;
 

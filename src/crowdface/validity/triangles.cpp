@@ -29,7 +29,7 @@ bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
 /// \param distance  signed distances of the corners of `t` from the other plane, with both signs.
 std::pair<double, double> interval_on_line(const Corners& t, const std::array<double, 3>& distance,
                                            Index axis) {
-  std::size_t alone = 0;  // the corner on its own side of the plane
+  std::size_t alone = 0;  // the corner that is alone on its side of the plane
   for (std::size_t c = 0; c < 3; ++c) {
     const double one = distance[c], two = distance[(c + 1) % 3], three = distance[(c + 2) % 3];
     if ((one > 0 && two <= 0 && three <= 0) || (one < 0 && two >= 0 && three >= 0)) alone = c;
