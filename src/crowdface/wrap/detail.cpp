@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 constexpr double kReachMm = 3;
-/// In edge lengths of the skin; finer relief counts as noise.
+/// Smallest relief that is kept, in edge lengths of the skin; finer relief is treated as noise.
 constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kNoWall = 0.7;  // least cosine between the normals of scan and skin

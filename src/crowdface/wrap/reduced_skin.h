@@ -27,7 +27,7 @@ struct ReducedSkin {
   std::vector<double> carry(const std::vector<double>& values) const;
 };
 
-/// Reduces a skin to about `vertices` vertices, a subset of its own.
+/// Reduces a skin to a subset of about `vertices` of its vertices.
 /// \param positions  #skin by 3
 ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::size_t vertices);
 

@@ -16,8 +16,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kClosed = 0.4;  // fraction of the template's lid opening below which an eye counts
-                                 // as closed
+// fraction of the template's lid opening below which an eye counts as closed
+constexpr double kClosed = 0.4;
 // in eyeball radii: half width of the region where lids are widest apart
 constexpr double kMiddle = 0.4;
 constexpr double kOpenMouthMm = 3;  // how much farther apart than the template's the lips must be

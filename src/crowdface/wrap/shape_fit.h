@@ -20,7 +20,8 @@ struct WrapLandmark {
 };
 
 /// The similarity that best maps a template's landmarks to the scan's, in least squares.
-/// \param positions  the landmarks' vertices are rows of it; needs at least three landmarks
+/// \param positions  the landmarks' vertices are rows of this matrix; needs at least three
+///                   landmarks
 Similarity pose_of_landmarks(const Positions& positions,
                              const std::vector<WrapLandmark>& landmarks);
 
