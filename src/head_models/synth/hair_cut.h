@@ -23,9 +23,9 @@ struct HairCut {
   double fringe = 99;       ///< height y of the fringe over the forehead; 99: no fringe
   double volume = 1;        ///< factor of the distance from the scalp
   double wave = 0;          ///< amplitude of waves in the locks
-  int layers = 1;           ///< 1: combed locks; more than 1: that many layers of curls in random
-                            ///< directions
-  bool tied = false;        ///< tied at the back: lies on the head until behind the ears
+  /// 1: combed locks; more than 1: that many layers of curls in random directions
+  int layers = 1;
+  bool tied = false;  ///< tied at the back: lies on the head until behind the ears
 
   bool has_fringe() const { return fringe < 99; }
 };
