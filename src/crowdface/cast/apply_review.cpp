@@ -57,7 +57,7 @@ class Redrawing {
         half_median_mm_(0.5 * quartiles(pair_distances(cast.points)).median),
         kinds_(face_kinds(casting)) {}
 
-  /// \return  false if no face was found.
+  /// Casts a new face in place of a rejected one. \return  false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];

@@ -288,13 +288,13 @@ class AttachmentDrawing {
   /// for each sampled face: its group, and its index within the group
   std::vector<std::pair<int, std::uint64_t>> places_;
   std::map<int, std::uint64_t> sizes_;   ///< number of sampled faces in each group
-  std::map<std::string, Items> placed_;  ///< by id of the face
-  std::map<std::string, Index> heads_;   ///< by id: the head whose tags the face has
-  /// by family and kind: the family's colour
+  std::map<std::string, Items> placed_;  ///< attachments of the faces so far, by the face's id
+  std::map<std::string, Index> heads_;   ///< by the face's id: the head whose tags the face has
+  /// the family's colour, by family and kind
   std::map<std::pair<std::string, std::string>, std::string> families_;
-  /// by set of similar faces
+  /// the Turns of each set of similar faces, by the set's name
   std::map<std::string, Turns> turns_;
-  Turns all_turns_;  ///< of all sampled faces
+  Turns all_turns_;  ///< the Turns of all sampled faces
 };
 
 }  // namespace
@@ -302,7 +302,7 @@ class AttachmentDrawing {
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected) {
   AttachmentDrawing drawing(draw, groups);
-  // by id: rejected faces, then the final one
+  // all versions of a redrawn face, by id: the rejected ones in order, then the final one
   std::map<std::string, std::vector<const FacePlan*>> before;
   for (const FacePlan& face : rejected) {
     if (face.index) before[face.id].push_back(&face);

@@ -15,8 +15,8 @@ struct DiversityOptions {
     kSpread,  ///< choose the most spread set from a pool many times as large as the crowd
   };
   Mode mode = Mode::kFirstFit;
-  double min_distance_mm = 0;           ///< between any two faces of the crowd
-  double min_distance_to_faces_mm = 0;  ///< from every input head
+  double min_distance_mm = 0;           ///< smallest distance between any two faces
+  double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
   /// Between a rejected face and its replacement; empty: half the crowd's median distance.
   std::optional<double> min_distance_to_rejected_mm;
   double max_weight = 1;  ///< largest weight of one head in one region

@@ -25,7 +25,7 @@ struct LevelScale {
 
 /// All inputs of casting except the face space.
 struct CastingOptions {
-  std::string name;         ///< of the crowd
+  std::string name;         ///< name of the crowd
   std::uint64_t count = 0;  ///< number of sampled faces
   std::uint64_t seed = 1;
   std::vector<PlanePoint> anchors;        ///< #heads
@@ -37,7 +37,7 @@ struct CastingOptions {
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< applied one after the other
-  std::vector<Group> groups = {};    ///< of sampled faces
+  std::vector<Group> groups = {};    ///< groups of the sampled faces
   HeadTags tags = {};                ///< #heads, or empty
 };
 
@@ -65,7 +65,7 @@ std::string face_id(const std::string& crowd, std::uint64_t index);
 
 /// Key of a face's random numbers. Each combination has independent numbers.
 struct DrawKey {
-  std::uint64_t index = 0;    ///< of the face, from 1
+  std::uint64_t index = 0;    ///< index of the face, from 1
   std::uint32_t attempt = 0;  ///< number of earlier draws of this face that were rejected
   /// empty for a sampled face; otherwise separates the random numbers of other faces
   std::string who = {};

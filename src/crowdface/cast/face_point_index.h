@@ -54,7 +54,7 @@ class PointTree {
  private:
   PointBlocks points_;  ///< in the tree's order
   MedianSplitTree tree_;
-  std::vector<Bounds> bounds_;  ///< of each node
+  std::vector<Bounds> bounds_;  ///< #nodes: bounds of the node's points
 };
 
 /// A growing set of points with nearest-point queries: trees whose sizes double, so that each point

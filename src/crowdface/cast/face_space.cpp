@@ -15,11 +15,11 @@ namespace {
 
 /// Largest part of a field that the basis may miss: rms over the face in millimetres.
 constexpr double kFieldTolerance = 0.004;
-constexpr Index kMaxFunctions = 400;  ///< for each side
+constexpr Index kMaxFunctions = 400;  ///< largest number for each side
 /// Largest part of a training face that the principal directions may miss, in millimetres. The
 /// length of the missed part is an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
-constexpr Index kMaxDirections = 192;  ///< for each side
+constexpr Index kMaxDirections = 192;  ///< largest number for each side
 constexpr std::uint64_t kTrainingFaces = 1024;
 
 double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {

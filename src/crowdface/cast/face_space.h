@@ -112,7 +112,7 @@ class FaceSpace {
   Eigen::VectorXf roots_;        ///< √w of each sample in `counting_`
   FaceSpaceTables tables_;
   Shape mean_shape_;           ///< #P by 3
-  std::vector<Shape> shapes_;  ///< of all heads, including mirror images
+  std::vector<Shape> shapes_;  ///< shapes of all heads, including mirror images
   /// α_k (S_L x_h − x_h): by region, head (including images) and row, #P by 3 each
   std::vector<float> fields_;
   FloatRows directions_transposed_;

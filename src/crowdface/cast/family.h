@@ -34,10 +34,10 @@ struct FamilyOptions {
   std::vector<int> inherit;
   /// largest distance of a member from the founder, who is not in the crowd
   double max_distance_mm = 2.5;
-  double min_distance_mm = 0;  ///< between members
+  double min_distance_mm = 0;  ///< smallest distance between members
   /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
   bool twins = false;
-  Range age = {0, 0};  ///< see apply_age
+  Range age = {0, 0};  ///< ages of the members, see apply_age
 };
 
 }  // namespace crowdface

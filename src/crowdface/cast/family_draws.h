@@ -71,7 +71,7 @@ class FamilyDraws {
  private:
   struct KnownParent {
     std::string name;  ///< name of the head, or id of the face
-    FacePlan face;     ///< without its age; for a head, only the target is set
+    FacePlan face;     ///< the parent, without its age; for a head, only the target is set
     FaceSpace::Point point;
   };
   /// The random face, age and distance from the founder of one member.

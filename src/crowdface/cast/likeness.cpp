@@ -109,7 +109,7 @@ std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
 std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
                               const std::vector<std::vector<Neighbour>>& near) {
   std::vector<bool> gone(points.size(), false);
-  std::optional<LikenessTree> tree;  // of the faces left when it was built
+  std::optional<LikenessTree> tree;  // holds the faces that were left when it was built
   std::vector<std::size_t> order = {farthest_from_first(points)};
   while (true) {
     throw_if_interrupted();

@@ -64,7 +64,7 @@ Plausibility::Plausibility(const FaceSpace& space) {
     heads.push_back(space.head_point(h).as_built);
   }
   metric_ = metric_without(heads, count, -1);
-  if (count < 3) {  // one remaining head has no variance: use the first head's distance as the unit
+  if (count < 3) {  // one remaining head has no variance: use the first head's distance
     unit_ = std::sqrt(squared(metric_, heads[0]));
   } else {
     double sum = 0;

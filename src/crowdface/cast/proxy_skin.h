@@ -18,7 +18,7 @@ class ProxySkin {
 
   /// The target of a face, with which the face is compared: the samples of a head or of a mixture.
   struct Target {
-    TargetTriangles triangles;  ///< for flips and stretch
+    TargetTriangles triangles;  ///< the target's triangles, for flips and stretch
     NewIntersections intersections;
   };
   const Target& head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }

@@ -107,8 +107,8 @@ struct SamplingOptions {
   std::vector<BandSampling> bands;  ///< coarse to fine; empty: detail is one band
   /// largest number of heads with weight in one band of one region; empty: no limit
   std::optional<int> max_sources;
-  Range age = {0, 0};        ///< of sampled faces, see apply_age
-  Range asymmetry = {1, 1};  ///< see Recipe
+  Range age = {0, 0};        ///< ages of sampled faces, see apply_age
+  Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> old_heads;  ///< heads tagged old, ascending
   std::vector<Eigen::Index> young_heads;

@@ -41,8 +41,7 @@ class FarthestPoints {
 
   struct Pick {
     Index candidate = -1;  ///< index of the candidate; −1: none left
-    double mm =
-        0;  ///< distance to the nearest picked or initial face; infinite if there is none
+    double mm = 0;  ///< distance to the nearest picked or initial face; infinite if there is none
   };
   /// Returns the farthest candidate of a group (−1: of no group). Does not pick it.
   Pick farthest(int kind) const;
