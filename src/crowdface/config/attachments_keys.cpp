@@ -157,7 +157,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   constexpr double kRounding = 1e-9;
   draft.complaints.expect_map(node,
                               "a mapping from kinds, names or colours to shares, {glasses: 0.33}");
-  std::map<std::string, double> totals;  // by kind
+  std::map<std::string, double> totals;  // sum of the quotas, by kind
   std::set<std::string> alone;           // kinds that have a quota for the whole kind
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);

@@ -197,7 +197,7 @@ struct Config {
   struct Plane {
     Layout layout = Layout::kCircle;
     std::map<Eigen::Index, PlanePoint>
-        anchors;  ///< by head; override the layout; kManual needs an anchor for every head
+        anchors;  ///< anchors by head, in place of the layout's; kManual needs all
   } plane;
 
   SamplingOptions sampling;
@@ -252,7 +252,7 @@ struct Config {
     Gallery gallery = Gallery::kAuto;
     /// Number of faces in each numbered subfolder of meshes, renders, …; none or 0: no subfolders.
     std::optional<std::uint64_t> faces_per_folder;
-    std::map<std::string, SurfaceChoice> surfaces;  ///< by material name
+    std::map<std::string, SurfaceChoice> surfaces;  ///< settings by material name
   } output;
 
   /// Returns `regions.names`, or {"all"} if there are no regions. Plans use these names.
