@@ -92,7 +92,7 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
 
 void check_stance(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return;
-  // without eyeballs, because only the skin is searched for the face
+  // skin only: eyeballs are not used to find the face
   const HeadShape head{inputs.mean, skin_of(inputs), {}};
   const Topology& topology = inputs.faces.topology;
   const Orientation asked{config.faces.up, config.faces.front};

@@ -40,7 +40,7 @@ Attachment item_of(const Config::Attachment& asked, HeadFile read) {
 
 /// Rejects an attachment far from the head: it is probably in another unit or coordinate frame.
 void check_place(const Attachment& item, const Positions& head) {
-  constexpr double kFarthest = 0.5, kLargest = 4;  // as multiples of the head's diagonal
+  constexpr double kFarthest = 0.5, kLargest = 4;  // multiples of the head's diagonal
   const Eigen::RowVector3d low = head.colwise().minCoeff(), high = head.colwise().maxCoeff();
   const Positions& own = item.file.positions;
   const Eigen::RowVector3d own_low = own.colwise().minCoeff(), own_high = own.colwise().maxCoeff();

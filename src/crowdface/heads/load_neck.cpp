@@ -149,7 +149,8 @@ Positions normals_of(Positions areas, const Positions& of_body) {
 /// Warns about heads whose ring is so far from the body's that the bend shows.
 void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& heads,
                   Inputs& inputs) {
-  // The bend's slope is 1.5 times the displacement by the falloff: here one half.
+  // The bend's largest slope is 1.5 times the displacement divided by the falloff, which is one
+  // half for this displacement.
   const double most = config.neck.falloff_mm / 3;
   std::vector<std::string> bent;
   for (std::size_t h = 0; h < heads.size(); ++h) {

@@ -17,7 +17,7 @@ void check_masks(const std::vector<std::string>& files, Problems& problems);
 /// Warns about each mask that is a single image although the skin lies in several UDIM tiles.
 std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs);
 
-/// Warns about masks that have no effect or an unlikely one.
+/// Warns about masks without a useful effect.
 std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface
