@@ -85,7 +85,7 @@ class ObjTemplate {
   std::vector<Block> blocks_;
   /// Rows of normals with given values.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_;
-  std::optional<NormalFans> fans_;  ///< for the `vn` lines, if faces use any
+  std::optional<NormalFans> fans_;  ///< polygons around each `vn`; empty if no face uses normals
   std::size_t buffer_size_ = 0;
 };
 
