@@ -138,7 +138,8 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
   constexpr double kLong = 0.5, kSameHeightMm = 10;
   double longest = 0;
   for (const Rim& rim : rims) longest = std::max(longest, length_of(rim, positions));
-  std::vector<std::pair<double, const Rim*>> long_ones;  // by height
+  std::vector<std::pair<double, const Rim*>> long_ones;  // long rims with their heights, lowest
+                                                         // first
   for (const Rim& rim : rims) {
     if (length_of(rim, positions) < kLong * longest) continue;
     long_ones.emplace_back(centroid(positions(rim, kAllColumns)).dot(up), &rim);
