@@ -155,7 +155,7 @@ class Refinement {
 
  private:
   static constexpr double kSquareMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
-  static constexpr double kMaxStretch = 0.25;  // of the logarithm of the stretch
+  static constexpr double kMaxStretch = 0.25;  // limit of the logarithm of the stretch
   static constexpr double kStretchPenalty = 1, kAmplitudePenalty = 0.2;
   static constexpr double kWorst = -2;
   static constexpr int kRounds = 6;
