@@ -85,7 +85,7 @@ class Contact {
   const VertexFaces* faces_ = nullptr;
   double reach_ = 0;
   double side_ = 1;    ///< −1: the skin's normals point away from the part
-  double radius_ = 0;  ///< of the part: root mean square distance from its middle
+  double radius_ = 0;  ///< root mean square distance of the part's vertices from its middle
   /// middle of the part on the head where the pairs were found
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::vector<Pair> pairs_;  ///< ordered by cluster

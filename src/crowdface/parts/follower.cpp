@@ -63,7 +63,7 @@ struct SkinOfMean {
   const Positions& mean;
   std::vector<double> areas;            ///< #V
   std::vector<std::uint32_t> vertices;  ///< vertices that belong to some face and to no part
-  PointGrid grid;                       ///< of `vertices`
+  PointGrid grid;                       ///< grid of `vertices`
   double extent;                        ///< extent of the largest component
 };
 
@@ -121,7 +121,7 @@ struct PartFollower::State {
   std::vector<RigidPart> rigid;
   Anchors anchors;
   std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads: offsets of the bound vertices
-  Ties ties;                                         ///< of bound vertices to teeth
+  Ties ties;                                         ///< ties of bound vertices to teeth
 
   /// The motion of the skin around a part, and the motion of the part.
   struct Found {

@@ -5,14 +5,14 @@ namespace crowdface {
 
 /// The shape of a rigid part in a generated face.
 enum class PartShape {
-  kTarget,  ///< as in the target
+  kTarget,  ///< the target's shape
   kBlend,   ///< blended like skin (Eq. 7)
 };
 
 /// How a generated face treats lips and other skin that nearly touches skin.
 enum class Contacts {
   kAuto,  ///< gaps are as wide as in target and sources
-  kNone,  ///< as blended (Eq. 7)
+  kNone,  ///< gaps are as the blend gives them (Eq. 7)
 };
 
 }  // namespace crowdface

@@ -65,14 +65,16 @@ class SkinContacts {
     std::size_t begin = 0, end = 0;       ///< range of places
     std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
     CompressedRows<Share> shares;         ///< #vertices
-    std::vector<Motions> motions;         ///< one for each place of the contact
+    std::vector<Motions> motions;         ///< #places of the contact: see Motions
   };
 
   /// The current profiles at a contact's places.
   struct Profiles {
-    std::vector<double> heights, depths;                      ///< of all points, place after place
-    std::vector<std::size_t> begins;                          ///< index of each place's first point
-    std::vector<std::vector<Clearance::Opposite>> opposites;  ///< of each place
+    /// coordinates of all points, place after place
+    std::vector<double> heights, depths;
+    std::vector<std::size_t> begins;  ///< index of each place's first point
+    /// #places: opposite points of the two profiles
+    std::vector<std::vector<Clearance::Opposite>> opposites;
 
     double gap(std::size_t place) const;
   };
