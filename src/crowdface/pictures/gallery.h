@@ -59,7 +59,8 @@ class GalleryMeshes {
   VertexFaces around_;
   PackingFrame frame_;
   ShownAttachments attachments_;
-  VertexColours colours_;    ///< of the surfaces without textures, per vertex of the reduced mesh
+  /// colours of surfaces without textures, per vertex of the reduced mesh
+  VertexColours colours_;
   std::vector<float> open_;  ///< vertex_visibility of these vertices on the mean head
   /// #V of the reduced mesh; empty if there are no textures.
   std::vector<TexturePlace> places_;
@@ -72,7 +73,7 @@ class GalleryMeshes {
   };
   std::vector<ShownMoves> shown_;      ///< #shapes
   std::size_t widest_ = 0;             ///< number of the shape that moves most, such as an open jaw
-  std::vector<float> open_in_widest_;  ///< like `open_`, with that shape applied
+  std::vector<float> open_in_widest_;  ///< like `open_`, but in the shape `widest_`
 };
 
 }  // namespace crowdface

@@ -23,11 +23,11 @@ class ShownAttachments {
   /// of the face the vertices that move and their displacements.
   /// \param least  shortest displacement to store, in the unit of the positions
   std::string packed(const PlacedAttachment& placed, const PackingFrame& frame, double least) const;
-  /// The same positions as numbers, three per vertex.
+  /// Positions on a face as plain numbers, three per vertex.
   std::vector<float> points(const PlacedAttachment& placed) const;
 
  private:
-  /// One mesh per material; without triangles if no face has the material.
+  /// One mesh per material. A mesh has no triangles if no face has its material.
   using Parts = std::vector<PreviewMesh>;
   const Parts& parts(const Attachment& item) const;
 
