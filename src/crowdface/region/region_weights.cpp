@@ -30,7 +30,8 @@ struct LoadedTile {
 /// A mask in memory: its tiles, or vertex weights.
 struct LoadedMask {
   bool tiled = false;
-  std::map<int, LoadedTile> tiles;       ///< by UDIM number; a single picture is kFirstTile
+  /// tiles by UDIM number; a single picture has number kFirstTile
+  std::map<int, LoadedTile> tiles;
   std::optional<VertexWeights> weights;  ///< vertex weights, instead of tiles
   std::vector<std::string> names;        ///< #channels, if the file has channel names
 

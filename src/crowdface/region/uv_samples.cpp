@@ -28,7 +28,7 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
-/// One for each corner that has a texture coordinate, in the order of the corners.
+/// Returns one sample for each corner that has a texture coordinate, in the order of the corners.
 UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
   const auto for_each_sample = [&](const auto& put) {
     for (Index f = 0; f < topology.face_count(); ++f) {
