@@ -19,7 +19,7 @@ struct Camera {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< `right`, `up` and `back` are orthonormal
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   Eigen::Vector3d back = Eigen::Vector3d::UnitZ();  ///< direction from the target to the camera
-  double distance = 1;                              ///< between target and camera
+  double distance = 1;                              ///< distance between target and camera
   double half_tangent = 0.17632698070846498;        ///< tangent of half the field of view
 
   Eigen::Vector3d position() const { return target + distance * back; }

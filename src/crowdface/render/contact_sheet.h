@@ -52,7 +52,7 @@ struct SheetLayout {
 
 /// Size of a cell, the same for all cells of a sheet.
 struct CellSize {
-  int width = 0, height = 0;  ///< of the picture, in pixels
+  int width = 0, height = 0;  ///< size of the picture, in pixels
   int label_lines = 1;
 };
 

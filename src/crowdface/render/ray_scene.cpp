@@ -152,7 +152,7 @@ struct RayScene::State {
   RTCDevice device;
   bool takes_sixteen;
   std::vector<float> points;
-  std::vector<Triangle> triangles;  ///< with kForMoves only
+  std::vector<Triangle> triangles;  ///< the quads, split; used only with kForMoves
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;  ///< null if there are no quads
   Opacity opacity;                 ///< empty: opaque

@@ -41,7 +41,7 @@ struct Stage {
   const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
   const TextureSet* texture_set;                    ///< textures, or nullptr
-  std::vector<float> skin_lightness;                ///< for each texture of `texture_set`
+  std::vector<float> skin_lightness;                ///< lightness for each texture of `texture_set`
   const Eyeballs& eyeballs;
   std::vector<PlacedEye> eyes;
   Eigen::Vector3f gaze;

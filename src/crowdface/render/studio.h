@@ -11,7 +11,7 @@ namespace crowdface {
 struct Material {
   Light albedo;
   Light wrap;         ///< how far beyond the terminator light is visible, as a cosine
-  float roughness;    ///< of the microfacets; 0 is a mirror
+  float roughness;    ///< roughness of the microfacets; 0 is a mirror
   float reflectance;  ///< at normal incidence
 };
 

@@ -104,7 +104,7 @@ struct TileMemory {
   std::vector<CameraHit*> asking;
   PixelLights pixels;
   PointLists points;
-  std::vector<CameraHit> middles;  ///< for a row of pixels
+  std::vector<CameraHit> middles;  ///< mean hits of a row of pixels
   Shares row_shares, shares;
   ShadeBatch batch;
 };
