@@ -27,8 +27,8 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
 
 /// Distances within a crowd, compared with those between its heads.
 struct CrowdDistances {
-  Quartiles heads;                 ///< between input heads
-  Quartiles crowd;                 ///< between faces of the crowd
+  Quartiles heads;                 ///< distances between input heads
+  Quartiles crowd;                 ///< distances between faces of the crowd
   std::vector<Quartiles> regions;  ///< between faces, over each region; empty if there is only one
   Quartiles to_nearest_head, to_nearest_face;
   double ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
@@ -38,8 +38,8 @@ struct CrowdDistances {
 struct FamilyReport {
   std::string name;
   std::uint64_t members = 0;
-  Quartiles within;      ///< between members
-  Quartiles to_founder;  ///< from each member to the founder
+  Quartiles within;      ///< distances between members
+  Quartiles to_founder;  ///< distances from the members to the founder
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_other_mm = 0;
   double silhouette = 0;
@@ -51,7 +51,7 @@ struct FamilyReport {
 /// A cast crowd: its faces, and the heads' positions on the plane.
 struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads
-  std::vector<FacePlan> crowd;      ///< with their nearest neighbours
+  std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours
   std::vector<int> kinds;           ///< group of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;

@@ -37,7 +37,7 @@ struct FinishedFace {
   const FacePlan& face;
   const Positions& positions;
   std::vector<Displacements> moves;  ///< one per shape; empty if no output shows shapes
-  std::vector<Index> crossing;       ///< see FaceShapes::of_face
+  std::vector<Index> crossing;       ///< intersecting triangles, see FaceShapes::of_face
   std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them.

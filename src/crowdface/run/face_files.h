@@ -71,7 +71,8 @@ class FaceFileLists {
 struct FaceResult {
   std::vector<FileDigest> files;    ///< one per file of FaceFileLists::of
   std::optional<SkinDefects> skin;  ///< compared with the target, if the mesh was judged
-  std::vector<Index> crossing;  ///< see FaceShapes::of_face; empty if no shapes were transferred
+  /// intersecting triangles, see FaceShapes::of_face; empty if there are no shapes
+  std::vector<Index> crossing;
 };
 
 }  // namespace crowdface

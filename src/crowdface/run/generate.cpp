@@ -83,7 +83,7 @@ struct PlannedJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   CrowdPlan crowd_plan;
-  std::vector<std::string> warnings;  ///< see near_heads; empty for a shard's faces
+  std::vector<std::string> warnings;  ///< warnings of near_heads; empty for a shard's faces
   nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
   /// The plan files from which `crowd_plan` was read, if it was read from the folder; empty if the
   /// crowd was cast by this run. If a shard reads the plan, `crowd_plan` holds only the shard's

@@ -34,7 +34,7 @@ struct FaceMesh {
   const Positions* positions = &kNoRows;      ///< #V by 3
   const Positions* normals = &kNoRows;        ///< #V by 3; no rows if no encoder needs them
   std::span<const Displacements> moves = {};  ///< one per shape, or none
-  std::span<const PlacedAttachment> placed_attachments = {};  ///< attachments
+  std::span<const PlacedAttachment> placed_attachments = {};  ///< the face's attachments
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
   const Positions* joints = &kNoRows;  ///< positions of the rig's joints

@@ -20,7 +20,7 @@ struct Job {
   Inputs inputs;
   SmoothingOperator smoothing;
   PlanNames names;
-  Digest settings;  ///< see settings_digest
+  Digest settings;  ///< hash of the settings, see settings_digest
 };
 
 /// Reads the config, heads and masks. Adds every problem.
