@@ -28,7 +28,7 @@ class FrameField {
              std::span<const std::uint32_t> used);
 
   struct Frames {
-    RigidMotion whole;                      ///< from the template to the face
+    RigidMotion whole;                      ///< motion from the template to the face
     std::vector<Eigen::Matrix3d> of_place;  ///< #nodes: linear map at each node
   };
   Frames frames(const Positions& face) const;

@@ -56,7 +56,7 @@ class LidClosure {
 
   /// Gap between the two rims at one place; negative where the upper lid is below the lower lid.
   struct Gap {
-    double paired;  ///< between points that lie above each other on the template
+    double paired;  ///< gap between points that lie above each other on the template
     /// vertical distance from the point of the upper rim to the lower rim
     double plumb;
   };

@@ -39,7 +39,7 @@ struct PlacedPart {
 
   Eigen::Vector3d middle;
   const Positions& mesh;
-  const RigidMotion& whole;    ///< from the template to the face
+  const RigidMotion& whole;    ///< motion from the template to the face
   const Eigen::Matrix3d& map;  ///< mean linear map of the part's moved vertices
 };
 

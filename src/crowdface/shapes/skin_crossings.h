@@ -60,7 +60,7 @@ class SkinCrossings {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
     /// #V, from crossing_at_rest; the shape did not cause these intersections
     const std::vector<bool>& at_rest;
-    const RigidMotion& whole;  ///< from the template
+    const RigidMotion& whole;  ///< motion from the template to the face
   };
   /// Returns the number of intersecting triangles in a shape of a face.
   ///
