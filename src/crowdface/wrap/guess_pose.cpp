@@ -32,7 +32,7 @@ Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool
 
 ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
                   const ScanSurface& scan, const PoseHint& hint) {
-  constexpr std::array kLower = {0.0, 0.12, -0.12};  // offsets as shares of the head's height
+  constexpr std::array kLower = {0.0, 0.12, -0.12};  // offsets as fractions of the head's height
   const Eigen::Matrix3d from = frame_of(axes.up, axes.front), to = frame_of(hint.up, hint.front);
   const Eigen::AlignedBox3d head =
       extent_of(rest, std::vector<bool>(static_cast<std::size_t>(rest.rows()), true), from);

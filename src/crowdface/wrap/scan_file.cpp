@@ -16,7 +16,7 @@ namespace crowdface {
 
 namespace {
 
-constexpr double kFarthest = 1e9;  // same limit as for landmarks
+constexpr double kFarthest = 1e9;  // largest coordinate; the same limit as for landmarks
 
 bool has_area(const Scan& scan) {
   return std::ranges::any_of(scan.triangles, [&](const Triangle& triangle) {

@@ -23,7 +23,7 @@ constexpr double kGrowth = 0.02;  ///< standard deviation of the scale once a mo
 /// A vertex and its closest point on the scan. Lengths are in the scan's unit.
 struct Match {
   std::uint32_t vertex = kNoIndex;
-  Eigen::Vector3d offset;  ///< from the vertex to the closest point
+  Eigen::Vector3d offset;  ///< vector from the vertex to the closest point
   Eigen::Vector3d normal;  ///< scan normal at the closest point
   double distance;
 };

@@ -30,13 +30,13 @@ Eigen::Vector3d carried(const Similarity& by, const Eigen::Vector3d& point);
 
 /// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {
-  Similarity pose;               ///< from the template to the scan
+  Similarity pose;               ///< transform from the template to the scan
   Eigen::VectorXd coefficients;  ///< #modes, in standard deviations
   double residual = 0;           ///< median distance from the visible skin to the scan, mm
 };
 
 struct ShapeFitOptions {
-  std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< one value per round
+  std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< search radius of each round
   int steps = 4;                                        ///< number of steps in each round
   /// Number of independent measurements with an error of 1 mm that are equivalent to a whole scan.
   /// Larger values hold the coefficients less strongly near 0.

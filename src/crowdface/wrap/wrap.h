@@ -16,18 +16,18 @@ namespace crowdface {
 /// Distance between a landmark of the template and the same landmark of the scan.
 struct LandmarkResidual {
   std::string name;
-  double pose_mm = 0;     ///< after the similarity
-  double final_mm = 0;    ///< after the wrap
+  double pose_mm = 0;     ///< distance after the similarity
+  double final_mm = 0;    ///< distance after the wrap
   bool by_shape = false;  ///< see `WrapLandmark::by_shape`
   bool outlier = false;   ///< final distance far above the others: probably misplaced
 };
 
 struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
-  Similarity pose;      ///< from the template's frame (mm) to the scan's
+  Similarity pose;      ///< transform from the template's frame (mm) to the scan's
   std::vector<LandmarkResidual> landmarks;
   double pose_residual_mm = 0;     ///< median distance after the similarity
-  Eigen::VectorXd distance_mm;     ///< #skin: from the wrapped skin to the scan
+  Eigen::VectorXd distance_mm;     ///< #skin: distance from the wrapped skin to the scan
   std::vector<bool> without_data;  ///< #skin: no scan data nearby, or only the scan's boundary
   Index flipped = 0;               ///< number of flipped triangles in the skin
   /// Distance in mm between two points: the point between the eyes of the wrapped template, and
