@@ -33,8 +33,8 @@ struct Complexion {
   double brow_width = 1;
   double brow_arch = 0;   ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;       ///< on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
-  double moustache = 0;   ///< same scale, on the upper lip
-  double chin_beard = 0;  ///< same scale, on the chin
+  double moustache = 0;   ///< on the upper lip, on the same scale as `beard`
+  double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
   ScreenColour iris;
   double receding = 0;  ///< 0 (full hairline) … 1 (bald on top)
   double made_up = 0;   ///< 0 … 1: make-up on lips, lids and lashes
