@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// Number of faces prepared in parallel before they are settled in order.
+/// Number of faces whose candidates are drawn in parallel, before these faces are chosen one after
+/// the other.
 constexpr std::uint64_t kBatch = 64;
 
 /// Casts faces 1 … count, each against all earlier faces.
