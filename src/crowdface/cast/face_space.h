@@ -45,8 +45,8 @@ class FaceSpace {
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
-  /// Returns the point of an input head; its `as_built` equals its `unit`. If faces may be mirrored, the
-  /// heads' mirror images are numbered from head_count() on.
+  /// Returns the point of an input head; its `as_built` equals its `unit`. If faces may be
+  /// mirrored, the heads' mirror images are numbered from head_count() on.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.directions.rows() + 1; }
