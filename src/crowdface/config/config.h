@@ -167,7 +167,7 @@ struct Config {
     bool is_set() const { return !body.empty() || like || mean; }
   } neck;
 
-  /// An item that a head may wear, such as hair or glasses; a separate mesh.
+  /// An attachment that a head may wear, such as hair or glasses: a separate mesh.
   struct Attachment : AttachmentItem {
     std::filesystem::path file;
     AttachmentMove moves = AttachmentMove::kBend;

@@ -36,8 +36,8 @@ std::vector<std::filesystem::path> files_like(const std::filesystem::path& patte
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
 /// Lists every file that the config names: the config itself, heads, shapes, points, rig,
-/// neck, attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Material
-/// files and textures are not listed, because the head files name them.
+/// neck, attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons.
+/// Material files and textures are not listed, because the head files name them.
 std::vector<std::filesystem::path> input_files(const Config& config);
 
 /// \throws UsageError if a path is not UTF-8 or contains a control character, because a config
