@@ -51,7 +51,8 @@ class Descriptor {
   int fd_;
 };
 
-/// Whether a call failed because of the machine (disk, memory, too many open files), not because of the file.
+/// Whether a call failed because of the machine (disk, memory, too many open files), not because of
+/// the file.
 bool is_system_error(int error);
 /// \throws IoError if a look at `path` failed because of the machine.
 void require_stat(const std::filesystem::path& path, const std::error_code& error);

@@ -81,9 +81,9 @@ class MappedFile {
 };
 
 /// Writes a file atomically: afterwards `path` is the complete new file, or the function throws and
-/// `path` is as before. Steps: write a temporary file in the same folder (locked until it is renamed, see
-/// remove_leftovers), fsync, close with error check, rename, fsync the folder. The file is the
-/// concatenation of `pieces`. All output files except the log are written this way.
+/// `path` is as before. Steps: write a temporary file in the same folder (locked until it is
+/// renamed, see remove_leftovers), fsync, close with error check, rename, fsync the folder. The
+/// file is the concatenation of `pieces`. All output files except the log are written this way.
 /// \throws CannotCreate, IoError; the temporary file is then removed.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
