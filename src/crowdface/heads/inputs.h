@@ -80,7 +80,7 @@ struct Inputs {
   Components components;
   PartList parts;   ///< empty for `parts: none`
   Components skin;  ///< the components, with all skin merged into the largest
-  std::shared_ptr<const MirrorMap> mirror;  ///< null unless the config has faces mirrored
+  std::shared_ptr<const MirrorMap> mirror;  ///< null unless the config asks for mirrored faces
   std::shared_ptr<const HeadsOnBody> neck;  ///< null unless the config has `neck`
   ShapeSet shapes;
   Digest shapes_digest;  ///< if there are shapes
