@@ -22,8 +22,8 @@ struct FixedNormals {
   Positions normals;  ///< #vertices by 3
 };
 
-/// Writes copies of an OBJ file with other positions. Every byte but the x y z of `v` lines (and of
-/// `vn` lines, if any) comes from the file, in whatever order its lines are. Built once per target;
+/// Writes copies of an OBJ file with other positions. Every byte comes from the file, in the order
+/// of its lines, except the x y z of `v` lines (and of `vn` lines, if any). Built once per target;
 /// needs 16 bytes per line besides the text.
 class ObjTemplate {
  public:
