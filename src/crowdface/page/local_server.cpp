@@ -35,8 +35,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 64, kMaxAtOnce = 16,
                       kThreads = 16;
 constexpr auto kMoment = std::chrono::milliseconds(100);
-/// Time limits. kPatience: for the head of a request, counted from its first byte. kPatienceWithBody:
-/// for the rest of a request with a body, and for a client to accept more of its answer.
+/// Time limits. kPatience: for the head of a request, counted from its first byte.
+/// kPatienceWithBody: for the rest of a request with a body, and for a client to accept more of its
+/// answer.
 constexpr auto kPatience = std::chrono::seconds(5), kPatienceWithBody = std::chrono::seconds(60);
 
 /// Returns 128 random bits from the operating system as 32 hexadecimal digits.
