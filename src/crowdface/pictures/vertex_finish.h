@@ -16,8 +16,8 @@ struct TexturePlace {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 
-/// The vertex normal, tilted by the normal map of the texture set. The map is averaged around the vertex,
-/// because detail finer than the reduced mesh would appear as noise.
+/// The vertex normal, tilted by the normal map of the texture set. The map is averaged around the
+/// vertex, because detail finer than the reduced mesh would appear as noise.
 /// \param positions  #V by 3 of the face
 Eigen::Vector3d leaning_normal(const TextureSet& texture_set, const HeadSet& faces,
                                const TexturePlace& place, const Positions& positions,
