@@ -270,9 +270,9 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, direction by direction, so that
-  /// consecutive rays are similar. A pixel without change traces `directions.rays()` rays, spread
-  /// over its samples; a pixel with a change traces at least one per sample.
+  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, direction by direction, so
+  /// that consecutive rays are similar. A pixel without change traces `directions.rays()` rays,
+  /// spread over its samples; a pixel with a change traces at least one per sample.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
