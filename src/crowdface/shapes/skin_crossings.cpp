@@ -15,8 +15,8 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. Largest distance on the template of two
-// triangles that may intersect on a face: kMaxTemplateGap for any triangles, kMaxFacingTemplateGap for triangles that face
-// each other.
+// triangles that may intersect on a face: kMaxTemplateGap for any triangles,
+// kMaxFacingTemplateGap for triangles that face each other.
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // rings of triangles to search around skin that may meet
 constexpr int kRings = 2;
