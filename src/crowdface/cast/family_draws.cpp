@@ -25,7 +25,7 @@ constexpr double kParentShare = 0.75;
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
-constexpr double kTwinsReach = 0.5;  // in mm, from the hidden child
+constexpr double kTwinsReach = 0.5;  // largest distance of a twin from the hidden child, mm
 
 /// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
 /// parent is.
