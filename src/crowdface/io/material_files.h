@@ -23,7 +23,7 @@ struct MaterialFile {
 };
 
 struct MaterialFiles {
-  std::vector<MaterialFile> files;  ///< each destination once
+  std::vector<MaterialFile> files;  ///< one per destination
   /// Textures whose source file is missing, or whose copy may be missing.
   std::vector<std::string> warnings;
 };

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxCorners = 255;  // the loader counts corners in one by
 constexpr std::uint64_t kMaxPerVertex = 8;
 // Longest material name, group name, or list of material files, in bytes.
 constexpr std::size_t kLongestObjName = 1000;
-// Beyond this, single precision cannot resolve a tenth of a unit
+// Larger numbers are refused: in single precision, their neighbours are a unit or more away.
 constexpr double kLargestCoordinate = 1e7;
 
 /// Splits a line into words without copying.
