@@ -22,7 +22,7 @@ struct SurfacePoint {
 Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
                          const std::array<double, 3>& shares);
 
-/// Returns the nearest point on the faces around a vertex and around its neighbours.
+/// Returns the point nearest to `point` on the faces around a vertex and around its neighbours.
 SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
