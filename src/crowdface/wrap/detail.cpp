@@ -27,7 +27,7 @@ constexpr double kUnasked = 1e-4;  ///< weight of a zero offset at vertices with
 constexpr int kSteps = 30;
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
-/// Smallest fraction of a triangle's area that must remain, projected on its previous normal.
+/// Least ratio of a moved triangle's area, projected on its previous normal, to its previous area.
 constexpr double kMinLeft = 0.05;
 /// Least cosine between a triangle's normal and the template's.
 constexpr double kMinFaceCosine = 0.05;

@@ -25,7 +25,7 @@ namespace {
 
 /// Least share of mirrored vertices in a symmetric head.
 constexpr double kMirroredShare = 0.9;
-constexpr double kMinOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier is in medians
+constexpr double kMinOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier: × median
 
 /// Converts landmarks from rows of the template to rows of the skin; drops landmarks outside the
 /// skin.
