@@ -112,10 +112,10 @@ class LidClosure {
   };
   struct Place {
     std::vector<Point> low, high;
-    double along;   ///< position along the opening
+    double along;   ///< position along the lid opening
     double closed;  ///< by how much the shape narrows the gap on the template
   };
-  /// Axes of a face: along the opening, and from the lower lid to the upper lid; unit vectors.
+  /// Axes of a face's eye: along the opening, and from the lower lid to the upper; unit vectors.
   struct Axes {
     Eigen::Vector3d along, up;
   };
