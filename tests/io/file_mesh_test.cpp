@@ -2,6 +2,8 @@
 #include "crowdface/io/file_mesh.h"
 
 #include <cstring>
+#include <map>
+#include <utility>
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -9,6 +11,7 @@
 #include <meshoptimizer.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/fbx_reader.h"
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/read_mesh.h"
@@ -69,6 +72,18 @@ TEST(ParsePly, ReadsTextureCoordinatesOfCorners) {
   EXPECT_EQ(mesh.uvs.row(0), Eigen::RowVector2d(0.5, 0));
 }
 
+TEST(ParsePly, SaysWhyItRefuses) {
+  const auto refuse = [](const std::string& text, const char* reason) {
+    expect_error(ExitCode::kBadData, {reason}, [&] { parse_ply(text, "head.ply"); });
+  };
+  const std::string text = "ply\nformat ascii 1.0\n" + kPlyHead +
+                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  refuse(text + "0,5 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n", "decimal point");
+  refuse(text + "0 0 0\n1 0 0\n0 1 -", "ends too soon: copy or export it again");
+  refuse("ply\nformat ascii 1.0\n" + kPlyHead + "property float f_dc_0\nend_header\n",
+         "Gaussian splat");
+}
+
 std::string text_stl_of(const std::string& name, bool capitals) {
   std::string text = "solid " + name +
                      "\n facet normal nan 0 0\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n"
@@ -93,6 +108,17 @@ TEST(ParseStl, TakesAnyNameCaseAndLineEnd) {
     EXPECT_EQ(mesh.positions, good.positions);
     EXPECT_EQ(mesh.topology.corner_vertices, good.topology.corner_vertices);
   }
+}
+
+TEST(ParseStl, SaysWhyItRefuses) {
+  const std::string text = text_stl_of("head", false);
+  expect_error(ExitCode::kBadData, {"decimal point"}, [&] {
+    std::string commas = text;
+    std::ranges::replace(commas, '0', ',');
+    parse_stl(commas, "head.stl");
+  });
+  expect_error(ExitCode::kBadData, {"ends too soon"},
+               [&] { parse_stl(text.substr(0, text.find("0 1 1e-2")), "head.stl"); });
 }
 
 TEST(ParseStl, BinaryFilesMayClaimOtherCounts) {
@@ -311,6 +337,95 @@ TEST(ParseGltf, ReadsStripsAndFans) {
   parts.primitive = R"({"attributes":{"POSITION":0},"mode":6})";
   EXPECT_EQ(mesh_of(parts).topology.corner_vertices,
             (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+}
+
+/// FBX text of a square with the material `skin`.
+/// \param textures  name of the material's property, and path of the image
+std::string square_fbx(const std::vector<std::pair<std::string, std::string>>& textures,
+                       std::string_view shape = {}) {
+  std::string objects, links;
+  int id = 10;
+  for (const auto& [property, path] : textures) {
+    objects += concat("Texture: ", id, ", \"Texture::t\", \"\" {\n FileName: \"", path,
+                      "\"\n RelativeFilename: \"", path, "\"\n}\n");
+    links += concat("C: \"OP\",", id++, ",3,\"", property, "\"\n");
+  }
+  if (!shape.empty()) {
+    objects += concat(
+        "Deformer: 4, \"Deformer::b\", \"BlendShape\" {\n}\n"
+        "Deformer: 5, \"SubDeformer::",
+        shape,
+        "\", \"BlendShapeChannel\" {\n DeformPercent: 0\n FullWeights: *1 {\n a: 100\n }\n}\n"
+        "Geometry: 6, \"Geometry::",
+        shape,
+        "\", \"Shape\" {\n Indexes: *1 {\n a: 0\n }\n Vertices: *3 {\n a: 0,0,1\n }\n"
+        " Normals: *3 {\n a: 0,0,0\n }\n}\n");
+    links += "C: \"OO\",4,1\nC: \"OO\",5,4\nC: \"OO\",6,5\n";
+  }
+  return concat(
+      "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n"
+      " FBXVersion: 7400\n}\nDefinitions:  {\n}\nObjects:  {\n"
+      "Geometry: 1, \"Geometry::head\", \"Mesh\" {\n"
+      " Vertices: *12 {\n a: 0,0,0,1,0,0,1,1,0,0,1,0\n }\n"
+      " PolygonVertexIndex: *4 {\n a: 0,1,2,-4\n }\n"
+      " LayerElementMaterial: 0 {\n MappingInformationType: \"AllSame\"\n"
+      " ReferenceInformationType: \"IndexToDirect\"\n Materials: *1 {\n a: 0\n }\n }\n"
+      " Layer: 0 {\n LayerElement:  {\n Type: \"LayerElementMaterial\"\n TypedIndex: 0\n }\n"
+      " }\n}\nModel: 2, \"Model::head\", \"Mesh\" {\n}\n"
+      "Material: 3, \"Material::skin\", \"\" {\n ShadingModel: \"phong\"\n}\n",
+      objects, "}\nConnections:  {\nC: \"OO\",2,0\nC: \"OO\",1,2\nC: \"OO\",3,2\n", links, "}\n");
+}
+
+TEST(ParseFbx, TakesTexturesOfAllMaterials) {
+  const TemporaryFolder folder;
+  folder.write("colour.png", "colour");
+  folder.write("normal.png", "normal");
+  for (const auto& [colour, normal] :
+       {std::pair("DiffuseColor", "NormalMap"), std::pair("Maya|baseColor", "Maya|normalCamera"),
+        std::pair("Maya|TEX_color_map", "Maya|TEX_normal_map"),
+        std::pair("3dsMax|Parameters|base_color_map", "3dsMax|Parameters|norm_map"),
+        std::pair("3dsMax|main|base_color_map", "3dsMax|main|norm_map")}) {
+    const FileMesh mesh = parse_fbx(square_fbx({{colour, "colour.png"},
+                                                {normal, "normal.png"},
+                                                {"Maya|specularRoughness", "colour.png"},
+                                                {"Bump", "normal.png"},
+                                                {"ReflectionFactor", "metal.png"}}),
+                                    folder / "head.fbx");
+    std::map<TextureKind, std::string> found;
+    for (const MeshTexture& texture : mesh.textures) found[texture.kind] = texture.bytes;
+    EXPECT_EQ(found, (std::map<TextureKind, std::string>{{TextureKind::kColour, "colour"},
+                                                         {TextureKind::kNormal, "normal"},
+                                                         {TextureKind::kRoughness, "colour"},
+                                                         {TextureKind::kBump, "normal"}}))
+        << colour;
+    EXPECT_EQ(mesh.notes, std::vector<std::string>{
+                              "its textures of these properties are not used: ReflectionFactor"});
+  }
+}
+
+// Exporters write the paths of their own machine, and Windows ignores the case of names.
+TEST(ParseFbx, FindsTexturesOfOtherMachines) {
+  const auto texture_of = [](const TemporaryFolder& folder, const std::string& path) {
+    const FileMesh mesh = parse_fbx(square_fbx({{"DiffuseColor", path}}), folder / "head.fbx");
+    return mesh.textures.empty() ? std::string() : mesh.textures[0].bytes;
+  };
+  const TemporaryFolder folder;
+  folder.write("textures/Skin.PNG", "sub");
+  folder.write("head.fbm/made.png", "fbm");
+  folder.write("other.fbm/made.png", "other");
+  folder.write("a/twice.png", "a");
+  folder.write("b/twice.png", "b");
+  EXPECT_EQ(texture_of(folder, "C:\\proj\\Textures\\skin.png"), "sub");
+  EXPECT_EQ(texture_of(folder, "..\\..\\maps\\SKIN.png"), "sub");
+  EXPECT_EQ(texture_of(folder, "D:/maps/made.png"), "fbm");
+  EXPECT_EQ(texture_of(folder, "D:/maps/twice.png"), "");
+  EXPECT_EQ(texture_of(folder, "D:/B/twice.png"), "b");
+}
+
+TEST(ParseFbx, SaysThatShapesAreNotUsed) {
+  const FileMesh mesh = parse_fbx(square_fbx({}, "smile"), "head.fbx");
+  ASSERT_EQ(mesh.notes.size(), 1U);
+  EXPECT_TRUE(mesh.notes[0].starts_with("its 1 blend shapes are not used")) << mesh.notes[0];
 }
 
 TEST(JoinSplitVertices, GivesOurOwnFilesTheirVerticesBack) {

@@ -54,6 +54,16 @@ TEST(MaterialFiles, HaveNoTilesWithoutTheWord) {
   EXPECT_EQ(find_tiles(folder / "skin.<UDIM>.png").size(), 1U);
 }
 
+TEST(Textures, OfOtherMachinesAreFoundInSubfoldersWhateverTheirCase) {
+  const testing::TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nmap_Kd C:\\proj\\Textures\\skin.png\nnorm maps/N.PNG\n");
+  folder.write("textures/Skin.PNG", "x");
+  folder.write("tex/n.png", "x");
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl", "textures/Skin.PNG", "tex/n.png"}));
+  EXPECT_TRUE(found.warnings.empty());
+}
+
 // Each statement listed the folder, however often it stood there and whatever it named.
 TEST(MaterialFiles, LookForEachNameOnce) {
   const testing::TemporaryFolder folder;

@@ -161,7 +161,7 @@ def Xform "root" {
   EXPECT_EQ(mesh.textures[0].bytes, "colours");
   EXPECT_EQ(mesh.textures[1].kind, TextureKind::kNormal);
   EXPECT_EQ(mesh.textures[1].bytes, "normals");
-  EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("\"rough.png\" does not lie beside it")));
+  EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("\"rough.png\" is neither beside it")));
 }
 
 }  // namespace

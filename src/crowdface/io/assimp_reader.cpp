@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cctype>
 #include <exception>
+#include <initializer_list>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include <assimp/Importer.hpp>
@@ -73,24 +77,97 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
   }
 }
 
-/// For external textures, stores only the file names in `beside`, not the bytes.
+/// The kind of texture that a material property of FBX takes, such as `DiffuseColor`,
+/// `Maya|normalCamera` or `3dsMax|main|norm_map`; nothing for kinds that faces do not have.
+std::optional<TextureKind> kind_of_property(std::string_view property) {
+  property.remove_prefix(property.rfind('|') + 1);  // npos + 1 is 0
+  std::string name(property);
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto is_any_of = [&](std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  if (is_any_of({"diffusecolor", "diffusetexture", "diffuse_map", "basecolor", "base_color_map",
+                 "tex_color_map"})) {
+    return TextureKind::kColour;
+  }
+  if (name.find("norm") != name.npos) return TextureKind::kNormal;
+  if (name.find("rough") != name.npos && !name.starts_with("diff")) return TextureKind::kRoughness;
+  if (is_any_of({"specularcolor", "specularfactor", "speculartexture", "specular_map"})) {
+    return TextureKind::kSpecular;
+  }
+  if (name.starts_with("displacement")) return TextureKind::kDisplacement;
+  if (name.starts_with("bump")) return TextureKind::kBump;
+  return std::nullopt;
+}
+
+/// Adds a texture unless the material has one of this kind. For external textures, stores only the
+/// file names in `beside`, not the bytes.
+/// \return  whether the texture is the material's texture of this kind.
+bool add_texture(const aiScene& scene, const std::string& material, TextureKind kind,
+                 const aiString& name, FileMesh& mesh, std::vector<std::string>& beside) {
+  const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
+  // A height of 0 means a compressed image file.
+  const bool is_inside = texture != nullptr && texture->mHeight == 0;
+  MeshTexture added{
+      material, kind,
+      is_inside ? std::string(reinterpret_cast<const char*>(texture->pcData), texture->mWidth)
+                : std::string()};
+  const std::string file = is_inside ? "" : name.C_Str();
+  for (std::size_t t = 0; t < mesh.textures.size(); ++t) {
+    const MeshTexture& known = mesh.textures[t];
+    if (known.material != material || known.kind != kind) continue;
+    return known.bytes == added.bytes && beside[t] == file;
+  }
+  beside.push_back(file);
+  mesh.textures.push_back(std::move(added));
+  return true;
+}
+
 void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::string>& beside) {
+  constexpr std::string_view kPrefix = "$raw.", kSuffix = "|file";
+  std::set<std::string> unused;
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
     const aiMaterial& material = *scene.mMaterials[m];
+    const std::string material_name = material.GetName().C_Str();
+    for (unsigned p = 0; p < material.mNumProperties; ++p) {
+      const aiMaterialProperty& property = *material.mProperties[p];
+      std::string_view key = property.mKey.C_Str();
+      aiString name;
+      if (!key.starts_with(kPrefix) || !key.ends_with(kSuffix) ||
+          material.Get(property.mKey.C_Str(), property.mSemantic, property.mIndex, name) !=
+              aiReturn_SUCCESS) {
+        continue;
+      }
+      key.remove_prefix(kPrefix.size());
+      key.remove_suffix(kSuffix.size());
+      const auto kind = kind_of_property(key);
+      if (!kind || !add_texture(scene, material_name, *kind, name, mesh, beside)) {
+        unused.emplace(key.substr(key.rfind('|') + 1));
+      }
+    }
+    // Layers of textures have no property of the material; Assimp names the lowest.
     for (const auto& [type, kind] : {std::pair(aiTextureType_DIFFUSE, TextureKind::kColour),
                                      std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
       aiString name;
       if (material.GetTexture(type, 0, &name) != aiReturn_SUCCESS) continue;
-      const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
-      // A height of 0 means a compressed image file.
-      const bool is_inside = texture != nullptr && texture->mHeight == 0;
-      beside.emplace_back(is_inside ? "" : name.C_Str());
-      mesh.textures.push_back(
-          {material.GetName().C_Str(), kind,
-           is_inside ? std::string(reinterpret_cast<const char*>(texture->pcData), texture->mWidth)
-                     : std::string()});
+      add_texture(scene, material_name, kind, name, mesh, beside);
     }
   }
+  if (unused.empty()) return;
+  std::string names;
+  for (const std::string& name : unused) names += (names.empty() ? "" : ", ") + name;
+  mesh.notes.push_back("its textures of these properties are not used: " + names);
+}
+
+/// Adds a note about shapes, which the program reads from files of their own.
+void note_shapes(const aiScene& scene, FileMesh& mesh) {
+  std::set<std::string> shapes;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    for (unsigned a = 0; a < scene.mMeshes[m]->mNumAnimMeshes; ++a) {
+      shapes.insert(scene.mMeshes[m]->mAnimMeshes[a]->mName.C_Str());
+    }
+  }
+  if (!shapes.empty()) mesh.notes.push_back(note_of_shapes(shapes.size(), "blend shapes"));
 }
 
 void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& beside) {
@@ -114,6 +191,7 @@ void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& besi
     mesh.uvs.resize(0, 2);
   }
   collect_textures(*scene, mesh, beside);
+  note_shapes(*scene, mesh);
 }
 
 }  // namespace

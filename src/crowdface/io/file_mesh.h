@@ -41,6 +41,12 @@ struct FileMesh : Mesh {
 void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,
               const std::vector<double>& colours);
 
+/// Note about shapes in a mesh file, which faces take from files of their own (docs/shapes.md).
+inline std::string note_of_shapes(std::size_t count, std::string_view kind) {
+  return "its " + std::to_string(count) + ' ' + std::string(kind) +
+         " are not used: export each as a mesh of its own for `shapes`";
+}
+
 /// Merges vertices that a format has split at seams: vertices of the same mesh with the same id or,
 /// if the file has no ids, with the same position. Merged vertices are ordered by their first
 /// copies. Texture coordinates move from vertices to polygon corners.

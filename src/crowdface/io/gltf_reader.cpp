@@ -260,7 +260,8 @@ class GltfMeshReader {
   void finish() {
     set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
     if (!has_ids_) mesh_.vertex_ids.clear();
-    std::set<std::string> used;
+    note_shapes();
+    std::set<std::string> used, unused;
     for (const MaterialRange& range : mesh_.materials) used.insert(range.name);
     const GltfJson& scene = file_.scene();
     if (!scene.contains("materials")) return;
@@ -272,8 +273,47 @@ class GltfMeshReader {
         add_texture(material["pbrMetallicRoughness"], "baseColorTexture", name,
                     TextureKind::kColour);
       }
+      const char* gloss = "KHR_materials_pbrSpecularGlossiness";
+      if (material.contains("extensions") && material["extensions"].contains(gloss)) {
+        add_texture(material["extensions"][gloss], "diffuseTexture", name, TextureKind::kColour);
+      }
       add_texture(material, "normalTexture", name, TextureKind::kNormal);
+      note_unused_textures(material, unused);
     }
+    if (!unused.empty()) {
+      mesh_.notes.push_back(concat("its textures of these kinds are not used: ",
+                                   join({unused.begin(), unused.end()})));
+    }
+  }
+
+  /// Adds the textures of a material that faces do not have, by their names in glTF.
+  static void note_unused_textures(const GltfJson& material, std::set<std::string>& unused) {
+    const auto add = [&](const GltfJson& from, const char* key) {
+      if (from.contains(key)) unused.insert(key);
+    };
+    for (const char* key : {"occlusionTexture", "emissiveTexture"}) add(material, key);
+    if (material.contains("pbrMetallicRoughness")) {
+      add(material["pbrMetallicRoughness"], "metallicRoughnessTexture");
+    }
+    if (!material.contains("extensions")) return;
+    for (const auto& [extension, values] : material["extensions"].items()) {
+      for (const auto& [key, value] : values.items()) {
+        if (key.ends_with("Texture") && key != "diffuseTexture") unused.insert(key);
+      }
+    }
+  }
+
+  void note_shapes() {
+    std::size_t most = 0;
+    const GltfJson& scene = file_.scene();
+    if (!scene.contains("meshes")) return;
+    for (const GltfJson& mesh : scene["meshes"]) {
+      if (!mesh.contains("primitives")) continue;
+      for (const GltfJson& primitive : mesh["primitives"]) {
+        if (primitive.contains("targets")) most = std::max(most, primitive["targets"].size());
+      }
+    }
+    if (most > 0) mesh_.notes.push_back(note_of_shapes(most, "morph targets"));
   }
 
   /// \param from  JSON object that may contain a texture reference under `key`

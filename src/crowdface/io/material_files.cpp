@@ -15,6 +15,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/legacy_text.h"
 #include "crowdface/io/mesh_format.h"
+#include "crowdface/io/texture_search.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -187,17 +188,19 @@ class Collector {
       if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
-    // The path may come from another machine, or have the encoding of another system: look for the
-    // file name beside the head.
+    // The path may come from another machine, or have the encoding of another system.
     for (const std::string_view tail : tails) {
       std::vector<std::string> names = legacy_readings(tail);
       names.emplace_back(tail);
       for (const std::string& name : names) {
-        const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
-        if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
-          continue;
-        if (!exists(beside) && !exists(with_tile(beside, kFirstTile))) continue;
-        return known->second = beside;
+        const fs::path path = with_forward_slashes(name);
+        if (path.native().find('\0') != std::string::npos) continue;
+        if (path.filename().native().find(kTileWord) != std::string::npos) {
+          const fs::path beside = folder / path.filename();
+          if (exists(with_tile(beside, kFirstTile))) return known->second = beside;
+        } else if (const auto found = search_texture(folder_ / folder, path, mesh_.stem())) {
+          return known->second = folder / *found;
+        }
       }
     }
     return known->second;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/texture_search.h"
 
 namespace crowdface {
 namespace {
@@ -36,18 +38,19 @@ void read_texture_files(std::vector<std::string> files, const std::filesystem::p
   for (std::size_t t = mesh.textures.size(); t-- > 0;) {
     if (files[t].empty()) continue;
     std::ranges::replace(files[t], '\\', '/');
-    const std::filesystem::path named = files[t], folder = path.parent_path(),
-                                beside = folder / named.filename();
-    const std::filesystem::path file = is_file(folder / named) ? folder / named : beside;
-    if (is_file(file)) {
-      mesh.textures[t].bytes = read_file(file);
+    const std::filesystem::path named = files[t], folder = path.parent_path();
+    const auto found =
+        is_file(folder / named) ? std::optional(named) : search_texture(folder, named, path.stem());
+    if (found) {
+      mesh.textures[t].bytes = read_file(folder / *found);
       continue;
     }
     const bool is_tiled = files[t].find("<UDIM>") != std::string::npos;
     mesh.notes.push_back(concat("its texture ", quoted(named.filename().string()),
-                                is_tiled ? " has several tiles (UDIM) and is not used: an OBJ file "
-                                           "with a material file can name it"
-                                         : " does not lie beside it and is not used"));
+                                is_tiled
+                                    ? " has several tiles (UDIM) and is not used: an OBJ file "
+                                      "with a material file can name it"
+                                    : " is neither beside it nor in a subfolder and is not used"));
     mesh.textures.erase(mesh.textures.begin() + static_cast<std::ptrdiff_t>(t));
   }
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace crowdface {
+
+/// Searches a texture whose path comes from another machine: at the last parts of the path below
+/// the folder (most parts first), then in `STEM.fbm`, then in the only subfolder that has a file of
+/// this name. Ignores the case of names, as Windows does.
+/// \param named  path with forward slashes; may be absolute
+/// \param stem   name of the mesh file without its extension
+/// \return the path relative to `folder`; nothing if there is no such file.
+std::optional<std::filesystem::path> search_texture(const std::filesystem::path& folder,
+                                                    const std::filesystem::path& named,
+                                                    const std::filesystem::path& stem);
+
+}  // namespace crowdface
