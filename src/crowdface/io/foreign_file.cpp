@@ -80,4 +80,17 @@ void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& pa
   }
 }
 
+std::string_view advice_on_number(std::string_view word) {
+  if (word.find(',') != word.npos) {
+    return "; set the program's or the system's number format to a decimal point and export "
+           "again";
+  }
+  for (const std::string_view none : {"nan", "#IND", "#QNAN", "inf"}) {
+    if (word.find(none) != word.npos) {
+      return "; this vertex has no position: delete it before exporting";
+    }
+  }
+  return "";
+}
+
 }  // namespace crowdface

@@ -8,6 +8,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/foreign_file.h"
 #include "crowdface/io/obj_statements.h"
 
 namespace crowdface {
@@ -222,21 +223,10 @@ class Scanner {
     return std::string(name);
   }
 
-  static std::string_view advice_on(std::string_view word) {
-    if (word.find(',') != word.npos) {
-      return "; set the program's or the system's number format to a decimal point and export "
-             "again";
-    }
-    if (word.find("nan") != word.npos || word.find("#IND") != word.npos ||
-        word.find("#QNAN") != word.npos || word.find("inf") != word.npos) {
-      return "; this vertex has no position: delete it before exporting";
-    }
-    return "";
-  }
-
   double number(std::string_view word, double largest) const {
     const auto value = parse_double(word);
-    if (!value) fail(concat("expected a finite number, found ", quoted(word), advice_on(word)));
+    if (!value)
+      fail(concat("expected a finite number, found ", quoted(word), advice_on_number(word)));
     if (std::abs(*value) > largest) {
       fail(concat("expected a coordinate within ±", largest, ", found ", quoted(word),
                   "; move the mesh to the origin before exporting"));

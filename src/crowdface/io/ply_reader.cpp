@@ -10,6 +10,7 @@
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/file_mesh.h"
+#include "crowdface/io/foreign_file.h"
 
 namespace crowdface {
 namespace {
@@ -53,6 +54,7 @@ struct Element {
   std::vector<Property> properties;
 };
 
+constexpr const char* kEndsTooSoon = "it ends too soon: copy or export it again";
 constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
 /// Reads a whole PLY file.
@@ -137,12 +139,15 @@ class PlyReader {
     }
     for (const Element& element : elements_) {
       if (element.count > bytes_.size()) fail(concat("it claims ", element.count, " elements"));
+      if (std::ranges::count(element.properties, "f_dc_0", &Property::name) > 0) {
+        fail("it is a Gaussian splat, which has no surface: export a mesh");
+      }
     }
   }
 
   double value(const Type& type) {
     if (coding_ == Coding::kText) return word();
-    if (bytes_.size() - at_ < type.bytes) fail("it ends too soon");
+    if (bytes_.size() - at_ < type.bytes) fail(kEndsTooSoon);
     std::array<char, 8> raw{};
     std::memcpy(raw.data(), bytes_.data() + at_, type.bytes);
     at_ += type.bytes;
@@ -153,7 +158,7 @@ class PlyReader {
   /// Reads a word as a number. Normals and quality values may be non-numeric.
   double word() {
     const std::size_t begin = bytes_.find_first_not_of(" \t\r\n", at_);
-    if (begin == std::string_view::npos) fail("it ends too soon");
+    if (begin == std::string_view::npos) fail(kEndsTooSoon);
     at_ = std::min(bytes_.find_first_of(" \t\r\n", begin), bytes_.size());
     const std::string_view word = bytes_.substr(begin, at_ - begin);
     if (const auto number = parse_double(word)) return *number;
@@ -161,7 +166,8 @@ class PlyReader {
     for (const std::string_view none : {"nan", "inf", "1.#"}) {
       if (lower.find(none) != lower.npos) return std::numeric_limits<double>::quiet_NaN();
     }
-    fail(concat(quoted(word), " is not a number"));
+    if (at_ == bytes_.size()) fail(kEndsTooSoon);
+    fail(concat(quoted(word), " is not a number", advice_on_number(word)));
   }
 
   static std::size_t column_of(const Element& element, std::initializer_list<const char*> names) {

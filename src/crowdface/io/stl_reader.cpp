@@ -5,6 +5,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/file_mesh.h"
+#include "crowdface/io/foreign_file.h"
 
 namespace crowdface {
 namespace {
@@ -53,7 +54,11 @@ class StlText {
   double number() {
     const std::string_view word = next_word();
     const auto number = parse_double(word);
-    if (!number) fail_stl(name_, concat(quoted(word), " is not a number"));
+    if (!number && at_ == text_.size())
+      fail_stl(name_, "it ends too soon: copy or export it again");
+    if (!number) {
+      fail_stl(name_, concat(quoted(word), " is not a number", advice_on_number(word)));
+    }
     return *number;
   }
   void add(std::vector<double>& loop) {
@@ -95,7 +100,8 @@ FileMesh parse_stl(std::string_view bytes, const std::string& name) {
   const std::size_t count = claimed == 0 ? room : std::min<std::size_t>(claimed, room);
   // If the file is a text of another kind, `count` consists of letters and is meaningless.
   if (count == 0 || (claimed > room && (bytes.size() - kStlHeader) % kStlRecord != 0)) {
-    fail_stl(name, concat("it has ", bytes.size(), " bytes and claims ", claimed, " triangles"));
+    fail_stl(name, concat("it has ", bytes.size(), " bytes and claims ", claimed,
+                          " triangles: copy or export it again"));
   }
   FileMesh mesh;
   if (!is_exact) {

@@ -87,7 +87,8 @@ Scan read_scan(const std::filesystem::path& path) {
   leave_out_unplaced(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),
-                             " points and no face"));
+                             " points and no face: build a mesh of them first (MeshLab: Surface "
+                             "Reconstruction; Metashape: Build Model)"));
   }
   if (!(scan.positions.array().abs() <= kFarthest).all()) {
     refuse_file(path, concat("expected finite positions, none farther than ", kFarthest,
