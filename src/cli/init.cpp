@@ -17,6 +17,7 @@
 #include "crowdface/io/image.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/tile_files.h"
+#include "crowdface/mesh/adjacency.h"
 #include "crowdface/paint/face_marks.h"
 #include "crowdface/paint/proposed_masks.h"
 #include "crowdface/region/mask_source.h"
@@ -112,11 +113,16 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     faces.names.push_back(faces.files.back().stem().string());
   }
   Problems problems;
-  const auto set = load_faces(faces, {}, problems);
+  auto set = load_faces(faces, {}, problems);
   if (!set) {
     throw_if_interrupted();
     log_warning(concat("no regions: ", problems.messages().front()));
     return {read_mesh_as_obj(files[0]).positions, {}, {}};
+  }
+  // The config aligns these heads; their mean has a face only then.
+  const bool stands_apart = needs_rigid_alignment(*set);
+  if (stands_apart) {
+    align_heads(*set, find_components(build_adjacency(set->topology)), Align::kRigid);
   }
   const HeadShape mean = shape_of_mean(*set);
   Seen seen{set->heads[0].positions, find_orientation(set->topology, mean), {}};
@@ -125,7 +131,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     seen.face = marks->face();
   }
   seen.has_uvs = set->uvs.rows() > 0;
-  seen.stands_apart = needs_rigid_alignment(*set);
+  seen.stands_apart = stands_apart;
   if (!with_masks) return seen;
   try {
     const Orientation orientation = seen.orientation.value_or(Orientation{{1, 1}, {2, 1}});
@@ -137,8 +143,8 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   return seen;
 }
 
-/// Guesses the mesh unit: the named unit in which the face (or, if no face was found, the head) has
-/// human size. If no named unit fits, the length that gives the face human size.
+/// Guesses the mesh unit: the named unit (inches last) in which the face (or, if no face was found,
+/// the head) has human size. If no named unit fits, the length that gives the face human size.
 void guess_units(const Seen& seen, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
@@ -149,8 +155,11 @@ void guess_units(const Seen& seen, StarterFacts& facts) {
   facts.units_reason = height;
   const double face_mm = seen.face * mm_per(facts.units);
   const double times = facts.head_height * mm_per(facts.units) / kTypicalHeightMm;
-  if (seen.face > 0 && (face_mm < kMinFaceMm || face_mm > kMaxFaceMm)) {
-    facts.units = fitting_unit(seen.face, kTypicalFaceMm);
+  const auto is_human = [&](double mm) { return mm >= kMinFaceMm && mm <= kMaxFaceMm; };
+  if (seen.face > 0 && !is_human(face_mm)) {
+    facts.units = is_human(seen.face * mm_per(LengthUnit::kInch))
+                      ? LengthUnit::kInch
+                      : fitting_unit(seen.face, kTypicalFaceMm);
     facts.units_reason =
         concat(height, " and ", format_number_of(seen.face), " from the eyes to the mouth (about ",
                kTypicalFaceMm, " mm in people), and mm, cm and m do not fit");
@@ -201,7 +210,7 @@ void init(const InitOptions& options) {
     const std::string left_out = left_out_of_heads(heads);
     throw MissingInput(concat(heads.string(), ": expected ", kMinHeads, " to ", kMaxHeads,
                               " heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found ", files.size(),
-                              left_out.empty() ? "" : "; ", left_out));
+                              left_out.empty() ? pattern_below(heads) : concat("; ", left_out)));
   }
   if (const std::string left_out = left_out_of_heads(heads); !left_out.empty()) {
     log_warning(left_out);
@@ -231,7 +240,12 @@ void init(const InitOptions& options) {
     facts.front = seen.orientation->front;
   }
   facts.align_rigidly = seen.stands_apart;
-  for (const fs::path& head : files) facts.names.push_back(head.stem().string());
+  for (const fs::path& head : files) {
+    facts.names.push_back(head.stem().string());
+    if (!is_name(facts.names.back())) {
+      throw InvalidInput(objection_to_head_name(facts.names.back(), head));
+    }
+  }
   const auto up = seen.first.col(facts.up.index);
   facts.head_height = up.maxCoeff() - up.minCoeff();
   guess_units(seen, facts);

@@ -72,6 +72,18 @@ TEST(AlignmentCheck, TurnedHeadIsNamedWithItsAngle) {
   }
 }
 
+// The message said that the head is larger and turned.
+TEST(AlignmentCheck, MirroredHeadIsRefused) {
+  for (const Align align : {Align::kCheck, Align::kRigid}) {
+    Bowls bowls = make_bowls();
+    Positions& positions = bowls.faces.heads[3].positions;
+    positions.col(0) *= -1;
+    testing::expect_error(ExitCode::kBadData, {"head d is mirrored"},
+                          [&] { align_heads(bowls.faces, bowls.components, align); });
+    EXPECT_TRUE(align_heads(bowls.faces, bowls.components, Align::kNone).empty());
+  }
+}
+
 TEST(AlignmentCheck, MovedHeadIsNamed) {
   Bowls bowls = make_bowls();
   bowls.faces.heads[2].positions.rowwise() += Eigen::RowVector3d(0, 3, 0);

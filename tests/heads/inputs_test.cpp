@@ -87,6 +87,35 @@ TEST(Inputs, OtherVertexCountsAreRefused) {
   expect_refused(fewer, ExitCode::kBadData, {"cyd.obj", "119", "118"});
 }
 
+TEST(Inputs, MissingPolygonsAreCounted) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  edit(folder, "cyd", [](Lines& lines) {
+    const auto face = lines.begin() + static_cast<std::ptrdiff_t>(first_line(lines, "f ", 4));
+    lines.erase(face, face + 2);
+  });
+  expect_refused(folder, ExitCode::kBadData, {"cyd.obj", "lacks 2 of the polygons"});
+}
+
+// With three heads, the median distance to the nearest head was that of the copies.
+TEST(Inputs, CopiesOfAHeadAreTold) {
+  const SmallCrowdFolder folder{SmallCrowd{}};
+  const auto told = [&] {
+    return join(load_job(folder.config(), {}).inputs.warnings).find("heads ann and cyd are 0.00");
+  };
+  EXPECT_EQ(told(), std::string::npos);
+  fs::copy_file(folder / "heads/ann.obj", folder / "heads/cyd.obj",
+                fs::copy_options::overwrite_existing);
+  EXPECT_NE(told(), std::string::npos);
+  fs::remove(folder / "heads/bob.obj");
+  for (const auto& entry : fs::directory_iterator(folder / "heads")) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() == ".obj" && name != "ann" && name != "cyd" && name != "dan") {
+      fs::remove(entry.path());
+    }
+  }
+  EXPECT_NE(told(), std::string::npos);
+}
+
 TEST(Inputs, SurfacesThatNoFaceIsMadeOfAreTold) {
   SmallCrowd crowd;
   crowd.bowl.materials = true;
@@ -153,7 +182,8 @@ TEST(Inputs, PathsThatNoConfigCanHoldAreToldWithTheRest) {
 TEST(Inputs, OtherTextureCoordinatesAreRefused) {
   const SmallCrowdFolder folder{SmallCrowd{}};
   edit(folder, "bob", [](Lines& lines) { lines[first_line(lines, "vt ", 2)] = "vt 0.9 0.1"; });
-  expect_refused(folder, ExitCode::kBadData, {"bob.obj", "texture coordinate", "found 0.9 0.1"});
+  expect_refused(folder, ExitCode::kBadData,
+                 {"bob.obj", "texture coordinate", "found 0.9 0.1", "Transfer Attributes"});
 }
 
 TEST(Inputs, AHeadThatIsTurnedAgainstTheOthersIsRefusedWithTheKeyToSet) {

@@ -2,7 +2,10 @@
 #include "crowdface/paint/face_marks.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -33,6 +36,56 @@ TEST(FaceMarks, LieWhereASyntheticHeadHasThemAtAnyResolution) {
     head.eyeballs.clear();
     EXPECT_NEAR(find_face_marks(faces.topology, head, {})->eyes, 0, 0.6) << "told by the nose";
   }
+}
+
+/// Replaces all vertices in each cell of a grid by their mean.
+HeadShape merged(Topology& topology, const HeadShape& head, double cell) {
+  std::map<std::array<long, 3>, std::uint32_t> cells;
+  std::vector<std::uint32_t> row;
+  for (Index v = 0; v < head.positions.rows(); ++v) {
+    const Eigen::Array3d p = (head.positions.row(v) / cell).array().floor();
+    row.push_back(cells
+                      .try_emplace({std::lround(p.x()), std::lround(p.y()), std::lround(p.z())},
+                                   static_cast<std::uint32_t>(cells.size()))
+                      .first->second);
+  }
+  HeadShape result{
+      Positions::Zero(std::ssize(cells), 3), std::vector<bool>(cells.size(), true), {}};
+  std::vector<double> counts(cells.size(), 0);
+  for (std::size_t v = 0; v < row.size(); ++v) {
+    result.positions.row(row[v]) += head.positions.row(static_cast<Index>(v));
+    ++counts[row[v]];
+  }
+  for (std::size_t r = 0; r < counts.size(); ++r) {
+    result.positions.row(static_cast<Index>(r)) /= counts[r];
+  }
+  Topology coarse;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : topology.face(f)) {
+      if (head.skin[v] && std::ranges::find(corners, row[v]) == corners.end())
+        corners.push_back(row[v]);
+    }
+    if (corners.size() < 3) continue;
+    coarse.corner_vertices.insert(coarse.corner_vertices.end(), corners.begin(), corners.end());
+    coarse.face_offsets.push_back(static_cast<std::uint32_t>(coarse.corner_vertices.size()));
+  }
+  coarse.vertex_count = std::ssize(cells);
+  topology = coarse;
+  return result;
+}
+
+// The message said that the heads look along +Z although expected along +Z.
+TEST(FaceMarks, AReasonIsGivenIfNoFaceIsFound) {
+  const HeadSet faces = synth_heads(5000);
+  const HeadShape head = shape_of_mean(faces);
+  EXPECT_EQ(reason_of_no_face(faces.topology, head, axes_of({{1, 1}, {0, 1}})),
+            "the heads look along +Z with +Y up");
+  Topology topology = faces.topology;
+  const HeadShape coarse = merged(topology, head, 2.6);
+  ASSERT_FALSE(find_face_marks(topology, coarse, {}));
+  const std::string reason = reason_of_no_face(topology, coarse, {});
+  EXPECT_NE(reason.find("mm long; above 18 mm they do not show a face"), reason.npos) << reason;
 }
 
 TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {

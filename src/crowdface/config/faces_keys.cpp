@@ -8,7 +8,6 @@
 #include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/folder.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/mesh_as_obj.h"
@@ -25,10 +24,7 @@ void add_head(const fs::path& file, const std::string& name, const YamlNode& nod
   const std::string shown = quoted(file.string());
   expect_file(node, file, draft);
   if (!is_name(name)) {
-    draft.complaints.add_at(node,
-                            concat("the head's name, ", quoted(name),
-                                   ", comes from its file name; expected at most 64 ",
-                                   "letters (a-z), digits, '_', '-' and '.'; rename ", shown));
+    draft.complaints.add_at(node, objection_to_head_name(name, file));
   } else if (name == "all" || name == "target") {
     draft.complaints.add_at(node, concat("a head cannot have the name ", quoted(name),
                                          ", because the word is reserved; rename ", shown));
@@ -54,21 +50,6 @@ bool expect_head_count(const YamlNode& node, std::size_t count, const std::strin
   out.add_at(node,
              concat("expected ", kMinHeads, " to ", kMaxHeads, " heads, found ", count, where));
   return false;
-}
-
-/// Returns a hint for a folder without heads whose subfolders contain one mesh each: a pattern for
-/// these meshes. Empty if no pattern fits.
-std::string pattern_below(const fs::path& folder) {
-  for (const fs::path& below : list_folder(folder)) {
-    if (!is_folder(below)) continue;
-    const std::vector<fs::path> heads = list_heads(below);
-    if (heads.empty()) continue;
-    const std::string pattern = concat("*/", heads.front().filename().string());
-    if (files_like(folder / pattern).size() < kMinHeads) continue;
-    return concat("; if each head has its own folder, write files: \"",
-                  (folder.filename() / pattern).string(), "\"");
-  }
-  return {};
 }
 
 void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft) {

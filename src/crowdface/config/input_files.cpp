@@ -217,4 +217,32 @@ void check_paths(const Config& config, Problems& problems) {
   }
 }
 
+std::string pattern_below(const fs::path& folder) {
+  for (const fs::path& below : list_folder(folder)) {
+    if (!is_folder(below)) continue;
+    std::vector<fs::path> inner = {below};
+    for (const fs::path& entry : list_folder(below)) {
+      if (is_folder(entry)) inner.push_back(entry);
+    }
+    for (const fs::path& at : inner) {
+      const std::vector<fs::path> heads = list_heads(at);
+      if (heads.empty()) continue;
+      const fs::path pattern =
+          folder / "*" / (at / heads.front().filename()).lexically_relative(below);
+      if (files_like(pattern).size() < kMinHeads) continue;
+      return concat("; if each head has its own folder, set faces.files: \"",
+                    (folder.filename() / pattern.lexically_relative(folder)).string(),
+                    "\" in the config");
+    }
+  }
+  return {};
+}
+
+std::string objection_to_head_name(const std::string& name, const fs::path& file) {
+  return concat("the head's name, ", quoted(name),
+                ", comes from its file name; expected at most 64 letters (a-z), digits, '_', '-' "
+                "and '.'; rename ",
+                quoted(file.string()));
+}
+
 }  // namespace crowdface

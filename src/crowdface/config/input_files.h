@@ -25,6 +25,13 @@ std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folde
 /// list_heads; empty if there are none. \throws MissingInput if the folder cannot be read.
 std::string left_out_of_heads(const std::filesystem::path& folder);
 
+/// A hint for a folder without heads whose subfolders contain one mesh each: a pattern for these
+/// meshes, up to two folders deep. Empty if no pattern fits.
+std::string pattern_below(const std::filesystem::path& folder);
+
+/// The message for a head whose file gives it a name that is_name refuses.
+std::string objection_to_head_name(const std::string& name, const std::filesystem::path& file);
+
 /// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path: `*`
 /// matches any number of characters except '/', `?` matches one. Wildcards do not match hidden
 /// files.

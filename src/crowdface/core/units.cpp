@@ -49,7 +49,9 @@ LengthUnit nearest_unit(double length, double typical_mm) {
 LengthUnit fitting_unit(double length, double typical_mm) {
   const double mm = typical_mm / std::max(length, 1e-9);
   const double step = std::pow(10, std::floor(std::log10(mm)) - 1);
-  return {std::round(mm / step) * step};
+  const double digits = std::round(mm / step);
+  // The inverse of a step below 1 is a whole number, so that 2.3 does not become 2.3000000000000003.
+  return {step < 1 ? digits / std::round(1 / step) : digits * step};
 }
 
 std::optional<double> parse_length_mm(std::string_view text) {

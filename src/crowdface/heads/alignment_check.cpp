@@ -20,8 +20,9 @@ namespace {
 constexpr double kMaxDegrees = 6;
 constexpr double kMaxShift = 0.06;
 constexpr double kMaxScale = 1.3;
-constexpr double kOtherUnit = 5;  // ratio of sizes; beyond it, the head is in another unit
-constexpr double kMaxTurn = 45;   // degrees; a larger rotation cannot be blended as detail
+constexpr double kOtherUnit = 5;      // ratio of sizes; beyond it, the head is in another unit
+constexpr double kMaxTurn = 45;       // degrees; a larger rotation cannot be blended as detail
+constexpr double kTimesNearer = 2.5;  // a reflection that is so much nearer is no coincidence
 constexpr Index kPoints = 2000;
 
 /// Vertices of the skin at regular steps of their index.
@@ -41,6 +42,17 @@ std::vector<Index> some_skin(const Components& components, Index most) {
 double radius(const Positions& points) {
   const Eigen::RowVector3d middle = points.colwise().mean();
   return std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
+}
+
+/// Mean squared distance between a head and a reference after alignment.
+double misfit(const Positions& head, const Positions& reference) {
+  const Similarity fit = fit_similarity(head, reference, ScaleFit::kUniform);
+  return (fit.apply(head) - reference).rowwise().squaredNorm().mean();
+}
+
+bool is_mirrored(const Positions& head, const Positions& reference) {
+  const Positions mirrored = head * Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  return kTimesNearer * kTimesNearer * misfit(mirrored, reference) < misfit(head, reference);
 }
 
 HeadPose pose_against(const Positions& head, const Positions& reference) {
@@ -87,7 +99,10 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
   const auto reference =
       static_cast<std::size_t>(std::ranges::min_element(disagreement) - disagreement.begin());
   std::vector<HeadPose> poses;
-  for (const Positions& head : points) poses.push_back(pose_against(head, points[reference]));
+  for (const Positions& head : points) {
+    poses.push_back(pose_against(head, points[reference]));
+    poses.back().is_mirrored = is_mirrored(head, points[reference]);
+  }
   return poses;
 }
 
@@ -114,6 +129,12 @@ std::vector<std::string> align_heads(HeadSet& faces, const Components& component
   std::vector<std::string> warnings;
   const std::vector<HeadPose> poses = head_poses(faces, components);
   for (std::size_t h = 0; h < poses.size(); ++h) {
+    if (poses[h].is_mirrored) {
+      throw InvalidInput(concat(
+          "head ", faces.heads[h].name,
+          " is mirrored: left and right are swapped relative to the others; mirror it back (scale "
+          "it by -1 along one axis and flip its faces; faces.align: none skips this check)"));
+    }
     if (!is_off(poses[h])) continue;
     if (poses[h].scale > kOtherUnit || poses[h].scale < 1 / kOtherUnit) {
       throw InvalidInput(

@@ -15,6 +15,8 @@ struct HeadPose {
   double angle_degrees = 0;  ///< rotation that aligns the head with the reference
   double shift = 0;  ///< distance between the heads' centroids, as a fraction of the head's size
   double scale = 1;  ///< size of the head relative to the reference
+  /// A reflection brings the head several times nearer to the reference: left and right are swapped.
+  bool is_mirrored = false;
 };
 
 /// Poses of all heads relative to the medoid (the head nearest in pose to all others). Only skin
@@ -28,7 +30,7 @@ bool needs_rigid_alignment(const HeadSet& faces);
 /// Warns about heads that are rotated, shifted or scaled relative to the others, because blending
 /// would treat that as detail. With `check`, heads stay as they are; with `rigid`, each head is
 /// first aligned with the first head.
-/// \throws InvalidInput if a head has another unit or, with `check`, is rotated by more than 45
+/// \throws InvalidInput if a head is mirrored, has another unit or, with `check`, is rotated by more than 45
 ///         degrees.
 std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align);
 

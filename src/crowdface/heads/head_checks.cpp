@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/selection.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
@@ -44,6 +46,20 @@ std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found)
   return {};
 }
 
+/// Whether each face of `found` is a face of `first`.
+bool has_only_faces_of(const Topology& first, const Topology& found) {
+  std::set<std::vector<std::uint32_t>> faces;
+  for (Index f = 0; f < first.face_count(); ++f) {
+    const auto face = first.face(f);
+    faces.emplace(face.begin(), face.end());
+  }
+  for (Index f = 0; f < found.face_count(); ++f) {
+    const auto face = found.face(f);
+    if (!faces.contains({face.begin(), face.end()})) return false;
+  }
+  return true;
+}
+
 /// Explains which export setting gave a head another topology than the first, and how to fix it.
 std::string cause_of_difference(const Topology& first, const Topology& found) {
   const auto triangles = [](const Topology& topology) {
@@ -60,6 +76,10 @@ std::string cause_of_difference(const Topology& first, const Topology& found) {
     return found.face_count() > first.face_count()
                ? "; its polygons were cut into triangles: export it without triangulating"
                : "; its triangles were joined to polygons: export it like the others";
+  }
+  if (same_vertices && has_only_faces_of(first, found)) {
+    return concat("; it lacks ", first.face_count() - found.face_count(),
+                  " of the polygons: show hidden parts and export all parts again");
   }
   if (triangles(first) == triangles(found)) {
     return found.vertex_count > first.vertex_count
@@ -83,6 +103,11 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
       difference += cause_of_difference(first.topology, mesh.topology);
     } else {
       difference = first_uv_difference(first, mesh);
+      if (!difference.empty()) {
+        difference +=
+            "; give all heads the texture coordinates of one (Maya: Transfer Attributes, Blender: "
+            "Copy UV Maps)";
+      }
     }
     if (difference.empty()) continue;
     problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
@@ -90,8 +115,8 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
   }
 }
 
-void check_stance(const Config& config, const Inputs& inputs) {
-  if (config.faces.align == Align::kNone) return;
+std::optional<std::string> check_stance(const Config& config, const Inputs& inputs) {
+  if (config.faces.align == Align::kNone) return std::nullopt;
   // skin only: eyeballs are not used to find the face
   const HeadShape head{inputs.mean, skin_of(inputs), {}};
   const Topology& topology = inputs.faces.topology;
@@ -99,7 +124,12 @@ void check_stance(const Config& config, const Inputs& inputs) {
   auto marks = find_face_marks(topology, head, axes_of(asked));
   if (!marks) {
     const auto found = find_orientation(topology, head);
-    if (!found || *found == asked) return;
+    if (!found || *found == asked) {
+      const auto coarse = edges_too_long_for_a_face(topology, head, axes_of(asked));
+      if (!coarse) return std::nullopt;
+      return concat("no face is found on the mean head, so units, up and front are not checked: ",
+                    *coarse);
+    }
     throw InvalidInput(
         concat("the heads look along ", name_of(found->front), " with ", name_of(found->up),
                " up, but faces.front is ", name_of(asked.front), " and faces.up is ",
@@ -109,7 +139,7 @@ void check_stance(const Config& config, const Inputs& inputs) {
   // eyes to mouth: 45 mm (child) to about 85 mm, with a margin
   constexpr double kMinMm = 35, kMaxMm = 120;
   const double mm = marks->face() * mm_per(config.faces.units);
-  if (mm >= kMinMm && mm <= kMaxMm) return;
+  if (mm >= kMinMm && mm <= kMaxMm) return std::nullopt;
   const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
   const double units = up.maxCoeff() - up.minCoeff();
   constexpr double kTypicalMm = 65;
@@ -130,8 +160,9 @@ void check_stance(const Config& config, const Inputs& inputs) {
 std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
   // kMaxMm: distance up to which two heads may be the same person. kMaxOfOthers: the same as a
-  // fraction of the median distance between a head and its nearest head.
-  constexpr double kMaxMm = 1, kMaxOfOthers = 0.4;
+  // fraction of the median distance between a head and its nearest head. kIdenticalMm: copies of
+  // one head, also if there are no other heads to compare with.
+  constexpr double kMaxMm = 1, kMaxOfOthers = 0.4, kIdenticalMm = 0.01;
   const std::vector<Head>& heads = inputs.faces.heads;
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;
@@ -162,13 +193,17 @@ std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
     }
     nearest.push_back(least);
   }
-  std::ranges::sort(nearest);
-  const double middle = nearest[nearest.size() / 2];
   std::vector<std::string> warnings;
   for (std::size_t a = 0; a < heads.size(); ++a) {
     for (std::size_t b = a + 1; b < heads.size(); ++b) {
       const double mean = apart[a][b];
-      if (mean > kMaxMm || (mean > kMaxOfOthers * middle && mean > 0)) continue;
+      std::vector<double> others;
+      for (std::size_t c = 0; c < heads.size(); ++c) {
+        if (c != a && c != b) others.push_back(nearest[c]);
+      }
+      const double middle =
+          others.empty() ? 0 : nth_smallest(std::move(others), (heads.size() - 2) / 2);
+      if (mean > kMaxMm || (mean > kMaxOfOthers * middle && mean > kIdenticalMm)) continue;
       warnings.push_back(concat("heads ", heads[a].name, " and ", heads[b].name, " are ",
                                 format_fixed(mean, 2),
                                 " mm apart (rms): are they the same person? Faces that mix the two "

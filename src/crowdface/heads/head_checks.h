@@ -17,9 +17,11 @@ namespace crowdface {
 /// the export setting that probably caused it.
 void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
+/// Warns if the heads look in the direction that the config says, but show too little of a face to
+/// measure it.
 /// \throws InvalidInput if the heads face another direction than the config says, or have an
 ///         impossible size: every measurement would then be wrong.
-void check_stance(const Config& config, const Inputs& inputs);
+std::optional<std::string> check_stance(const Config& config, const Inputs& inputs);
 
 /// Warns about each pair of heads whose shapes suggest that they belong to the same person.
 /// \param mm  millimetres per file unit

@@ -270,7 +270,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
   try {
-    check_stance(config, inputs);
+    if (auto text = check_stance(config, inputs)) inputs.warn(std::move(*text));
     const std::string key = mirroring_key(config);
     if (!key.empty()) inputs.mirror = mirror_for(config, inputs, key);
   } catch (const RecoverableError& error) {

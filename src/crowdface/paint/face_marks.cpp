@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "crowdface/core/selection.h"
+#include "crowdface/core/text.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/parts/part_list.h"
@@ -358,6 +359,31 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
   if (!match || match->votes < kMinVotes) return std::nullopt;
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
   return orientations[match->view];
+}
+
+std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
+                                                     const HeadShape& head, const HeadAxes& axes) {
+  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
+  const auto match = match_relief(samples, {axes}, head.eyeballs);
+  if (!match || match->votes < kMinVotes) return std::nullopt;
+  const double edge_mm = edge_length_near(topology, head, *match) / match->scale;
+  if (edge_mm <= kCoarsestMm) return std::nullopt;
+  return concat("the edges of its polygons are about ", format_fixed(edge_mm, 0),
+                " mm long; above ", kCoarsestMm,
+                " mm they do not show a face: use a mesh with more polygons");
+}
+
+std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
+                              const HeadAxes& axes) {
+  if (const auto found = find_orientation(topology, head)) {
+    const HeadAxes other = axes_of(*found);
+    if (other.up != axes.up || other.front != axes.front) {
+      return concat("the heads look along ", name_of(found->front), " with ", name_of(found->up),
+                    " up");
+    }
+  }
+  return edges_too_long_for_a_face(topology, head, axes)
+      .value_or("it has no relief of a face (nose, eye sockets, mouth and chin)");
 }
 
 }  // namespace crowdface

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "crowdface/core/units.h"
@@ -60,5 +61,12 @@ std::vector<Orientation> all_orientations();  ///< the 24 axis-aligned orientati
 /// face matches best.
 /// \return nothing if no orientation shows a face.
 std::optional<Orientation> find_orientation(const Topology& topology, const HeadShape& head);
+
+/// Message if the edges of a face are too long to show it, although its relief is there.
+std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
+                                                     const HeadShape& head, const HeadAxes& axes);
+/// Why `find_face` finds nothing, for messages: other axes, edges that are too long, or no face.
+std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
+                              const HeadAxes& axes);
 
 }  // namespace crowdface

@@ -54,14 +54,10 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
                                      const std::vector<Band>& bands) {
   const auto marks = find_face_marks(topology, mean, axes_of(orientation));
   if (!marks) {
-    const auto other = find_orientation(topology, mean);
-    throw InvalidInput(concat("no face is found that looks along ", name_of(orientation.front),
-                              " with ", name_of(orientation.up), " up: ",
-                              other ? concat("the heads look along ", name_of(other->front),
-                                             " with ", name_of(other->up), " up")
-                                    : "no part of the mean head has the relief of a face (nose, "
-                                      "eye sockets, mouth and chin), or its polygons are too "
-                                      "large to show one; paint the mask by hand"));
+    throw InvalidInput(concat(
+        "no face is found that looks along ", name_of(orientation.front), " with ", name_of(orientation.up),
+        " up on the mean head: ", reason_of_no_face(topology, mean, axes_of(orientation)),
+        "; or paint the mask by hand"));
   }
   return propose_bands(topology, mean, *marks, bands);
 }

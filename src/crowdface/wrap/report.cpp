@@ -155,9 +155,13 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   }
   const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
   if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
-    warnings.push_back(
-        "no face was recognised on the scan or on the template, so the place of the face is not "
-        "verified: check the picture, or pick four landmarks or more");
+    warnings.push_back(concat(
+        "no face was recognised on the ",
+        shape.face ? "scan"
+                   : concat("template (",
+                            reason_of_no_face(shape.topology, head_shape(shape), shape.axes), ')'),
+        ", so the place of the face is not verified: check the picture, or pick four landmarks or "
+        "more"));
   }
   if (result.flipped > 0) {
     warnings.push_back(concat(result.flipped, " triangles are flipped"));
