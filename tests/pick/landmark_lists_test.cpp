@@ -31,6 +31,11 @@ TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
       " <point active=\"1\" name=\"nose tip\" z=\"6\" y=\"5\"\n x=\"4\"/>\n"
       " <point x=\"0\" y=\"0\" z=\"0\" name=\"off\" active=\"0\"/>\n</PickedPoints>\n");
   expect_chin_and_nose("picked.csv", "name,x,y,z\r\nchin,1,-2.5,3\r\n\"nose tip\",4,5,6\r\n");
+  expect_chin_and_nose("picked.csv", "Name;X;Y;Z\nchin;1,0;-2,5;3,0\nnose tip;4;5;6\n");
+  expect_chin_and_nose("slicer.fcsv",
+                       "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
+                       "vtkMRMLMarkups_0,1,-2.5,3,0,0,0,1,1,1,0,chin,,\r\n"
+                       "vtkMRMLMarkups_1,4,5,6,0,0,0,1,1,1,0,nose tip,,\r\n");
   expect_chin_and_nose("picked.tsv", "1\t-2.5\t3\tchin\n4\t5\t6\tnose tip\n");
   expect_chin_and_nose("picked.json",
                        R"({"chin": [1, -2.5, 3], "nose tip": {"x": 4, "y": 5, "z": 6}})");
@@ -81,6 +86,8 @@ TEST(LandmarkLists, WhatIsWrongIsNamedWithItsPlace) {
   refuse("d.json", R"({"chin": [1, 2]})", "chin: expected a vertex or x, y, z");
   refuse("e.csv", "chin,1.5\n", "the number of a vertex");
   refuse("f.json", "{}", "found none");
+  refuse("g.pts", "version: 1\nn_points: 1\n{\n1 2 3\n}\n", "expected landmarks as .yaml, .pp");
+  refuse("h.fcsv", "a,1,2\n", ":1: expected id, x, y, z");
 }
 
 }  // namespace

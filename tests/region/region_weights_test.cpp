@@ -211,6 +211,11 @@ TEST(RegionWeights, OneImageMayBeOneRegion) {
       strip.topology, strip.uvs, {MaskSource("a/lip.png", grey), MaskSource("a/brow.png", alpha)},
       2, {}, {"brow", "lip"});
   EXPECT_EQ(by_name.alpha.row(0), Eigen::RowVector2d(0, 1));
+  const auto by_word = region_weights(
+      strip.topology, strip.uvs,
+      {MaskSource("a/mask_Lip_v2.png", grey), MaskSource("a/mask_brow_v2.png", alpha)}, 2, {},
+      {"brow", "lip"});
+  EXPECT_EQ(by_word.alpha, by_name.alpha);
   const Image colours = image_of(1, 1, 3, {0.1F, 0.2F, 0.3F});
   EXPECT_THAT(
       message_of_masks(strip, {MaskSource("c.png", colours), MaskSource("d.png", colours)}, 2),

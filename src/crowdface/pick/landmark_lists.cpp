@@ -92,6 +92,26 @@ void read_picked_points(std::string_view text, PlaceList& list) {
   }
 }
 
+/// Reads the markups of 3D Slicer before version 4.13: id, x, y, z, orientation, flags, label, ….
+void read_fcsv(std::string_view text, PlaceList& list) {
+  constexpr std::size_t kLabel = 11;
+  std::size_t line_number = 0;
+  for (std::string_view line : split_lines(text)) {
+    ++line_number;
+    line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    if (line.empty() || line.starts_with('#')) continue;
+    const std::vector<std::string_view> fields = split(line, ',');
+    const std::string where = concat(':', line_number);
+    std::vector<double> point;
+    for (std::size_t k = 1; k <= 3 && k < fields.size(); ++k) {
+      if (const auto number = parse_double(fields[k])) point.push_back(*number);
+    }
+    if (point.size() != 3) list.fail(where, "expected id, x, y, z, …, as 3D Slicer writes them");
+    const bool is_labelled = fields.size() > kLabel && !fields[kLabel].empty();
+    list.add(std::string(fields[is_labelled ? kLabel : 0]), point, where);
+  }
+}
+
 /// Reads a name and numbers per line, separated by tabs, semicolons, commas or blanks. The first
 /// line may be a header.
 void read_table(std::string_view text, PlaceList& list) {
@@ -111,7 +131,9 @@ void read_table(std::string_view text, PlaceList& list) {
       word.remove_prefix(std::min(word.find_first_not_of(kAround), word.size()));
       word = word.substr(0, word.find_last_not_of(kAround) + 1);
       if (word.empty()) continue;
-      if (const auto number = parse_double(word)) {
+      std::string with_point(word);  // some systems write a decimal comma
+      std::ranges::replace(with_point, ',', '.');
+      if (const auto number = parse_double(with_point)) {
         numbers.push_back(*number);
       } else if (name.empty()) {
         name = word;
@@ -212,9 +234,12 @@ std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     read_picked_points(text, list);
   } else if (text.starts_with('{') || text.starts_with('[')) {
     if (!read_json(text, list)) return std::nullopt;
-  } else if (ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".xyz" ||
-             ending == ".fcsv") {
+  } else if (ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".xyz") {
     read_table(bytes, list);
+  } else if (ending == ".fcsv") {
+    read_fcsv(bytes, list);
+  } else if (!ending.empty() && ending != ".yaml" && ending != ".yml" && ending != ".json") {
+    list.fail("", "expected landmarks as .yaml, .pp, .csv, .tsv, .txt, .xyz, .json, .fcsv or .npy");
   } else {
     return std::nullopt;
   }

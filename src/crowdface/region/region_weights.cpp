@@ -2,8 +2,11 @@
 #include "crowdface/region/region_weights.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -250,19 +253,37 @@ std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
   return found;
 }
 
+/// Whether a file name contains a region's name as a word: `mask_brow` contains `brow`.
+bool has_word(const std::string& file, const std::string& word) {
+  const auto is_inside = [&](std::size_t at) {
+    return at < file.size() && std::isalnum(static_cast<unsigned char>(file[at])) != 0;
+  };
+  for (std::size_t at = file.find(word); at != file.npos; at = file.find(word, at + 1)) {
+    if ((at == 0 || !is_inside(at - 1)) && !is_inside(at + word.size())) return true;
+  }
+  return false;
+}
+
 /// The image of each region, if there is one image per region: by file name if all match, otherwise
 /// in order.
 std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& sources,
                                            const std::vector<std::string>& regions) {
-  std::vector<std::size_t> by_name, by_order;
-  for (std::size_t r = 0; r < sources.size(); ++r) {
-    by_order.push_back(r);
-    for (std::size_t m = 0; m < sources.size() && r < regions.size(); ++m) {
-      const std::string file = std::filesystem::path(sources[m].path()).stem().string();
-      if (lower_case(file) == lower_case(regions[r])) by_name.push_back(m);
+  std::vector<std::size_t> by_order(sources.size());
+  std::iota(by_order.begin(), by_order.end(), std::size_t{0});
+  const auto named = [&](const auto& is_of) {
+    std::vector<std::size_t> by_name;
+    for (const std::string& region : regions) {
+      for (std::size_t m = 0; m < sources.size(); ++m) {
+        const std::string file = std::filesystem::path(sources[m].path()).stem().string();
+        if (is_of(lower_case(file), lower_case(region))) by_name.push_back(m);
+      }
     }
+    return by_name;
+  };
+  for (const auto& by_name : {named(std::equal_to<std::string>()), named(has_word)}) {
+    if (std::ranges::is_permutation(by_name, by_order)) return by_name;
   }
-  return by_name.size() == sources.size() ? by_name : by_order;
+  return by_order;
 }
 
 /// The channel of each region; a region without a channel gets the remainder of the others.
