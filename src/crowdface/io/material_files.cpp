@@ -188,22 +188,30 @@ class Collector {
       if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
-    // The path may come from another machine, or have the encoding of another system.
+    // The path may come from another machine, or have the encoding of another system: look for the
+    // file name beside the head, then search it.
     for (const std::string_view tail : tails) {
-      std::vector<std::string> names = legacy_readings(tail);
-      names.emplace_back(tail);
-      for (const std::string& name : names) {
-        const fs::path path = with_forward_slashes(name);
-        if (path.native().find('\0') != std::string::npos) continue;
-        if (path.filename().native().find(kTileWord) != std::string::npos) {
-          const fs::path beside = folder / path.filename();
-          if (exists(with_tile(beside, kFirstTile))) return known->second = beside;
-        } else if (const auto found = search_texture(folder_ / folder, path, mesh_.stem())) {
-          return known->second = folder / *found;
-        }
+      for (const std::string& name : readings_of(tail)) {
+        const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
+        if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
+          continue;
+        if (!exists(beside) && !exists(with_tile(beside, kFirstTile))) continue;
+        return known->second = beside;
       }
     }
+    for (const std::string& name : readings_of(has_options ? tails.back() : rest)) {
+      if (name.find('\0') != name.npos || ++searches_ > kMaxSearches) break;
+      const auto found = search_texture(folder_ / folder, with_forward_slashes(name), mesh_.stem());
+      if (found) return known->second = folder / *found;
+    }
     return known->second;
+  }
+
+  /// A name as it stands in the file, after its readings in other encodings.
+  static std::vector<std::string> readings_of(std::string_view text) {
+    std::vector<std::string> names = legacy_readings(text);
+    names.emplace_back(text);
+    return names;
   }
 
   void take_texture(const fs::path& relative) {
@@ -222,6 +230,8 @@ class Collector {
   fs::path mesh_, folder_;
   std::set<std::string> materials_;  ///< materials defined in all libraries
   Names libraries_, textures_;
+  static constexpr int kMaxSearches = 64;  ///< each lists the folder and its subfolders
+  int searches_ = 0;
   std::set<fs::path> destinations_;
   /// Texture path for the text of each statement; valid within one library.
   std::map<std::string, fs::path> textures_of_;
