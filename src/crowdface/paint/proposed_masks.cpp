@@ -54,10 +54,10 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
                                      const std::vector<Band>& bands) {
   const auto marks = find_face_marks(topology, mean, axes_of(orientation));
   if (!marks) {
-    throw InvalidInput(concat(
-        "no face is found that looks along ", name_of(orientation.front), " with ", name_of(orientation.up),
-        " up on the mean head: ", reason_of_no_face(topology, mean, axes_of(orientation)),
-        "; or paint the mask by hand"));
+    throw InvalidInput(concat("no face is found that looks along ", name_of(orientation.front),
+                              " with ", name_of(orientation.up), " up on the mean head: ",
+                              reason_of_no_face(topology, mean, axes_of(orientation)),
+                              "; or paint the mask by hand"));
   }
   return propose_bands(topology, mean, *marks, bands);
 }
