@@ -55,9 +55,9 @@ std::string_view age_class(double years) {
   return years >= kAdultFrom ? "adult" : "young";
 }
 
-std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view add_at) {
+std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view title) {
   std::string out =
-      concat("# ", add_at, ". Copy this into the section faces of a config.\n# young: under ",
+      concat("# ", title, ". Copy this into the section faces of a config.\n# young: under ",
              kAdultFrom, " years; old: ", kOldFrom, " years or more; adult: between.\n",
              "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
   for (const TaggedHead& head : heads) {

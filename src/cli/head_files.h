@@ -46,8 +46,8 @@ std::string_view age_class(double years);
 
 /// Returns YAML with the section `faces`, which contains only tags ([female, old]). The ages are
 /// comments in this YAML.
-/// \param add_at  first line of the comment at the top, without "# ": a description of the heads.
-std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view add_at);
+/// \param title  first line of the comment at the top, without "# ": a description of the heads.
+std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view title);
 
 /// Returns a name with at least two digits: "synth_01".
 std::string head_name(std::string_view kind, std::uint64_t index);

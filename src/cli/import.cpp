@@ -56,8 +56,8 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
     }
   }
   if (tagged.empty()) return;
-  const std::string add_at = concat("Heads of the ", kind, " model, seed ", wanted.seed);
-  files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, add_at)));
+  const std::string title = concat("Heads of the ", kind, " model, seed ", wanted.seed);
+  files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, title)));
 }
 
 /// Paints the region masks. The caller does this before it writes files, because the function fails

@@ -247,9 +247,9 @@ TEST_F(Refusals, ADryRunOfAMillionTellsTheBytes) {
   EXPECT_EQ(outcome.code, 0) << outcome.message;
   const double each = static_cast<double>(fs::file_size(folder_.head("ann")));
   const std::string text = read_text(said);
-  const std::size_t add_at = text.find("about ");
-  ASSERT_NE(add_at, text.npos) << text;
-  EXPECT_NEAR(std::stod(text.substr(add_at + 6)), each, each / 10)
+  const std::size_t found = text.find("about ");
+  ASSERT_NE(found, text.npos) << text;
+  EXPECT_NEAR(std::stod(text.substr(found + 6)), each, each / 10)
       << "MB for a million: bytes a face";
   EXPECT_FALSE(fs::exists(folder_.out()));
 }

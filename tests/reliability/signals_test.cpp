@@ -138,10 +138,12 @@ TEST_F(Signals, EndEveryCommandAndTheNextRunGoesOn) {
           << outcome.code << outcome.err;
       for (const auto& [file, bytes] : files()) {
         if (file.ends_with("ledger.jsonl") || file.ends_with("planned.json")) continue;
-        const auto is_in = [&](const Files& all) {
-          return all.contains(file) && all.at(file) == bytes;
+        const auto is_in = [](const Files& all, const std::string& path,
+                              const std::string& content) {
+          return all.contains(path) && all.at(path) == content;
         };
-        EXPECT_TRUE(is_in(whole) || is_in(before)) << file << " after " << outcome.code;
+        EXPECT_TRUE(is_in(whole, file, bytes) || is_in(before, file, bytes))
+            << file << " after " << outcome.code;
       }
       EXPECT_EQ(run(command, most, SIGTERM).code, 0);
       EXPECT_THAT(differing_files(whole, files()), ::testing::IsEmpty());

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMin = 3;
+constexpr std::size_t kMinPairs = 3;
 
 struct Pair {
   std::string name;
@@ -32,10 +32,10 @@ std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
 
 /// Whether the places determine a rotation: places on a line do not.
 bool spread_out(const Positions& places) {
-  constexpr double kMin = 0.1;
+  constexpr double kMinRatio = 0.1;
   const Positions centred = places.rowwise() - places.colwise().mean();
   const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues();
-  return values(1) > kMin * values(0);
+  return values(1) > kMinRatio * values(0);
 }
 
 /// Fits the pairs with `used`, except pair `without`.
@@ -45,7 +45,7 @@ std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (used[i] && i != without) rows.push_back(i);
   }
-  if (rows.size() < kMin) return std::nullopt;
+  if (rows.size() < kMinPairs) return std::nullopt;
   const auto count = static_cast<Index>(rows.size());
   Positions from(count, 3), to(count, 3);
   for (Index r = 0; r < count; ++r) {

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 /// Rounds to one significant digit: 3,480 becomes 3,000.
-std::uint64_t add_at(double count) {
+std::uint64_t rounded_estimate(double count) {
   const double unit = std::pow(10, std::floor(std::log10(count)));
   return static_cast<std::uint64_t>(std::round(count / unit) * unit);
 }
@@ -71,7 +71,7 @@ void ScarcityWarning::face_joined(const Rejections& thrown) {
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {
     foreseen_ = true;
-    log_warning(concat("about ", add_at(*faces), " faces fit at diversity.min_distance ",
+    log_warning(concat("about ", rounded_estimate(*faces), " faces fit at diversity.min_distance ",
                        casting_.diversity.min_distance_mm,
                        " mm (estimate, to a factor of three), but ", casting_.count,
                        " were requested: choose a smaller min_distance (crowdface plan --estimate "
