@@ -194,10 +194,10 @@ TEST_F(Outputs, PathsThatNoConfigCanHoldAreRefused) {
   }
 }
 
-TEST_F(Outputs, NamesInCommentsOfAConfigStayThere) {
+TEST_F(Outputs, NamesThatNoConfigTakesWriteNone) {
   fs::copy(folder_.head("ann"), folder_ / "heads/a\nregions: {}.obj");
-  crowdface(0, {"init", at("heads"), "-o", at("new.yaml")});
-  EXPECT_EQ(read_text(folder_ / "new.yaml").find("\nregions: {}"), std::string::npos);
+  crowdface(65, {"init", at("heads"), "-o", at("new.yaml")}, {"a\\x0aregions: {}", "rename"});
+  EXPECT_FALSE(fs::exists(folder_ / "new.yaml"));
 }
 
 }  // namespace
