@@ -383,7 +383,7 @@ const said = (pattern) => page.waitForFunction(
   (text) => new RegExp(text).test(document.querySelector('.message').textContent), pattern, { timeout: 120000 });
 await page.getByRole('button', { name: 'Put back' }).click();
 await page.getByRole('button', { name: 'Save it under recipes' }).click();
-await said('made_by_hand stands under recipes');
+await said('made_by_hand is saved under recipes');
 for (let i = 0; i < 2; i += 1) await page.keyboard.press(']'); // the first is written by hand
 await settled();
 const opened = await editor('editor.document.face');
