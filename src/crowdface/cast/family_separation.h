@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/constraints.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_space.h"
 
