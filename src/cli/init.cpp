@@ -120,10 +120,9 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     return {read_mesh_as_obj(files[0]).positions, {}, {}};
   }
   // The config aligns these heads; their mean has a face only then.
-  const bool stands_apart = needs_rigid_alignment(*set);
-  if (stands_apart) {
-    align_heads(*set, find_components(build_adjacency(set->topology)), Align::kRigid);
-  }
+  const Components components = find_components(build_adjacency(set->topology));
+  const bool stands_apart = needs_rigid_alignment(*set, components);
+  if (stands_apart) align_heads(*set, components, Align::kRigid);
   const HeadShape mean = shape_of_mean(*set);
   Seen seen{set->heads[0].positions, find_orientation(set->topology, mean), {}};
   if (const auto marks = find_face_marks(

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A head and its weight in a blend: for heads that lend detail, the weight is ω̂.
+/// A head and its weight in a blend. The weights of the heads that lend detail are the normalised ω̂.
 struct SourceWeight {
   Index head = 0;
   double weight = 0;

@@ -150,8 +150,8 @@ class AttachmentDrawing {
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// Chooses at random, by their shares, among the items that are due: due among similar faces, and
-  /// if several are, also among all sampled faces.
+  /// Draws one of the items that are due among similar faces. If several are due, only those that
+  /// are also due among all sampled faces take part. Probabilities are proportional to the items' shares.
   const AttachmentItem* next_of(const Items& items, const FacePlan& face, double drawn) const {
     Items next = items;
     if (const auto own = turns_.find(alike(face)); own != turns_.end())

@@ -106,9 +106,8 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
   return poses;
 }
 
-bool needs_rigid_alignment(const HeadSet& faces) {
-  const std::vector<HeadPose> poses =
-      head_poses(faces, find_components(build_adjacency(faces.topology)));
+bool needs_rigid_alignment(const HeadSet& faces, const Components& components) {
+  const std::vector<HeadPose> poses = head_poses(faces, components);
   return std::ranges::any_of(poses, is_off) && std::ranges::none_of(poses, is_of_other_size);
 }
 

@@ -25,7 +25,7 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
 
 /// Whether `align_heads` would warn about a head and a rigid motion would help: the heads have one
 /// size, and some head is rotated or shifted relative to the others.
-bool needs_rigid_alignment(const HeadSet& faces);
+bool needs_rigid_alignment(const HeadSet& faces, const Components& components);
 
 /// Warns about heads that are rotated, shifted or scaled relative to the others, because blending
 /// would treat that as detail. With `check`, heads stay as they are; with `rigid`, each head is

@@ -160,10 +160,13 @@ const fs::path& scratch_folder() {
     fs::path path;
     Scratch() {
       std::error_code error;
-      const fs::path parent = fs::temp_directory_path(error);
-      std::string name = ((error ? fs::path("/tmp") : parent) / "crowdface-XXXXXX").string();
+      std::string name = (fs::temp_directory_path(error) / "crowdface-XXXXXX").string();
+      if (error) {
+        throw CannotCreate(concat("no folder for temporary files: ", error.message(),
+                                  "; set TMPDIR to one that exists"));
+      }
       if (::mkdtemp(name.data()) == nullptr)
-        throw CannotCreate(concat(name, ": cannot be created: ", reason()));
+        throw_with_reason<CannotCreate>(name, "cannot be created");
       path = name;
     }
     ~Scratch() {

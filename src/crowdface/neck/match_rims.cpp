@@ -5,14 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/all_columns.h"
-#include "crowdface/parts/rigid_motion.h"
 
 namespace crowdface {
 namespace {
@@ -59,15 +57,8 @@ struct RigidFit {
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {
-  std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
-  std::iota(all.begin(), all.end(), 0U);
-  RigidMotion motion = fit_rigid_motion(from, to, all, std::vector<double>(all.size(), 1.0));
-  motion.scale = 1;
-  Positions left(from.rows(), 3);
-  for (Index i = 0; i < from.rows(); ++i) {
-    left.row(i) = row3(to, i) - motion.apply(row3(from, i));
-  }
-  return {Similarity{motion.rotation}.angle_degrees(), root_mean_square(left)};
+  const Similarity motion = fit_similarity(from, to, ScaleFit::kRigid);
+  return {motion.angle_degrees(), root_mean_square(to - motion.apply(from))};
 }
 
 /// `rim` with the start `shift`, traversed forwards or backwards.

@@ -16,10 +16,10 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the eyeball's radius, about 12 mm. Distances from the eyeball's centre:
-// up to kWholeShare, closing moves the skin fully; from kNoShare on, not at all.
+// closer than kWholeShare, the skin follows the lid fully; farther than kNoShare, it stays.
 constexpr double kWholeShare = 1.8, kNoShare = 3;
-// Distances from the eyeball's surface: up to kWholeHold, skin is kept off the eyeball fully; from
-// kNoHold on, not at all.
+// Distances from the eyeball's surface: skin closer than kWholeHold is kept off the eyeball fully,
+// skin farther than kNoHold is not.
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;
 constexpr std::size_t kPlaces = 52;  // number of places along the opening
 constexpr double kProfile = 0.35;    // radius of a profile around its place

@@ -20,8 +20,8 @@ namespace {
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // rings of triangles to search around skin that may meet
 constexpr int kRings = 2;
-// Distances from intersections, at rest: up to kEvened, displacements are averaged fully; from
-// kNotEvened on, not at all.
+// Distances from intersections, at rest: displacements closer than kEvened are replaced by their
+// average, displacements farther than kNotEvened are kept.
 constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
