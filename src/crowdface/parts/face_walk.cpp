@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "crowdface/core/interrupt.h"
+
 namespace crowdface {
 
 MirroredWalk::MirroredWalk(const Topology& topology, const VertexFaces& around)
@@ -67,6 +69,7 @@ bool MirroredWalk::go(DirectedEdge edge, DirectedEdge other,
                       const std::function<bool(const MirroredPair&)>& goes_on) {
   if (!reach(edge, other) || faces_.empty()) return false;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (f % 4096 == 0) throw_if_interrupted();
     if (!pair_corners(FacePair(faces_[f]), goes_on)) return false;
     const auto face = topology_.face(faces_[f].here.face);
     for (std::size_t i = 0; i < face.size(); ++i) {
