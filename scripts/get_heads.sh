@@ -9,6 +9,7 @@
 #   … --seed S        other heads; the same seed gives the same ones (default 1)
 #   … --vertices V    makehuman only: refined to about so many vertices
 #   … --dress         makehuman only: with skin, eyes, lashes and teeth; hair, brows and beards beside them
+#   … --body          makehuman only: with the body that fits the heads (docs/neck.md)
 #   … --force         replaces files in DIR that hold something else
 #
 # What is downloaded is kept in $XDG_CACHE_HOME/crowdface-models. Neither data set is part of
@@ -24,7 +25,7 @@ say() { echo "get_heads: $*" >&2; }
 [ $# -ge 3 ] || usage
 model=$1 count=$2 out=$3
 shift 3
-data='' seed=1 vertices='' dress='' force=''
+data='' seed=1 vertices='' dress='' body='' force=''
 while [ $# -gt 0 ]; do
   if [ "$1" = --force ]; then
     force=--force
@@ -33,6 +34,11 @@ while [ $# -gt 0 ]; do
   fi
   if [ "$1" = --dress ]; then
     dress=--dress
+    shift
+    continue
+  fi
+  if [ "$1" = --body ]; then
+    body=--body
     shift
     continue
   fi
@@ -112,6 +118,7 @@ if [ -z "$data" ]; then "fetch_$model"; fi
 options=(--data "$data" -o "$out" --count "$count" --seed "$seed")
 if [ -n "$vertices" ]; then options+=(--vertices "$vertices"); fi
 if [ -n "$dress" ]; then options+=("$dress"); fi
+if [ -n "$body" ]; then options+=("$body"); fi
 if [ -n "$force" ]; then options+=("$force"); fi
 "$program" import "$model" "${options[@]}"
 

@@ -29,7 +29,7 @@ constexpr std::uint64_t kMinVertices = 1000, kMaxVertices = 2'000'000;
 
 struct ImportOptions : CommonOptions {
   std::string model, data, out, count = "16", seed = "1", vertices, textures;
-  bool dress = false, force = false;
+  bool dress = false, body = false, force = false;
 };
 
 struct Wanted {
@@ -113,12 +113,8 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
           : subdivision_rounds(topology,
                                static_cast<Index>(whole_number("--vertices", options.vertices,
                                                                kMinVertices, kMaxVertices)));
-  Index vertices = topology.vertex_count;
   const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
-  const auto encode = [&](const Positions& positions, const std::string& name) {
-    Mesh mesh = model.neutral();
-    mesh.positions = positions;
-    std::vector<MaterialRange> materials = model.materials();
+  const auto refined = [&](Mesh mesh, std::vector<MaterialRange>& materials) {
     for (int round = 0; round < rounds; ++round) {
       // Subdivision makes one quad per corner, so the index of a range's first face becomes the
       // index of this face's first corner.
@@ -127,6 +123,12 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
       }
       mesh = subdivide(mesh);
     }
+    return mesh;
+  };
+  Index vertices = topology.vertex_count;
+  const auto encode = [&](const Positions& positions, const std::string& name) {
+    std::vector<MaterialRange> materials = model.materials();
+    const Mesh mesh = refined({topology, positions, model.neutral().uvs}, materials);
     vertices = mesh.topology.vertex_count;
     return encode_obj(mesh, "a head of the MakeHuman model, made by crowdface import; cm",
                       materials, dress && !name.empty() ? concat(name, ".mtl") : std::string());
@@ -144,9 +146,21 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
     dress->add_common(wanted.directory, {{}, [&] { return encode(model.neutral().positions, {}); }},
                       files);
   }
+  if (options.body) {
+    const fs::path folder = wanted.directory / "body";
+    files.push_back({folder / "body.obj", [&] {
+                       std::vector<MaterialRange> materials = {{"skin", 0}};
+                       const Mesh body = refined(model.body(), materials);
+                       return encode_obj(
+                           body, "the body of the MakeHuman model, made by crowdface import; cm",
+                           materials, dress ? "body.mtl" : "");
+                     }});
+    if (dress) dress->add_body(folder, files);
+  }
   write_head_files("makehuman heads", files, options.force);
   log_info(concat(wanted.count, " heads of ", vertices,
                   " vertices, with region masks and tags, in ", wanted.directory.string()));
+  if (options.body) log_info(concat("body in ", (wanted.directory / "body").string()));
   if (dress) {
     log_info(concat("hair, brows and beards in ", (wanted.directory / "attachments").string(),
                     "; authors and licences in ", (wanted.directory / "licences.txt").string()));
@@ -156,6 +170,9 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
 void import_ict(const ImportOptions& options, const Wanted& wanted) {
   if (options.dress || !options.textures.empty()) {
     throw UsageError("--dress and --textures: only makehuman heads have attachments and textures");
+  }
+  if (options.body) {
+    throw UsageError("--body: only the makehuman model has a body");
   }
   if (!options.vertices.empty()) {
     throw UsageError(
@@ -213,6 +230,9 @@ void declare_import(CLI::App& command, ImportOptions& options) {
            "beards to DIR/attachments");
   add_option(command, "--textures", options.textures, "SIZE",
              "With --dress: shrink larger textures to this many texels per side (default: 1024)");
+  add_flag(command, "--body", options.body,
+           "makehuman: also write the body that fits the heads to DIR/body/body.obj, with --dress "
+           "also its texture; see docs/neck.md");
   add_flag(command, "--force", options.force, "Replace existing files with other contents");
 }
 

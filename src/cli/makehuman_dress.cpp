@@ -216,6 +216,21 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
                                max_texels_));
 }
 
+void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& files) const {
+  constexpr double kYears = 35;
+  std::vector<SkinShare> shares;
+  for (const bool male : {false, true}) {
+    const MakeHumanPerson person{male, kYears, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    for (SkinShare& share : makehuman_skin(package_, person, 0, 0)) {
+      shares.push_back({std::move(share.picture), share.share / 2});
+    }
+  }
+  files.push_back(text_file(folder / "body.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd body.png\n"));
+  files.push_back({folder / "body.png", [shares = std::move(shares), most = max_texels_] {
+                     return encoded(shrunk(mixed_skin(shares, 1), most));
+                   }});
+}
+
 void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
                                 std::vector<HeadFile>& files) {
   const fs::path textures = folder / "textures", attachments = folder / "attachments";

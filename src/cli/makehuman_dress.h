@@ -27,6 +27,9 @@ class MakeHumanDress {
   /// Adds a person's material file `NAME.mtl`, skin texture `NAME_skin.png`, and eye texture.
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
                   std::uint64_t index, std::vector<HeadFile>& files);
+  /// Adds the body's material file `body.mtl` and its texture `body.png`: the mean of the skins of a
+  /// woman and a man of mixed ancestry.
+  void add_body(const std::filesystem::path& folder, std::vector<HeadFile>& files) const;
   /// Adds the files that all heads share: textures of lashes, teeth and tongue; the folder
   /// `attachments` with the hair, brows and beards that the persons added so far may wear, and with
   /// the config section that lists these attachments; `licences.txt`.

@@ -51,6 +51,34 @@ TEST(Import, MakeHumanHeadsAreReadyForACrowd) {
               ::testing::Eq("eyeball_l"));
 }
 
+TEST(Import, TheMakeHumanBodyFitsItsHeads) {
+  const TemporaryFolder folder;
+  write_makehuman(folder / "package");
+  write_makehuman_wardrobe(folder / "package");
+  const auto import = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"import",  "makehuman",
+                                          "--data",  (folder / "package").string(),
+                                          "-o",      (folder / "heads").string(),
+                                          "--count", "3",
+                                          "--body",  "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    crowdface(0, arguments, {"body in "});
+  };
+  const fs::path config = folder.write(
+      "crowd.yaml", concat("schema: 1\ncrowd: {name: mob, count: 1}\noutput: {directory: out}\n",
+                           "faces: {directory: heads, units: cm, align: none}\n",
+                           "neck: {body: heads/body/body.obj}\n"));
+  import({});
+  EXPECT_FALSE(fs::exists(folder / "heads/body/body.png"));
+  crowdface(0, {"check", config.string()}, {"is fine"});
+  import({"--vertices", "1100"});
+  crowdface(0, {"check", config.string()}, {"is fine"});
+  import({"--dress"});
+  crowdface(0, {"check", config.string()}, {"is fine"});
+  EXPECT_EQ(read_image(folder / "heads/body/body.png").channels, 3);
+  EXPECT_THAT(read(folder / "heads/body/body.obj"), ::testing::HasSubstr("\nmtllib body.mtl\n"));
+}
+
 TEST(Import, MakeHumanHeadsAreDressed) {
   const TemporaryFolder folder;
   write_makehuman(folder / "package");
@@ -130,6 +158,7 @@ TEST(Import, IctHeadsKeepTheirFileAndTiles) {
   crowdface(0, {"check", config.string()}, {"is fine"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--vertices", "9000"}, {"--vertices"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--dress"}, {"--dress"});
+  crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--body"}, {"--body"});
   crowdface(0, {"import", "ict", "--data", kit, "-o", out, "--count", "3"});
   crowdface(64, {"import", "ict", "--data", kit, "-o", out, "--count", "2", "--seed", "2"},
             {"ict_01.obj: already exists", "ict_02.obj: already exists"});

@@ -57,6 +57,16 @@ std::vector<std::string> read_target_names(const std::filesystem::path& file) {
   return names;
 }
 
+/// Keeps the vertices and texture coordinates that the polygons use.
+/// \return the kept vertices' rows in the file.
+std::vector<std::uint32_t> take_rows(const ThreeMesh& all, Mesh& mesh) {
+  std::vector<std::uint32_t> rows = renumber(mesh.topology.corner_vertices, all.positions.rows());
+  mesh.topology.vertex_count = static_cast<Index>(rows.size());
+  mesh.positions = all.positions(rows, kAllColumns);
+  mesh.uvs = all.uvs(renumber(mesh.topology.corner_uvs, all.uvs.rows()), kAllColumns);
+  return rows;
+}
+
 }  // namespace
 
 MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
@@ -69,20 +79,18 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
   for (const Part& part : kParts) {
     out.materials.push_back({std::string(part.name), topology.face_count()});
     for (const ThreeMesh::Face& face : all.faces) {
-      if (all.material_of(face) != part.in_file || !std::ranges::all_of(face.vertices, above_cut))
-        continue;
-      topology.add_face(face.vertices, face.uvs);
+      if (all.material_of(face) != part.in_file) continue;
+      const bool in_head = std::ranges::all_of(face.vertices, above_cut);
+      if (in_head) topology.add_face(face.vertices, face.uvs);
+      if (!in_head && &part == kParts.data()) out.body.topology.add_face(face.vertices, face.uvs);
     }
     if (out.materials.back().first_face == topology.face_count()) {
       refuse_file(file, concat("expected a head of material ", part.in_file,
                                " above the neck's cut, ", "found none"));
     }
   }
-  out.rows = renumber(topology.corner_vertices, all.positions.rows());
-  topology.vertex_count = static_cast<Index>(out.rows.size());
-  const auto uv_rows = renumber(topology.corner_uvs, all.uvs.rows());
-  out.head.positions = all.positions(out.rows, kAllColumns);
-  out.head.uvs = all.uvs(uv_rows, kAllColumns);
+  out.rows = take_rows(all, out.head);
+  take_rows(all, out.body);
   out.heights = {mean_height(all, {"helper-r-eye", "helper-l-eye"}, file),
                  mean_height(all, {"helper-upper-teeth", "helper-lower-teeth"}, file)};
   out.file_positions = std::move(all.positions);
@@ -173,6 +181,12 @@ Positions MakeHumanHeads::dressed(const Positions& base) const {
 
 Positions MakeHumanHeads::on_neutral(const FittedMesh& mesh) const {
   return in_frame(mesh.on(mesh_.file_positions), mesh_.file_positions);
+}
+
+Mesh MakeHumanHeads::body() const {
+  Mesh body = mesh_.body;
+  body.positions = in_frame(body.positions, mesh_.file_positions);
+  return body;
 }
 
 Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) const {

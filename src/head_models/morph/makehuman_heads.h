@@ -17,6 +17,7 @@ namespace crowdface {
 struct MakeHumanMesh {
   Positions file_positions;  ///< all vertices of the file, decimetres; targets refer to these
   Mesh head;                 ///< decimetres, as in the file
+  Mesh body;                 ///< the skin below the cut, decimetres
   std::vector<std::uint32_t> rows;       ///< #V, row of each vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
   FaceHeights heights;                   ///< decimetres
@@ -51,6 +52,10 @@ class MakeHumanHeads : public HeadModel {
   std::vector<std::uint32_t> skin_rows() const;
   /// Returns the vertices of a mesh fitted to the average head, in the frame of the heads.
   Positions on_neutral(const FittedMesh& mesh) const;
+
+  /// Returns the average body below the heads: its open rim has the vertices of the neutral head's
+  /// rim. The texture coordinates are those of the skin.
+  Mesh body() const;
 
   const Mesh& neutral() const override { return neutral_; }
   const std::vector<MaterialRange>& materials() const override { return materials_; }
