@@ -57,7 +57,7 @@ std::string_view age_class(double years) {
 
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view title) {
   std::string out =
-      concat("# ", title, ". Copy this into the section faces of a config.\n# young: under ",
+      concat("# ", title, ". crowdface reads this file beside the heads.\n# young: under ",
              kAdultFrom, " years; old: ", kOldFrom, " years or more; adult: between.\n",
              "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
   for (const TaggedHead& head : heads) {

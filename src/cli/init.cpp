@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "crowdface/config/head_tags.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/config/starter_config.h"
-#include "crowdface/config/yaml.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
@@ -51,29 +51,38 @@ std::string mask_beside(const fs::path& heads) {
   return !files.empty() && has_three_bands(files.front()) ? tiles : "";
 }
 
-/// Reads the heads' tags from tags.yaml in their folder, which `synth --tags` and `import` write.
-std::vector<std::pair<std::string, std::vector<std::string>>> tags_beside(
-    const fs::path& heads, const std::vector<std::string>& names) {
-  if (!is_file(heads / "tags.yaml")) return {};
+void throw_if_any(const Complaints& complaints) {
+  Problems problems;
+  complaints.tell(problems);
+  problems.throw_if_any();
+}
+
+/// Reads the heads' tags from tags.yaml in their folder.
+/// \throws InvalidInput if the file is not valid.
+std::vector<std::vector<std::string>> tags_beside(const std::vector<fs::path>& files,
+                                                  const std::vector<std::string>& names) {
   Complaints complaints;
-  const auto root = read_yaml((heads / "tags.yaml").string(), complaints);
-  const YamlEntry* faces = root ? root->find("faces") : nullptr;
-  const YamlEntry* tags = faces != nullptr ? faces->value.find("tags") : nullptr;
-  std::vector<std::pair<std::string, std::vector<std::string>>> found;
-  for (const std::string& name : names) {
-    const YamlEntry* list = tags != nullptr ? tags->value.find(name) : nullptr;
-    if (list == nullptr || !is_name(name)) continue;
-    std::vector<std::string> words;
-    for (const YamlNode& item : list->value.items) {
-      const auto is_item = [&](const std::string& word) { return word == item.text; };
-      if (is_name(item.text) && std::ranges::none_of(words, is_item) &&
-          std::ranges::none_of(names, is_item)) {
-        words.push_back(item.text);
-      }
-    }
-    if (!words.empty()) found.emplace_back(name, std::move(words));
-  }
-  return found;
+  ConfigDraft draft(complaints);
+  draft.heads_known = true;
+  Config::Faces& faces = draft.config.faces;
+  faces.files = files;
+  faces.names = names;
+  faces.tags.resize(names.size());
+  read_tags_beside_heads(faces, draft);
+  throw_if_any(complaints);
+  return faces.tags;
+}
+
+/// The folder of attachments that `synth` and `import` write.
+constexpr const char* kAttachments = "attachments";
+
+/// Returns whether a folder of attachments lies beside the heads and some head may wear some of them.
+bool has_attachments_beside(const fs::path& heads, const StarterFacts& facts) {
+  if (!is_file(heads / kAttachments / "attachments.yaml")) return false;
+  Complaints complaints;
+  const bool any = has_attachments(heads / kAttachments, facts, complaints);
+  throw_if_any(complaints);
+  return any;
 }
 
 struct InitOptions : CommonOptions {
@@ -168,34 +177,6 @@ void guess_units(const Seen& seen, StarterFacts& facts) {
   }
 }
 
-/// Returns the section `attachments` from the folder of the heads, with paths relative to
-/// `config_folder`; empty if there is none.
-/// \throws InvalidInput if the section is not valid, see docs/config.md.
-std::string attachments_beside(const fs::path& heads, const fs::path& config_folder,
-                               const StarterFacts& facts) {
-  const fs::path file = heads / "attachments/attachments.yaml";
-  if (!is_file(file)) return {};
-  Complaints complaints;
-  const auto root = read_yaml(file.string(), complaints);
-  const YamlEntry* section = root ? root->find("attachments") : nullptr;
-  std::string text;
-  if (section != nullptr) {
-    text = starter_attachments(section->value, facts, fs::absolute(heads).lexically_normal(),
-                               config_folder, complaints);
-  } else if (complaints.empty()) {
-    throw InvalidInput(concat(file.string(), ": expected the section attachments, found none"));
-  }
-  Problems problems;
-  complaints.tell(problems);
-  problems.throw_if_any();
-  if (text.empty()) {
-    log_warning(
-        concat(file.string(),
-               ": no head has the tags of any attachment, so the faces get no attachments"));
-  }
-  return text;
-}
-
 void refuse_existing(const fs::path& file, bool force) {
   if (!force && path_exists(file)) {
     throw UsageError(concat(file.string(), ": already exists; use --force to replace it"));
@@ -221,6 +202,7 @@ void init(const InitOptions& options) {
   std::vector<fs::path> beside = find_tiles(heads / mask);
   beside.push_back(heads / mask);
   beside.push_back(heads / "tags.yaml");
+  beside.push_back(heads / kAttachments / "attachments.yaml");
   refuse_to_write_over(beside, {file});
   refuse_existing(file, options.force);
   // Collect what the config states about the heads.
@@ -250,7 +232,7 @@ void init(const InitOptions& options) {
   guess_units(seen, facts);
   facts.vertices = seen.first.rows();
   facts.crowd_name = "crowd";
-  facts.tags = tags_beside(heads, facts.names);
+  facts.tags = tags_beside(files, facts.names);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();
   // Propose a mask if the heads have none.
   MaskFiles proposed;
@@ -260,7 +242,7 @@ void init(const InitOptions& options) {
     facts.mask = proposed.masks[0].filename().string();
     facts.regions = {"brow", "nose", "mouth"};
   }
-  facts.attachments = attachments_beside(heads, here, facts);
+  if (has_attachments_beside(heads, facts)) facts.attachments = facts.heads / kAttachments;
   // Write the files and report the guesses for the user to check.
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));

@@ -174,9 +174,8 @@ std::string licence_line(std::string_view asset, const AssetLicence& licence) {
 }
 
 std::string item_line(const MakeHumanAttachment& item) {
-  return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: attachments/",
-                item.name, ".obj", item.tags.empty() ? "" : ", tags: [", join(item.tags),
-                item.tags.empty() ? "" : "]",
+  return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: ", item.name, ".obj",
+                item.tags.empty() ? "" : ", tags: [", join(item.tags), item.tags.empty() ? "" : "]",
                 item.share == 1 ? "" : concat(", share: ", item.share),
                 item.colour.empty() ? "" : concat(", colour: ", item.colour), ", moves: bend}\n");
 }
@@ -247,8 +246,8 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
       licence_line("Eyes", parts_.eyes_licence) + licence_line("Eyelashes", parts_.lashes_licence) +
       licence_line("Teeth", parts_.teeth_licence) + licence_line("Tongue", parts_.tongue_licence);
   std::string section =
-      "# Copy this into a config in the folder of the heads; crowdface init does so. The tags are "
-      "those of tags.yaml.\nattachments:\n  fitted_to: attachments/base.obj\n";
+      "# For \"attachments: {from: THIS_FOLDER}\" in a config. The tags are those of tags.yaml.\n"
+      "attachments:\n  fitted_to: base.obj\n";
   std::string items;
   base.path = attachments / "base.obj";
   files.push_back(std::move(base));

@@ -63,9 +63,8 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
                                        materials);
                    }});
   std::string section =
-      "# Copy this into a config in the folder of the heads; crowdface init does so. The tags are "
-      "those of tags.yaml.\n"
-      "attachments:\n  fitted_to: attachments/base.obj\n  items:";
+      "# For \"attachments: {from: THIS_FOLDER}\" in a config. The tags are those of tags.yaml.\n"
+      "attachments:\n  fitted_to: base.obj\n  items:";
   if (wishes_.empty()) section += " []";
   section += '\n';
   // All colours of a cut share one mesh.
@@ -92,10 +91,9 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
                        }});
       files.push_back(text_file(folder / concat(name, ".mtl"),
                                 concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n')));
-      section +=
-          concat("    - {name: ", name, ", kind: hair, file: attachments/", name, ".obj, tags: [",
-                 wish.female ? "female" : "male", ", ", wish.colour, "_hair, ",
-                 form_tag(wish.curly, wish.bald), "], colour: ", wish.colour, "}\n");
+      section += concat("    - {name: ", name, ", kind: hair, file: ", name, ".obj, tags: [",
+                        wish.female ? "female" : "male", ", ", wish.colour, "_hair, ",
+                        form_tag(wish.curly, wish.bald), "], colour: ", wish.colour, "}\n");
     }
   }
   for (const synth::HairColour& colour : synth::hair_colours()) {

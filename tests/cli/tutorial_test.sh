@@ -90,9 +90,9 @@ for format in glb usda; do
   files=$(find out/market/meshes -maxdepth 1 -name "*.$format" | wc -l)
   [ "$files" = 24 ] || fail "expected 24 .$format files, found $files"
 done
-# A haircut of the config, in the table and in the face's own file.
+# A haircut of the wardrobe, in the table and in the face's own file.
 while read -r id hair; do
-  grep -q "name: $hair, kind: hair" market.yaml || fail "$id has no hair: '$hair'"
+  grep -q "name: $hair, kind: hair" heads/attachments/attachments.yaml || fail "$id has no hair: '$hair'"
   grep -qa "\"name\":\"$hair\"" "out/market/meshes/$id.glb" || fail "$id.glb has no node $hair"
 done < <(column attachments)
 for page in sheets/heads_001.png sheets/family_smith_son.png sheets/sheet_001.png gallery/index.html; do

@@ -268,6 +268,70 @@ TEST_F(ReadConfig, AWrongTagIsOneProblem) {
   EXPECT_THAT(told(), HasSubstr("c.yaml:3:45: faces.tags: no head is called \"amn\""));
 }
 
+TEST_F(ReadConfig, TagsLieBesideTheHeads) {
+  touch("heads/tags.yaml", "faces: {tags: {ann: [old], bob: [young], somebody: [old]}}");
+  const auto config = read(kPlain);
+  ASSERT_TRUE(config) << told();
+  using Tags = std::vector<std::vector<std::string>>;
+  EXPECT_EQ(config->faces.tags, (Tags{{"old"}, {"young"}, {}}));
+  EXPECT_EQ(config->sampling.old_heads, (std::vector<Eigen::Index>{0}));
+  const auto own = read(
+      "schema: 1\ncrowd: {name: mob, count: 3}\n"
+      "faces: {directory: heads, units: cm, tags: {cyd: [old]}}\n");
+  ASSERT_TRUE(own) << told();
+  EXPECT_EQ(own->faces.tags, (Tags{{}, {}, {"old"}}));
+  touch("heads/tags.yaml", "faces: {tags: {ann: [all]}}");
+  EXPECT_FALSE(read(kPlain));
+  EXPECT_THAT(told(), HasSubstr("heads/tags.yaml:1:"));
+  touch("heads/tags.yaml", "known better");
+  EXPECT_FALSE(read(kPlain));
+  EXPECT_THAT(told(), HasSubstr("heads/tags.yaml:1:1: faces.tags is missing"));
+}
+
+TEST_F(ReadConfig, AttachmentsComeFromAFolder) {
+  touch("heads/tags.yaml", "faces: {tags: {ann: [female], bob: [male]}}");
+  touch("wardrobe/base.obj");
+  for (const char* name : {"bob", "crop", "curls"}) touch(concat("wardrobe/", name, ".obj"));
+  touch("cap.obj");
+  const std::string list =
+      "attachments:\n"
+      "  fitted_to: base.obj\n"
+      "  items:\n"
+      "    - {name: bob, kind: hair, file: bob.obj, tags: [female], excludes: [curls]}\n"
+      "    - {name: crop, kind: hair, file: crop.obj, tags: [male]}\n"
+      "    - {name: curls, kind: wig, file: curls.obj, tags: [bald]}\n"
+      "  none: {hair: 0.1, wig: 0.5}\n";
+  touch("wardrobe/attachments.yaml", list);
+  const auto config = read(kPlain + "attachments: {from: wardrobe}\n");
+  ASSERT_TRUE(config) << told();
+  const Config::Attachments& attachments = config->attachments;
+  ASSERT_EQ(attachments.items.size(), 2u) << "nobody is bald";
+  EXPECT_EQ(attachments.items[1].name, "crop");
+  EXPECT_EQ(attachments.items[1].file, folder_ / "wardrobe/crop.obj");
+  EXPECT_TRUE(attachments.items[0].excludes.empty());
+  EXPECT_EQ(attachments.file, folder_ / "wardrobe/base.obj");
+  EXPECT_EQ(attachments.none, (std::map<std::string, double>{{"hair", 0.1}}));
+
+  const auto more = read(kPlain +
+                         "attachments:\n"
+                         "  from: wardrobe\n"
+                         "  fitted_to: ann\n"
+                         "  items: [{name: cap, kind: hat, file: cap.obj}]\n"
+                         "  quotas: {hair: 0.9}\n");
+  ASSERT_TRUE(more) << told();
+  EXPECT_EQ(more->attachments.items.size(), 3u);
+  EXPECT_EQ(more->attachments.head, Eigen::Index{0});
+  EXPECT_TRUE(more->attachments.file.empty());
+  EXPECT_TRUE(more->attachments.none.empty()) << "the config's quotas replace them";
+  EXPECT_EQ(more->attachments.quotas, (std::map<std::string, double>{{"hair", 0.9}}));
+
+  EXPECT_FALSE(read(kPlain + "attachments: {from: heads}\n"));
+  EXPECT_THAT(told(), HasSubstr("c.yaml:4:21: attachments.from: the file"));
+  touch("wardrobe/attachments.yaml", list + "  from: elsewhere\n");
+  EXPECT_FALSE(read(kPlain + "attachments: {from: wardrobe}\n"));
+  EXPECT_THAT(told(), HasSubstr("wardrobe/attachments.yaml:8:3: unknown key \"from\""));
+}
+
 TEST_F(ReadConfig, AFloodOfProblemsIsCut) {
   std::string text = kPlain + "sampling:\n";
   for (int i = 0; i < 5000; ++i) text += concat("  k", i, ": 1\n");

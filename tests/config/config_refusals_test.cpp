@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"plane: {anchors: {ann: [0, 1e999]}}", "5:28", "found \"1e999\""},
         Wrong{"plane: {anchors: [1]}", "5:18", "mapping from heads to points"},
         Wrong{"attachments: hair", "5:14", "none or a mapping"},
-        Wrong{"attachments: {fitted_to: mean}", "5:14", "items: missing"},
+        Wrong{"attachments: {fitted_to: mean}", "5:14", "from or items is missing"},
         Wrong{"attachments: {fitted_to: anna, items: []}", "5:26", "did you mean \"ann\"?"},
         Wrong{"attachments: {items: [{name: a, file: heads/ann.obj}]}", "5:23", "kind: missing"},
         Wrong{"attachments: {items: [{name: a, kind: hair, file: heads/ann.ply}]}", "5:51",

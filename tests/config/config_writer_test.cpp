@@ -258,6 +258,16 @@ TEST_F(EffectiveConfig, SpellsOutEveryDefault) {
             "    texture: auto\n");
 }
 
+TEST_F(EffectiveConfig, HoldsWhatFoldersList) {
+  touch("heads/tags.yaml", "faces: {tags: {ann: [female]}}");
+  touch("wardrobe/attachments.yaml",
+        "attachments: {items: [{name: bob, kind: hair, file: bob.obj, tags: [female]}]}");
+  touch("wardrobe/bob.obj");
+  const std::string written = round_trip(kPlain + "attachments: {from: wardrobe}\n");
+  EXPECT_THAT(written, testing::HasSubstr("ann: [female]"));
+  EXPECT_THAT(written, testing::HasSubstr("file: ../../wardrobe/bob.obj"));
+}
+
 TEST_F(EffectiveConfig, ReadsBackWithEverythingSet) {
   touch("heads/null.obj");
   touch("heads/007.obj");

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
+#include "crowdface/config/yaml.h"
 #include "crowdface/core/contains.h"
+#include "crowdface/core/log.h"
 #include "crowdface/io/mesh_format.h"
 
 namespace crowdface {
@@ -20,6 +23,8 @@ constexpr double kMaxShare = 1e6;
 constexpr const char* kMean = "mean";
 
 void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  attachments.head.reset();
+  attachments.file.clear();
   if (is_word(node, kMean)) return;
   const auto text = read_text(node, "mean, the name of a head or an OBJ file", draft.complaints);
   if (!text) return;
@@ -202,12 +207,12 @@ auto write_shares(std::map<std::string, double> Attachments::*shares) {
   };
 }
 
-const Keys<Attachments>& attachments_keys() {
+/// The keys of attachments.yaml.
+const Keys<Attachments>& wardrobe_keys() {
   static const Keys<Attachments> keys = {
       Key<Attachments>{"fitted_to", read_fitted_to, write_fitted_to}.taking(
           "`mean`, head, or OBJ file"),
-      Key<Attachments>{"items", read_items, write_items,
-                       "a list of attachments, [{name: bob, kind: hair, file: bob.obj}]"}
+      Key<Attachments>{"items", read_items, write_items}
           .taking("list of mappings with the keys below")
           .holding(item_keys()),
       Key<Attachments>{"none", read_none, write_shares(&Attachments::none)}.taking(
@@ -232,23 +237,92 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
   }
 }
 
-void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) {
-  if (is_word(node, "none")) return;
-  if (!draft.complaints.expect_map(node,
-                                   "none or a mapping with the keys fitted_to, items, none")) {
+/// Removes the items that no head may wear, and what refers to them.
+void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
+  std::erase_if(attachments.items,
+                [&](const Attachment& item) { return heads_with(item.tags, faces).empty(); });
+  const auto is_unknown = [&](const std::string& word) {
+    return first_called(attachments, word) == nullptr;
+  };
+  const auto is_of_unknown = [&](const auto& share) { return is_unknown(share.first); };
+  std::erase_if(attachments.none, is_of_unknown);
+  std::erase_if(attachments.quotas, is_of_unknown);
+  for (Attachment& item : attachments.items) std::erase_if(item.excludes, is_unknown);
+}
+
+/// Reads the section `attachments` of the file attachments.yaml in a folder. Its paths are relative
+/// to that folder.
+void read_from(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  const auto folder = path("a folder of attachments").read(node, draft);
+  if (!folder) return;
+  const std::filesystem::path file = *folder / "attachments.yaml";
+  if (!expect_file(node, file, draft)) return;
+  const auto root = read_yaml(file.string(), draft.complaints);
+  if (!root) return;
+  const YamlEntry* section = root->find("attachments");
+  if (section == nullptr) {
+    draft.complaints.add(root->place, "expected the section attachments, found none");
     return;
   }
-  read_keys(node, attachments_keys(), config.attachments, draft);
-  if (const YamlEntry* items = node.find("items")) {
-    check_excluded(items->value, config.attachments, draft);
+  const std::filesystem::path folder_of_config = std::exchange(draft.folder, *folder);
+  const bool tags_known = std::exchange(draft.tags_known, false);
+  read_keys(section->value, wardrobe_keys(), attachments, draft);
+  if (const YamlEntry* items = section->value.find("items")) {
+    check_excluded(items->value, attachments, draft);
   }
+  draft.folder = folder_of_config;
+  draft.tags_known = tags_known;
+  if (!draft.heads_known || !tags_known) return;
+  const bool any = !attachments.items.empty();
+  remove_unwearable(attachments, draft.config.faces);
+  if (any && attachments.items.empty()) {
+    log_warning(concat(file.string(),
+                       ": no head has the tags of any attachment, so the faces get none of these"));
+  }
+}
+
+const Keys<Attachments>& attachments_keys() {
+  static const Keys<Attachments> keys = [] {
+    // read_attachments reads the value; it is written as items.
+    Keys<Attachments> all = {
+        Key<Attachments>{"from", [](const auto&...) {}, [](const auto&...) { return ""; }}.taking(
+            "folder")};
+    const Keys<Attachments>& more = wardrobe_keys();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
+  return keys;
+}
+
+void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) {
+  if (is_word(node, "none")) return;
+  if (!draft.complaints.expect_map(node, "none or a mapping with the keys from, items, none")) {
+    return;
+  }
+  const YamlEntry *from = node.find("from"), *items = node.find("items");
+  if (from == nullptr && items == nullptr) {
+    draft.complaints.add_at(
+        node,
+        "from or items is missing; write from: FOLDER, or a list of attachments, [{name: bob, "
+        "kind: hair, file: bob.obj}]");
+  }
+  if (from != nullptr) {
+    read_from(from->value, config.attachments, draft);
+    if (node.find("none") != nullptr || node.find("quotas") != nullptr) {
+      config.attachments.none.clear();
+      config.attachments.quotas.clear();
+    }
+  }
+  read_keys(node, attachments_keys(), config.attachments, draft);
+  if (items != nullptr) check_excluded(items->value, config.attachments, draft);
 }
 
 std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
   if (facts.attachments.empty()) return std::nullopt;
   return StarterLines{
-      facts.attachments, "",
-      "Attachments (hair, beards, glasses, …) that lie beside the heads (docs/attachments.md)."};
+      flow_map({entry("from", write_scalar(facts.attachments.string()))}), "",
+      "Hair, beards, … in the folder beside the heads; its file attachments.yaml lists them\n"
+      "(docs/attachments.md)."};
 }
 
 std::string write_attachments(const Config& config, const WriteContext& context) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/head_tags.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/core/contains.h"
@@ -111,44 +112,6 @@ std::string write_files(const Faces& faces, const WriteContext& context) {
       texts_of(faces.files, [&](const fs::path& file) { return path("").write(file, context); }));
 }
 
-/// Refuses a tag that is also a head's name, `all` or `target`.
-void check_tag(const YamlNode& node, const Faces& faces, Complaints& out) {
-  const std::string& tag = node.text;
-  if (contains(faces.names, tag)) {
-    out.add_at(node, concat("the tag ", quoted(tag), " is also the name of a head"));
-  } else if (tag == "all" || tag == "target") {
-    out.add_at(node, concat("a tag cannot have the reserved name ", quoted(tag)));
-  }
-}
-
-std::vector<std::string> read_tags_of_head(const YamlNode& node, const Faces& faces,
-                                           Complaints& out) {
-  std::vector<std::string> tags;
-  if (!out.expect_list(node, "a list of tags, [old, bearded]")) return tags;
-  for (const YamlNode& item : node.items) {
-    const auto tag = read_name(item, out);
-    if (!tag) continue;
-    check_tag(item, faces, out);
-    if (contains(tags, *tag)) {
-      out.add_at(item, concat("the tag ", quoted(*tag), " is named twice"));
-    }
-    tags.push_back(*tag);
-  }
-  return tags;
-}
-
-void read_head_tags(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
-  const std::size_t complaints_before = draft.complaints.size();
-  draft.complaints.expect_map(node, "a mapping from heads to tags, {head: [tag, ...]}");
-  for (const YamlEntry& entry : node.entries) {
-    const auto head = find_head(entry.key, entry.key_place, node.path, draft);
-    if (!head) continue;
-    faces.tags[static_cast<std::size_t>(*head)] =
-        read_tags_of_head(entry.value, faces, draft.complaints);
-  }
-  draft.tags_known = draft.complaints.size() == complaints_before;
-}
-
 std::string write_tags(const Faces& faces, const WriteContext&) {
   std::vector<std::string> heads;
   for (std::size_t i = 0; i < faces.tags.size(); ++i) {
@@ -191,13 +154,10 @@ StarterLines starter_units(const StarterFacts& facts) {
 }
 
 StarterLines starter_tags(const StarterFacts& facts) {
-  if (facts.tags.empty()) {
-    return {"", "",
-            "tags: {head_a: [old], head_b: [young]}   # groups of heads, for use under sampling"};
-  }
-  std::vector<std::string> heads;
-  for (const auto& [head, tags] : facts.tags) heads.push_back(entry(head, flow_list(tags)));
-  return {block_map(heads), "", "Groups of heads, for use under sampling."};
+  const bool any = std::ranges::any_of(facts.tags, [](const auto& tags) { return !tags.empty(); });
+  if (any) return {"", "", "The heads' tags are in tags.yaml in their folder."};
+  return {"", "",
+          "tags: {head_a: [old], head_b: [young]}   # groups of heads, for use under sampling"};
 }
 
 const Keys<Faces>& faces_keys() {
@@ -245,6 +205,7 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
     });
   }
   read_keys(section, faces_keys(), faces, draft);
+  if (node.find("tags") == nullptr) read_tags_beside_heads(faces, draft);
   if (faces.up.index == faces.front.index && draft.complaints.size() == complaints_before) {
     const YamlEntry* front = node.find("front");
     draft.complaints.add_at((front != nullptr ? front : node.find("up"))->value,

@@ -139,8 +139,8 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
   const auto mixes = [&](const std::string& tag) {  // a blend needs at least two heads
-    return std::ranges::count_if(
-               facts.tags, [&](const auto& head) { return has_tags(head.second, {tag}); }) > 1;
+    return std::ranges::count_if(facts.tags,
+                                 [&](const auto& tags) { return has_tags(tags, {tag}); }) > 1;
   };
   if (facts.attachments.empty() || !mixes("female") || !mixes("male")) return std::nullopt;
   return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",

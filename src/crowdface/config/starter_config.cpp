@@ -31,32 +31,18 @@ std::string starter_config(const StarterFacts& facts) {
   return text;
 }
 
-std::string starter_attachments(const YamlNode& section, const StarterFacts& facts,
-                                const std::filesystem::path& heads,
-                                const std::filesystem::path& config_folder,
-                                Complaints& complaints) {
+bool has_attachments(const std::filesystem::path& folder, const StarterFacts& facts,
+                     Complaints& complaints) {
   ConfigDraft draft(complaints);
-  draft.folder = heads;
   draft.config.faces.names = facts.names;
+  draft.config.faces.tags = facts.tags;
   draft.heads_known = true;
-  draft.tags_known = false;  // no complaints about items that no head may wear: removed below
+  YamlNode from{.kind = YamlNode::Kind::kScalar, .place = {}, .path = "attachments.from"};
+  from.text = folder.string();
+  YamlNode section{.kind = YamlNode::Kind::kMap};
+  section.entries.push_back({"from", {}, std::move(from)});
   attachments_key().read(section, draft.config, draft);
-  if (!complaints.empty()) return {};
-  Config::Attachments& attachments = draft.config.attachments;
-  std::erase_if(attachments.items, [&](const Config::Attachment& item) {
-    return !item.tags.empty() && std::ranges::none_of(facts.tags, [&](const auto& head) {
-      return has_tags(head.second, item.tags);
-    });
-  });
-  const auto is_nobodys = [&](const std::string& word) {
-    return std::ranges::none_of(attachments.items,
-                                [&](const auto& item) { return is_called(item, word); });
-  };
-  const auto speaks_of_nobody = [&](const auto& share) { return is_nobodys(share.first); };
-  std::erase_if(attachments.none, speaks_of_nobody);
-  std::erase_if(attachments.quotas, speaks_of_nobody);
-  for (Config::Attachment& item : attachments.items) std::erase_if(item.excludes, is_nobodys);
-  return attachments_key().write(draft.config, {draft.config, config_folder});
+  return complaints.empty() && !draft.config.attachments.items.empty();
 }
 
 }  // namespace crowdface

@@ -3,13 +3,11 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "crowdface/config/complaints.h"
-#include "crowdface/config/yaml_node.h"
 #include "crowdface/core/units.h"
 
 namespace crowdface {
@@ -28,21 +26,19 @@ struct StarterFacts {
   std::string crowd_name = "crowd";
   std::string mask;  ///< region mask, relative to the folder of the config; empty: none
   std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels
-  std::vector<std::pair<std::string, std::vector<std::string>>> tags = {};  ///< head, its tags
-  std::string attachments = {};  ///< text from starter_attachments; empty: no such section
+  std::vector<std::vector<std::string>> tags = {};                 ///< #heads, or empty
+  /// folder of attachments that some head may wear, relative to the folder of the config; empty:
+  /// none
+  std::filesystem::path attachments = {};
 };
 
 /// Returns a first config for these heads: short, with comments, ready to run.
 std::string starter_config(const StarterFacts& facts);
 
-/// Adapts the section `attachments` of a file in the folder of the heads: removes the items that no
-/// head may wear and makes file paths relative to the config. Returns an empty text if no item
-/// remains, or after a complaint.
-/// \param section  the value of `attachments`; its file paths are relative to `heads`.
-/// \param facts    names and tags of the heads.
-/// \param heads, config_folder  absolute folders of the heads and of the config.
-std::string starter_attachments(const YamlNode& section, const StarterFacts& facts,
-                                const std::filesystem::path& heads,
-                                const std::filesystem::path& config_folder, Complaints& complaints);
+/// Checks attachments.yaml in a folder of attachments.
+/// \param facts  names and tags of the heads.
+/// \return whether some head may wear some of the attachments; false after a complaint.
+bool has_attachments(const std::filesystem::path& folder, const StarterFacts& facts,
+                     Complaints& complaints);
 
 }  // namespace crowdface
