@@ -34,6 +34,7 @@ synth 3
 morph 3
 page 3
 parts 3
+traits 3
 lod 4
 paint 4
 shapes 4

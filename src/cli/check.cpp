@@ -10,6 +10,8 @@
 #include "crowdface/heads/head_mirror.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/pictures/crowd_renders.h"
+#include "crowdface/pictures/landmark_picture.h"
+#include "crowdface/run/head_traits.h"
 #include "crowdface/run/output_check.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/smooth/level_size.h"
@@ -98,12 +100,32 @@ void write_masks(const Job& job, const std::filesystem::path& directory) {
   if (alpha.cols() > 1) write("all", region_colours(alpha, colours));
 }
 
+/// Writes a picture of the mean head with the landmarks of the measurements.
+void write_landmarks(const Job& job, const HeadLandmarks& landmarks,
+                     const std::filesystem::path& file) {
+  Config::ContactSheet sheet;
+  sheet.cell = 640;
+  sheet.views = {View::kFront, View::kThreeQuarter, View::kProfile};
+  const CrowdRenders renders(job.config, sheet, job.inputs);
+  std::vector<LabelledPoint> points;
+  for (std::size_t l = 0; l < landmarks.places.size(); ++l) {
+    if (landmarks.places[l]) {
+      points.push_back({std::string(trait_landmarks()[l].symbol), *landmarks.places[l]});
+    }
+  }
+  refuse_to_write_over(input_files(job.config), {file});
+  write_file(file, landmark_picture(renders, job.inputs.faces.topology, mean_head(job.inputs.faces),
+                                    points));
+  log_info(file.string());
+}
+
 }  // namespace
 
 Run add_check(CLI::App& program) {
   struct Options : CommonOptions {
     ConfigOptions config;
-    std::string masks;
+    std::string masks, landmarks;
+    bool traits = false;
   };
   return add_command<Options>(
       program, "check", "Check config, heads and masks, and report all problems",
@@ -111,6 +133,10 @@ Run add_check(CLI::App& program) {
         options.config.add_to(command);
         add_option(command, "--masks", options.masks, "DIR",
                    "Render the mask of each region on the mean head, to this folder");
+        add_flag(command, "--traits", options.traits,
+                 "Print the measurements of all heads (docs/traits.md)");
+        add_option(command, "--landmarks", options.landmarks, "FILE",
+                   "Render the landmarks of the measurements on the mean head, to this PNG file");
       },
       [](const Options& options) {
         const Job job =
@@ -118,6 +144,10 @@ Run add_check(CLI::App& program) {
         look_at_output(job);
         describe(job);
         if (!options.masks.empty()) write_masks(job, options.masks);
+        if (!options.traits && options.landmarks.empty()) return;
+        const HeadLandmarks landmarks = find_head_landmarks(job.config, job.inputs);
+        if (options.traits) print(format_head_traits(job.config, job.inputs, landmarks));
+        if (!options.landmarks.empty()) write_landmarks(job, landmarks, options.landmarks);
       });
 }
 

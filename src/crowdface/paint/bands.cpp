@@ -32,15 +32,29 @@ constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
-/// Extent of both ears of a head along the head's axes.
-struct EarBox {
-  double bottom = 0, top = 0;  ///< heights
-  double back = 0, front = 0;
-  double inner = 0;  ///< distance from the middle at which the ears begin
+/// Weight of the ears at a place.
+double ear_share(const EarBox& ears, double face, double side, double height, double front) {
+  const double around = kAroundEar * face, soft = kEarSoft * face;
+  const auto inside = [&](double from, double to, double x) {
+    return smooth_step(from - soft, from + soft, x) * smooth_step(to + soft, to - soft, x);
+  };
+  return inside(ears.bottom - kBelowEar * face, ears.top + around, height) *
+         inside(ears.back - around, ears.front + kFrontOfEar * face, front) *
+         smooth_step(ears.inner - 2 * around, ears.inner, side);
+}
+
+/// The height below which the neck begins. This border rises from below the chin to below the ears.
+struct NeckBorder {
+  double chin_front, chin, ear_front, ear;
+  double at(double front) const {
+    const double way = std::max(chin_front - ear_front, 1e-300);
+    const double t = std::clamp((front - ear_front) / way, 0.0, 1.0);
+    return (1 - t) * std::max(ear, chin) + t * chin;
+  }
 };
 
-/// Finds the ears: the protrusions at the sides of the skin between mouth and brows.
-/// \return nothing if nothing protrudes.
+}  // namespace
+
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks) {
   const HeadAxes& axes = marks.axes;
@@ -107,29 +121,6 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   if (ears.back > ears.front) return std::nullopt;
   return ears;
 }
-
-/// Weight of the ears at a place.
-double ear_share(const EarBox& ears, double face, double side, double height, double front) {
-  const double around = kAroundEar * face, soft = kEarSoft * face;
-  const auto inside = [&](double from, double to, double x) {
-    return smooth_step(from - soft, from + soft, x) * smooth_step(to + soft, to - soft, x);
-  };
-  return inside(ears.bottom - kBelowEar * face, ears.top + around, height) *
-         inside(ears.back - around, ears.front + kFrontOfEar * face, front) *
-         smooth_step(ears.inner - 2 * around, ears.inner, side);
-}
-
-/// The height below which the neck begins. This border rises from below the chin to below the ears.
-struct NeckBorder {
-  double chin_front, chin, ear_front, ear;
-  double at(double front) const {
-    const double way = std::max(chin_front - ear_front, 1e-300);
-    const double t = std::clamp((front - ear_front) / way, 0.0, 1.0);
-    return (1 - t) * std::max(ear, chin) + t * chin;
-  }
-};
-
-}  // namespace
 
 RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth) {
   if (!(eyes > mouth)) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,6 +29,17 @@ inline constexpr std::array<std::pair<std::string_view, Band>, 5> kBandNames = {
      {"mouth", Band::kMouth},
      {"ears", Band::kEars},
      {"neck", Band::kNeck}}};
+
+/// Extent of both ears of a head along the head's axes.
+struct EarBox {
+  double bottom = 0, top = 0;  ///< heights
+  double back = 0, front = 0;
+  double inner = 0;  ///< distance from the middle at which the ears begin
+};
+/// Finds the ears: the protrusions at the sides of the skin between mouth and brows.
+/// \return nothing if nothing protrudes.
+std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
+                                const FaceMarks& marks);
 
 /// Weights of brow, nose and mouth (columns 0 to 2) as soft horizontal bands.
 /// \param heights  #V; increase upwards.

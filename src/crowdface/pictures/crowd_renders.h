@@ -86,6 +86,11 @@ class CrowdRenders {
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureSet* texture_set = nullptr,
                          const std::vector<PlacedAttachment>& placed = {}) const;
+  const std::vector<Camera>& cameras() const { return cameras_; }
+  /// Renders one view. \param camera  one of cameras().
+  Rgb8Image render(const Positions& positions, const Camera& camera) const {
+    return renderer_.render(positions, camera, nullptr);
+  }
   /// Renders only the first view.
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 

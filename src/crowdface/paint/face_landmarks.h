@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/paint/face_marks.h"
+#include "crowdface/parts/part_list.h"
+#include "crowdface/parts/surface_point.h"
+
+namespace crowdface {
+
+/// Landmarks of a face by name: points on the skin, and why the other landmarks are missing.
+struct FaceLandmarks {
+  std::map<std::string, SurfacePoint> places;
+  std::map<std::string, std::string> missing;  ///< reasons, as phrases
+};
+
+/// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head by its shape: the profile
+/// in the symmetry plane, the visible parts of the eyeballs, the relief of nose and mouth seen from
+/// the front, and the outline seen from the sides. Left and right are searched together, at the
+/// same heights and depths.
+/// \param positions  #V by 3, usually the mean head
+/// \param axes       orientation of the head, accurate to about 35°
+FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
+                                  const PartList& parts, const Positions& positions,
+                                  const HeadAxes& axes);
+
+}  // namespace crowdface

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/parts/surface_point.h"
+#include "crowdface/pictures/crowd_renders.h"
+
+namespace crowdface {
+
+/// A point on a head, and the text beside it in pictures.
+struct LabelledPoint {
+  std::string label;
+  SurfacePoint place;
+};
+
+/// A picture of a head with labelled points, as the bytes of a PNG file: all views of `renders` side
+/// by side. Each view shows the points on skin that faces its camera.
+std::string landmark_picture(const CrowdRenders& renders, const Topology& topology,
+                             const Positions& head, const std::vector<LabelledPoint>& points);
+
+}  // namespace crowdface

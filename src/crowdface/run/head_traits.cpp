@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/head_traits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/heads/named_parts.h"
+#include "crowdface/paint/face_landmarks.h"
+
+namespace crowdface {
+
+bool HeadLandmarks::allow(const Measurement& measurement) const {
+  return std::ranges::all_of(landmarks_of(measurement),
+                             [&](std::size_t l) { return places[l].has_value(); });
+}
+
+std::string HeadLandmarks::reason_against(const Measurement& measurement) const {
+  for (const std::size_t l : landmarks_of(measurement)) {
+    if (!places[l]) return concat("no ", trait_landmarks()[l].name, ": ", missing[l]);
+  }
+  return {};
+}
+
+Positions HeadLandmarks::on(const Positions& mesh, double mm_per_unit) const {
+  Positions points = Positions::Zero(static_cast<Index>(places.size()), 3);
+  for (std::size_t l = 0; l < places.size(); ++l) {
+    if (!places[l]) continue;
+    points.row(static_cast<Index>(l)) =
+        mm_per_unit * point_on(mesh, places[l]->corners, places[l]->shares).transpose();
+  }
+  return points;
+}
+
+HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
+  const HeadAxes axes = head_axes(config);
+  const bool has_parts = !inputs.parts.classes.empty();
+  const PartList parts = has_parts ? inputs.parts
+                                   : find_parts(inputs.faces.topology, inputs.adjacency,
+                                                inputs.components, inputs.mean, {}, axes);
+  FaceLandmarks found =
+      find_face_landmarks(inputs.faces.topology, inputs.components, parts, inputs.mean, axes);
+  HeadLandmarks landmarks;
+  for (const TraitLandmark& landmark : trait_landmarks()) {
+    const auto place = found.places.find(landmark.name);
+    const auto reason = found.missing.find(landmark.name);
+    landmarks.places.push_back(place != found.places.end() ? std::optional(place->second)
+                                                           : std::nullopt);
+    landmarks.missing.push_back(place != found.places.end()     ? ""
+                                : reason != found.missing.end() ? reason->second
+                                                                : "no face was found");
+  }
+  return landmarks;
+}
+
+std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
+                                                const Positions& mesh, double mm_per_unit) {
+  const Positions points = landmarks.on(mesh, mm_per_unit);
+  std::vector<std::optional<double>> values;
+  for (const Measurement& measurement : measurements()) {
+    values.push_back(landmarks.allow(measurement) ? std::optional(measure(measurement, points))
+                                                  : std::nullopt);
+  }
+  return values;
+}
+
+std::string format_head_traits(const Config& config, const Inputs& inputs,
+                               const HeadLandmarks& landmarks) {
+  std::vector<std::vector<std::optional<double>>> heads;
+  for (const Head& head : inputs.faces.heads) {
+    heads.push_back(measure_mesh(landmarks, head.positions, mm_per(config.faces.units)));
+  }
+  constexpr std::size_t kNumberWidth = 9;
+  const auto padded = [](const std::string& text, std::size_t width) {
+    return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+  };
+  std::size_t name_width = 0, symbol_width = 0;
+  for (const Measurement& of : measurements()) {
+    name_width = std::max(name_width, of.name.size());
+    symbol_width = std::max(symbol_width, of.symbol.size());
+  }
+  std::vector<std::string> titles = {"mean", "sd"};
+  titles.insert(titles.end(), config.faces.names.begin(), config.faces.names.end());
+  const std::size_t start = name_width + symbol_width + 4;
+  std::string table(start, ' ');
+  for (const std::string& title : titles) {
+    table += concat(' ', padded(title, kNumberWidth));
+  }
+  table += '\n';
+  std::string unavailable;
+  for (std::size_t m = 0; m < measurements().size(); ++m) {
+    const Measurement& measurement = measurements()[m];
+    if (!landmarks.allow(measurement)) {
+      unavailable +=
+          concat("  ", measurement.name, ": ", landmarks.reason_against(measurement), '\n');
+      continue;
+    }
+    std::vector<double> numbers;
+    for (const auto& head : heads) numbers.push_back(*head[m]);
+    double mean = 0, squares = 0;
+    for (const double value : numbers) mean += value / static_cast<double>(numbers.size());
+    for (const double value : numbers) squares += (value - mean) * (value - mean);
+    const double spread =
+        numbers.size() > 1 ? std::sqrt(squares / static_cast<double>(numbers.size() - 1)) : 0;
+    numbers.insert(numbers.begin(), {mean, spread});
+    std::string line = concat(measurement.name, "  ", measurement.symbol);
+    line.insert(measurement.name.size(), name_width - measurement.name.size(), ' ');
+    line += std::string(start - 2 - line.size(), ' ');
+    const std::string_view unit = unit_of(measurement);
+    line += unit.empty() ? "  " : unit == " mm" ? "mm" : " °";
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const std::size_t width = std::max(kNumberWidth, titles[i].size());
+      line += concat(' ', padded(format_fixed(numbers[i], unit.empty() ? 3 : 1), width));
+    }
+    table += line + '\n';
+  }
+  if (!unavailable.empty()) table += "not available:\n" + unavailable;
+  return table;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Landmarks and measurements of the heads of a config.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/parts/surface_point.h"
+#include "crowdface/traits/measurements.h"
+
+namespace crowdface {
+
+/// The landmarks of a config's heads: points on the topology that all heads and faces share.
+struct HeadLandmarks {
+  std::vector<std::optional<SurfacePoint>> places;  ///< #trait_landmarks
+  std::vector<std::string> missing;                 ///< #trait_landmarks: why there is no place
+
+  /// Whether all landmarks of a measurement have places.
+  bool allow(const Measurement& measurement) const;
+  /// Why a measurement is not available: "no hairline (…)". \pre `allow` is false.
+  std::string reason_against(const Measurement& measurement) const;
+  /// The landmarks on a mesh, #landmarks by 3, in millimetres. Rows without a place are zero.
+  Positions on(const Positions& mesh, double mm_per_unit) const;
+};
+
+/// Finds the landmarks on the mean of the heads.
+HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
+
+/// The measurements of a mesh: #measurements, nothing for those that are not available.
+std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
+                                                const Positions& mesh, double mm_per_unit);
+
+/// A readable table of the measurements of all heads, and of those that are not available.
+std::string format_head_traits(const Config& config, const Inputs& inputs,
+                               const HeadLandmarks& landmarks);
+
+}  // namespace crowdface

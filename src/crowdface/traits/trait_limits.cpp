@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/traits/trait_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+TraitLimits with_own(const TraitLimits& common, const TraitLimits& own) {
+  TraitLimits all = own;
+  for (const TraitLimit& limit : common) {
+    if (std::ranges::find(own, limit.trait, &TraitLimit::trait) == own.end()) all.push_back(limit);
+  }
+  std::ranges::sort(all, {}, &TraitLimit::trait);
+  return all;
+}
+
+TraitSpread::TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads)
+    : ascending_(measurements().size()) {
+  for (const auto& head : heads) {
+    for (std::size_t m = 0; m < head.size(); ++m) {
+      if (head[m]) ascending_[m].push_back(*head[m]);
+    }
+  }
+  for (std::vector<double>& values : ascending_) std::ranges::sort(values);
+}
+
+double TraitSpread::quantile(std::size_t trait, double share) const {
+  const std::vector<double>& values = ascending_[trait];
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(at), values.size() - 1);
+  const auto above = std::min(below + 1, values.size() - 1);
+  const double t = at - static_cast<double>(below);
+  return (1 - t) * values[below] + t * values[above];
+}
+
+double TraitSpread::mean(std::size_t trait) const {
+  double sum = 0;
+  for (const double value : ascending_[trait]) sum += value;
+  return sum / static_cast<double>(ascending_[trait].size());
+}
+
+double TraitSpread::deviation(std::size_t trait) const {
+  const double middle = mean(trait), count = static_cast<double>(ascending_[trait].size());
+  double squares = 0;
+  for (const double value : ascending_[trait]) squares += (value - middle) * (value - middle);
+  return count > 1 ? std::sqrt(squares / (count - 1)) : 0;
+}
+
+bool TraitSpread::meets(const TraitLimit& limit, double value) const {
+  return !(limit.at_least && value < value_of(limit.trait, *limit.at_least)) &&
+         !(limit.at_most && value > value_of(limit.trait, *limit.at_most));
+}
+
+std::string format_trait(const Measurement& measurement, double value) {
+  const std::string_view unit = unit_of(measurement);
+  return concat(format_fixed(value, unit.empty() ? 3 : 1), unit);
+}
+
+double normal_share(const TraitTarget& target, double value) {
+  constexpr double kSteps = 1e9;
+  const double z = (value - target.mean) / target.deviation;
+  return std::round(0.5 * std::erfc(-z / std::numbers::sqrt2) * kSteps) / kSteps;
+}
+
+double largest_difference(const TraitTarget& target, std::vector<double> values) {
+  std::ranges::sort(values);
+  const auto count = static_cast<double>(values.size());
+  double most = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double asked = normal_share(target, values[i]);
+    most = std::max({most, std::abs(asked - static_cast<double>(i) / count),
+                     std::abs(asked - static_cast<double>(i + 1) / count)});
+  }
+  return most;
+}
+
+}  // namespace crowdface

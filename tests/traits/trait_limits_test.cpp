@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/traits/trait_limits.h"
+
+#include <gtest/gtest.h>
+
+namespace crowdface::testing {
+namespace {
+
+std::vector<std::vector<std::optional<double>>> heads(const std::vector<double>& first) {
+  std::vector<std::vector<std::optional<double>>> values;
+  for (const double value : first) {
+    values.emplace_back(measurements().size());
+    values.back()[0] = value;
+  }
+  return values;
+}
+
+TEST(TraitSpread, QuantilesAreInterpolatedBetweenTheHeads) {
+  const TraitSpread spread(heads({30, 10, 20}));
+  EXPECT_TRUE(spread.is_available(0));
+  EXPECT_FALSE(spread.is_available(1));
+  EXPECT_DOUBLE_EQ(spread.quantile(0, 0), 10);
+  EXPECT_DOUBLE_EQ(spread.quantile(0, 0.25), 15);
+  EXPECT_DOUBLE_EQ(spread.quantile(0, 1), 30);
+  EXPECT_DOUBLE_EQ(spread.mean(0), 20);
+  EXPECT_DOUBLE_EQ(spread.deviation(0), 10);
+}
+
+TEST(TraitSpread, LimitsIncludeTheirEnds) {
+  const TraitSpread spread(heads({10, 20, 30}));
+  const TraitLimit limit{0, TraitEnd{0.5, true}, TraitEnd{28, false}};
+  EXPECT_FALSE(spread.meets(limit, 19.9));
+  EXPECT_TRUE(spread.meets(limit, 20));
+  EXPECT_TRUE(spread.meets(limit, 28));
+  EXPECT_FALSE(spread.meets(limit, 28.1));
+  EXPECT_TRUE(spread.meets({0}, 1000)) << "without ends nothing is refused";
+}
+
+TEST(TraitLimits, OwnLimitsReplaceThoseOfTheSameTrait) {
+  const TraitLimits common = {{0, TraitEnd{1}}, {2, TraitEnd{3}}}, own = {{1}, {2, TraitEnd{9}}};
+  const TraitLimits expected = {{0, TraitEnd{1}}, {1}, {2, TraitEnd{9}}};
+  EXPECT_EQ(with_own(common, own), expected);
+}
+
+TEST(TraitTarget, DifferencesAreThoseOfKolmogorovAndSmirnov) {
+  const TraitTarget target{0, 10, 2};
+  EXPECT_NEAR(normal_share(target, 10), 0.5, 1e-9);
+  EXPECT_NEAR(normal_share(target, 12), 0.841344746, 1e-9);
+  EXPECT_NEAR(largest_difference(target, {10}), 0.5, 1e-9);
+  EXPECT_NEAR(largest_difference(target, {100, 101}), 1, 1e-9) << "far above the asked values";
+}
+
+}  // namespace
+}  // namespace crowdface::testing
