@@ -48,8 +48,8 @@ std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
   return values;
 }
 
-CrowdDistances measure(const FaceSpace& space, const Eigen::MatrixXd& head_distances,
-                       const CastingResult& crowd_plan) {
+CrowdDistances measure_distances(const FaceSpace& space, const Eigen::MatrixXd& head_distances,
+                                 const CastingResult& crowd_plan) {
   CrowdDistances distances;
   distances.heads = quartiles(below_diagonal(head_distances));
   distances.crowd = quartiles(pair_distances(crowd_plan.points));
@@ -183,7 +183,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     tell_shortfall(config, remedy, *crowd.shortfall);
   }
   CrowdPlan result;
-  result.distances = measure(space, head_distances, crowd);
+  result.distances = measure_distances(space, head_distances, crowd);
   result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);

@@ -72,7 +72,7 @@ std::string format_head_traits(const Config& config, const Inputs& inputs,
     heads.push_back(measure_mesh(landmarks, head.positions, mm_per(config.faces.units)));
   }
   constexpr std::size_t kNumberWidth = 9;
-  const auto padded = [](const std::string& text, std::size_t width) {
+  const auto right_aligned = [](const std::string& text, std::size_t width) {
     return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
   };
   std::size_t name_width = 0, symbol_width = 0;
@@ -85,7 +85,7 @@ std::string format_head_traits(const Config& config, const Inputs& inputs,
   const std::size_t start = name_width + symbol_width + 4;
   std::string table(start, ' ');
   for (const std::string& title : titles) {
-    table += concat(' ', padded(title, kNumberWidth));
+    table += concat(' ', right_aligned(title, kNumberWidth));
   }
   table += '\n';
   std::string unavailable;
@@ -111,7 +111,7 @@ std::string format_head_traits(const Config& config, const Inputs& inputs,
     line += unit.empty() ? "  " : unit == " mm" ? "mm" : " °";
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::size_t width = std::max(kNumberWidth, titles[i].size());
-      line += concat(' ', padded(format_fixed(numbers[i], unit.empty() ? 3 : 1), width));
+      line += concat(' ', right_aligned(format_fixed(numbers[i], unit.empty() ? 3 : 1), width));
     }
     table += line + '\n';
   }
