@@ -16,8 +16,11 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/heads/heads_on_body.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/io/srgb.h"
 #include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/neck/match_rims.h"
 #include "crowdface/run/generate.h"
@@ -116,6 +119,21 @@ class Neck : public ::testing::Test {
     write_body(body_below(seam_));
   }
 
+  /// Gives each head a texture: a grey of its own at the neck, lighter towards the crown.
+  void paint_heads() const {
+    constexpr int kSide = 128;
+    for (int h = 0; h < kHeads; ++h) {
+      const std::string name = concat("heads/head_", h);
+      std::vector<std::uint8_t> grey;
+      for (int t = 0; t < kSide * kSide; ++t) {
+        grey.push_back(static_cast<std::uint8_t>(250 - (190 - 30 * h) * (t / kSide) / kSide));
+      }
+      folder_.write(name + ".png", encode_png(kSide, kSide, 1, grey));
+      folder_.write(name + ".mtl", concat("newmtl skin\nmap_Kd head_", h, ".png\n"));
+      folder_.write(name + ".obj", concat("mtllib head_", h, ".mtl\nusemtl skin\n",
+                                          testing::read_text(folder_ / (name + ".obj"))));
+    }
+  }
   void write_body(const Mesh& body) {
     body_ = body;
     encode_obj(body, "").write(folder_ / "body.obj");
@@ -453,6 +471,99 @@ TEST_F(Neck, ABodyThatDoesNotFitIsRefused) {
   expect_refused({"elsewhere, 30"});
   write_body(body_below(seam_.topRows(seam_.rows() - 2)));
   expect_refused({concat("of ", seam_.rows(), " vertices"), concat("rims of ", seam_.rows() - 2)});
+}
+
+/// The cells of a row of crowd.csv by their columns.
+std::map<std::string, std::string> table_row(const fs::path& crowd, const std::string& id) {
+  std::istringstream lines(testing::read_text(crowd / "crowd.csv"));
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> cells = {""};
+    for (const char c : line) {
+      if (c == ',') {
+        cells.emplace_back();
+      } else if (c != '\r') {
+        cells.back() += c;
+      }
+    }
+    return cells;
+  };
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> names = cells(line);
+  std::map<std::string, std::string> row;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> values = cells(line);
+    if (values.front() != id) continue;
+    for (std::size_t c = 0; c < names.size(); ++c) row[names[c]] = values.at(c);
+  }
+  return row;
+}
+
+TEST_F(Neck, TheTableTellsTheMeanOfTheTextureAboveTheRing) {
+  paint_heads();
+  const auto out = run("{body: body.obj}", kThreeRecipes);
+  const Inputs inputs = std::move(load_job(folder_ / "out.yaml", {}).inputs);
+  EdgeDistances distances(inputs.adjacency, inputs.mean);
+  distances.search(rim_, 2);  // 20 mm
+  for (const char* id : {"a", "b", "mob_0001"}) {
+    const Image image = read_image(out / "meshes/blended" / concat(id, ".png"));
+    double sum = 0, areas = 0;
+    for (Index f = 0; f < heads_.topology().face_count(); ++f) {
+      double inside = 0;
+      Eigen::RowVector2d place = Eigen::RowVector2d::Zero();
+      const auto corners = heads_.topology().face(f), uvs = heads_.topology().face_uvs(f);
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        if (std::isfinite(distances.distance(corners[c]))) inside += 1;
+        place += heads_.uvs().row(uvs[c]) / static_cast<double>(corners.size());
+      }
+      const double area = inside * face_area_vector(heads_.topology(), f, inputs.mean).norm();
+      const double value = image.at(static_cast<int>(place.x() * image.width),
+                                    static_cast<int>((1 - place.y()) * image.height), 0);
+      sum += area * linear_of_srgb(value);
+      areas += area;
+    }
+    const double found = std::stod(table_row(out, id).at("neck_linear_r"));
+    EXPECT_NEAR(found / (sum / areas), 1, 0.03) << id;
+  }
+  const auto faces = testing::read_json(out / "report.json").at("faces");
+  EXPECT_EQ(faces.size(), 7U);
+  for (const auto& face : faces) {
+    const auto row = table_row(out, face.at("id"));
+    EXPECT_EQ(face.at("neck").at("srgb"), row.at("neck_srgb"));
+    EXPECT_EQ(face.at("neck").at("linear").at(0).get<double>(), std::stod(row.at("neck_linear_r")));
+  }
+  // The same without pictures and blended files, from the targets' textures.
+  generate(configure("{body: body.obj}", concat("textures: {blend: target}\n", kThreeRecipes), "",
+                     "plain"),
+           {}, {folder_ / "cache", Replace::kRefuse, false});
+  const auto of_target = table_row(folder_ / "plain", "c").at("neck_linear_r");
+  EXPECT_NE(of_target, table_row(out, "c").at("neck_linear_r"));
+  EXPECT_EQ(of_target, table_row(folder_ / "plain", "c").at("neck_linear_g"));
+}
+
+TEST_F(Neck, TheTableTellsTheColoursOfVertices) {
+  const auto plain = run("{body: body.obj}", kThreeRecipes, "", "plain");
+  EXPECT_FALSE(table_row(plain, "a").contains("neck_srgb")) << "there are no colours";
+  for (Index h = 0; h < kHeads; ++h) {
+    const std::string file = concat("heads/head_", h, ".obj");
+    std::istringstream lines(testing::read_text(folder_ / file));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("v ")) line += concat(" ", (100.0 + 20.0 * h) / 255, " 0.4 0.2");
+      text += line + '\n';
+    }
+    folder_.write(file, text);
+  }
+  const auto out = run("{body: body.obj}",
+                       "recipes:\n  - {id: a, target: head_1, regions: "
+                       "{all: {weights: {head_1: 1}, smoothness: 0.7}}}\n"
+                       "  - {id: b, target: head_1, regions: "
+                       "{all: {weights: {head_3: 1}, smoothness: 0.7}}}\n");
+  EXPECT_EQ(table_row(out, "a").at("neck_srgb"), "#786633");
+  EXPECT_NEAR(std::stod(table_row(out, "a").at("neck_linear_g")), linear_of_srgb(0.4), 1e-4);
+  const std::string between = table_row(out, "b").at("neck_srgb");
+  EXPECT_GT(between, "#8A6633");
+  EXPECT_LT(between, "#8D6633");
 }
 
 TEST_F(Neck, FarNecksAreWarnedOf) {

@@ -2,12 +2,15 @@
 #include "crowdface/crowd/crowd_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/srgb.h"
 
 namespace crowdface {
 namespace {
@@ -61,6 +64,22 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
   add("smoothness", [](const BandRecipe& own) { return format_number(own.smoothness); });
   add("iterations", [](const BandRecipe& own) { return concat(own.iterations); });
   add("extrapolation", [](const BandRecipe& own) { return format_number(own.extrapolation); });
+}
+
+/// The skin's colour at the neck. \param colours  see table_text
+void add_neck_colours(const std::vector<FacePlan>& crowd,
+                      const std::vector<Eigen::Array3d>& colours, TableColumns& columns) {
+  if (colours.empty()) return;
+  const auto colour = [&crowd, &colours](const FacePlan& face) {
+    return colours[static_cast<std::size_t>(&face - crowd.data())];
+  };
+  for (int c = 0; c < 3; ++c) {
+    columns.push_back({concat("neck_linear_", "rgb"[c]), [=](const FacePlan& face) {
+                         return format_number(rounded(colour(face)[c]));
+                       }});
+  }
+  columns.push_back(
+      {"neck_srgb", [=](const FacePlan& face) { return hex_of_light(colour(face)); }});
 }
 
 /// To add a column, add a row here.
@@ -119,8 +138,22 @@ std::string table_line(const TableColumns& columns, const Text& text) {
 
 }  // namespace
 
-TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names) {
+std::string hex_of_light(const Eigen::Array3d& light) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  constexpr unsigned kBase = 16;
+  std::string text = "#";
+  for (const double channel : light) {
+    const auto byte = static_cast<unsigned>(std::lround(255 * srgb_of_linear(channel)));
+    text += kDigits[byte / kBase];
+    text += kDigits[byte % kBase];
+  }
+  return text;
+}
+
+TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                      const std::vector<Eigen::Array3d>& neck_colours) {
   TableColumns columns = table_columns(names);
+  add_neck_colours(crowd, neck_colours, columns);
   std::erase_if(columns, [&](const TableColumn& column) {
     return column.applies && std::ranges::none_of(crowd, column.applies);
   });

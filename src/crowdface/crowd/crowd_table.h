@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/plan_names.h"
@@ -9,9 +12,16 @@
 
 namespace crowdface {
 
+inline const std::vector<Eigen::Array3d> kNoNeckColours;
+
 /// The text of crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line for each
-/// face. The table depends on the plan only, so every run over a whole crowd writes it. Both
+/// face. The table depends on plan and heads only, so every run over a whole crowd writes it. All
 /// arguments must outlive the text.
-TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names);
+/// \param neck_colours  #crowd, linear light of the skin above the neck's ring; or empty
+TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                      const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours);
+
+/// A colour in linear light as sRGB, "#C89F8A".
+std::string hex_of_light(const Eigen::Array3d& light);
 
 }  // namespace crowdface

@@ -33,6 +33,14 @@ std::vector<PictureName> own_pictures(const Inputs& inputs) {
 
 FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
     : inputs_(inputs), are_blended_(config.textures.blend == TextureBlend::kAuto) {
+  blend_textures(config);
+  if (!inputs.neck) return;
+  SeamColours seam(inputs, inputs.textures.blend() ? blenders_.front().get() : nullptr);
+  if (seam.any()) seam_.emplace(std::move(seam));
+}
+
+void FaceTextures::blend_textures(const Config& config) {
+  const Inputs& inputs = inputs_;
   if (!has_own_textures(inputs) && inputs.colours.empty()) return;
   const Topology& topology = inputs.faces.topology;
   TextureBlending options;
@@ -47,10 +55,8 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.of_target[vertex] = true;
   }
-  if (!inputs.colours.empty()) {
-    region_shares_ = region_shares(inputs.regions, options.areas);
-    of_target_ = options.of_target;
-  }
+  region_shares_ = region_shares(inputs.regions, options.areas);
+  if (!inputs.colours.empty()) of_target_ = options.of_target;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
@@ -84,6 +90,21 @@ ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
   FaceColourWeights weights = face_colour_weights(recipe, inputs_.colours.size(), region_shares_);
   if (!are_blended_) weights.whole = weights.of_target;
   return blend_vertex_colours(inputs_.colours, weights, of_target_);
+}
+
+std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {
+  const std::size_t heads = inputs_.faces.heads.size();
+  if (inputs_.textures.blend() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
+    return face_colour_weights(recipe, heads, region_shares_).whole;
+  }
+  std::vector<double> shares(heads, 0.0);
+  shares[static_cast<std::size_t>(recipe.target)] = 1;
+  return shares;
+}
+
+std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) const {
+  if (!seam_) return std::nullopt;
+  return seam_->mean(colour_shares(recipe));
 }
 
 std::uint64_t FaceTextures::memory_bytes() const {

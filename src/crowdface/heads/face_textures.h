@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/heads/seam_colours.h"
 #include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
@@ -31,11 +33,19 @@ class FaceTextures {
   /// Vertex colours of a face; no rows if the heads have none. Thread-safe.
   ColourRows vertex_colours(const Recipe& recipe) const;
 
+  /// Mean colour of the skin in a band above the neck's ring, in linear light; nothing without
+  /// `neck` or without colours. Thread-safe.
+  std::optional<Eigen::Array3d> seam_colour(const Recipe& recipe) const;
+
   /// Memory of this object, and the memory needed to blend the largest image, in bytes.
   std::uint64_t memory_bytes() const;
   std::uint64_t blend_bytes() const;
 
  private:
+  void blend_textures(const Config& config);
+  /// Weights of the heads in the colour of the whole face.
+  std::vector<double> colour_shares(const Recipe& recipe) const;
+
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
   struct Picture {
     const TextureBlender* blender;
@@ -43,10 +53,11 @@ class FaceTextures {
   };
   std::vector<Picture> pictures_;
   const Inputs& inputs_;
-  /// whether vertex colours are blended; if not, a face has those of its target
+  /// whether colours are blended; if not, a face has those of its target
   bool are_blended_;
   std::vector<double> region_shares_;  ///< share of each region in the face
   std::vector<bool> of_target_;        ///< #V, see blend_vertex_colours
+  std::optional<SeamColours> seam_;    ///< empty without colours at the neck's ring
 };
 
 /// Memory of the heads' texture maps that lie in memory, in bytes.

@@ -21,7 +21,8 @@ struct HeadsOnBody {
   Seam seam;
   std::vector<Head> heads;
   Positions unplaced_mean;  ///< mean of the heads before they were placed
-  Digest digest;            ///< hash of the seam and of `falloff`
+  double mm_per_unit = 1;
+  Digest digest;  ///< hash of the seam and of `falloff`
 };
 
 }  // namespace crowdface

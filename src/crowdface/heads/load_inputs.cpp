@@ -152,7 +152,7 @@ HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) 
 void read_textures(const Config& config, const CacheFolder& cache, Inputs& inputs,
                    Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
-  const bool shown = sheet && sheet->texture != SheetTexture::kNo;
+  const bool shown = (sheet && sheet->texture != SheetTexture::kNo) || inputs.neck;
   const bool blend =
       config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
   if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
@@ -175,7 +175,8 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
     };
     const auto load_colours = [&](const HeadsTextures& textures) {
       if (textures.any() && blend && textures.differ()) return load_blended(textures);
-      if (textures.any() && shown) return load_render_textures(textures, shown_texels(*sheet));
+      if (textures.any() && shown)
+        return load_render_textures(textures, shown_texels(sheet.value_or(Config::ContactSheet{})));
       HeadTextures none;
       if (!textures.any()) none.warnings = textures.warnings;
       return none;

@@ -202,7 +202,7 @@ void place_heads(const Config& config, Inputs& inputs) {
                             .digest();
   warn_of_bent(config, heads, inputs);
   inputs.neck = std::make_shared<const HeadsOnBody>(
-      HeadsOnBody{std::move(seam), std::move(heads), std::move(unplaced_mean), digest});
+      HeadsOnBody{std::move(seam), std::move(heads), std::move(unplaced_mean), mm, digest});
 }
 
 }  // namespace

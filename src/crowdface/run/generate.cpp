@@ -90,6 +90,17 @@ struct PlannedJob {
   /// faces.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
+  /// The colour of each face's skin above the neck's ring; empty if there are none.
+  std::vector<Eigen::Array3d> neck_colours(const Job& job) {
+    std::vector<Eigen::Array3d> colours;
+    if (!job.inputs.neck) return colours;
+    for (const FacePlan& face : crowd_plan.crowd) {
+      const auto colour = textures.get().seam_colour(face.recipe);
+      if (!colour) break;
+      colours.push_back(*colour);
+    }
+    return colours;
+  }
 };
 
 Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSeconds& stages) {
@@ -187,11 +198,14 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   const auto write = [&](const fs::path& path, const TextPieces& text) {
     return ledger.write(directory.relative(path), text);
   };
+  const std::vector<Eigen::Array3d> neck_colours = planned.neck_colours(job);
   if (planned.planned()) {
     for (const LedgerEntry::File& file : planned.plan_files) ledger.keep(file);
-    if (options.shard.whole()) write(directory.table(), table_text(crowd, job.names));
+    if (options.shard.whole()) {
+      write(directory.table(), table_text(crowd, job.names, neck_colours));
+    }
   } else {
-    write_plan(job, directory, crowd_plan, planned.casting, write);
+    write_plan(job, directory, crowd_plan, planned.casting, neck_colours, write);
   }
   const bool has_whole_crowd = options.shard.whole() || !planned.planned();
 
@@ -261,7 +275,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     });
   }
   write(directory.report(), report_text(job, planned.prepared, crowd_plan, planned.casting, lists,
-                                        so_far.faces, pages, warnings));
+                                        so_far.faces, neck_colours, pages, warnings));
   ledger.settle();
   gather_logs(directory);
   remove_notes_of_shards(directory);
@@ -354,7 +368,7 @@ void plan_job(const Job& job, const GenerateOptions& options) {
     const auto crowd = cast_job(job, options, stages);
     const CrowdLock lock(directory, {});
     open_output(job, options.replace);
-    write_plan(job, directory, crowd->crowd_plan, crowd->casting,
+    write_plan(job, directory, crowd->crowd_plan, crowd->casting, crowd->neck_colours(job),
                [](const fs::path& path, const TextPieces& text) { return write_file(path, text); });
     lock.require_still_there();
     log_info(concat(crowd->crowd_plan.crowd.size(), " recipes in ", directory.plan().string()));

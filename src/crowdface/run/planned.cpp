@@ -61,7 +61,8 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPiec
 }  // namespace
 
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
-                const nlohmann::ordered_json& casting, const WriteFile& write) {
+                const nlohmann::ordered_json& casting,
+                const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write) {
   const TextPieces plan = plan_text(crowd_plan.crowd, job.names, job.settings);
   remove_report_of_other_plan(directory, plan);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
@@ -69,7 +70,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
     files.push_back(file_to_json({directory.relative(path), write(path, text)}));
   };
   write_and_mark(directory.plan(), plan);
-  write(directory.table(), table_text(crowd_plan.crowd, job.names));
+  write(directory.table(), table_text(crowd_plan.crowd, job.names, neck_colours));
   if (!crowd_plan.founders.empty()) {
     write_and_mark(directory.founders(), plan_text(crowd_plan.founders, job.names, job.settings));
   }

@@ -22,8 +22,10 @@ using WriteFile = std::function<FileDigest(const std::filesystem::path& path, co
 /// Writes the plan of a cast crowd, the table, and the files that go with them; then a marker file,
 /// which shows that the plan is complete and to which job it belongs.
 /// \param casting  content of casting.json
+/// \param neck_colours  see table_text
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
-                const nlohmann::ordered_json& casting, const WriteFile& write);
+                const nlohmann::ordered_json& casting,
+                const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write);
 
 /// A shard's part of the folder's plan, or the whole plan.
 struct PlannedFaces {

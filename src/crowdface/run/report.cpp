@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/core/version.h"
+#include "crowdface/crowd/crowd_table.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/settings_digest.h"
 #include "crowdface/io/shallow_json.h"
@@ -131,7 +132,7 @@ Json distances_to_json(const Json& distances) {
 }
 
 Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
-                  const FaceResult& result) {
+                  const FaceResult& result, const Eigen::Array3d* neck_colour) {
   Json face = {{"id", id}};
   for (std::size_t f = 0; f < files.size(); ++f) {
     const FaceFile& file = files[f];
@@ -144,6 +145,11 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
         {"triangles", skin.local.compared},       {"flipped", skin.local.flipped},
         {"stretch", rounded(skin.local.stretch)}, {"intersecting", skin.intersecting},
         {"wider_mm", rounded(skin.wider_mm)},     {"exposed_mm2", rounded(skin.exposed_mm2)}};
+  }
+  if (neck_colour != nullptr) {
+    const Eigen::Array3d& light = *neck_colour;
+    face["neck"] = {{"linear", {rounded(light[0]), rounded(light[1]), rounded(light[2])}},
+                    {"srgb", hex_of_light(light)}};
   }
   return face;
 }
@@ -227,7 +233,8 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
 
 TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
                        const Json& casting, const FaceFileLists& lists,
-                       const std::vector<FaceResult>& faces, std::size_t sheets,
+                       const std::vector<FaceResult>& faces,
+                       const std::vector<Eigen::Array3d>& neck_colours, std::size_t sheets,
                        const std::vector<std::string>& warnings) {
   // Replace invalid UTF-8: warnings may contain any file names.
   std::string head = summary(job, prepared, crowd_plan, casting, faces, sheets, warnings)
@@ -238,7 +245,9 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan
     text_of_items(faces.size(), [&](std::size_t i) {
       const FacePlan& face = crowd_plan.crowd[i];
       return concat(i > 0 ? ",\n    " : "\n    ",
-                    indented(face_to_json(face.id, lists.of(face), faces[i]), 2));
+                    indented(face_to_json(face.id, lists.of(face), faces[i],
+                                          neck_colours.empty() ? nullptr : &neck_colours[i]),
+                             2));
     })(take);
     take(faces.empty() ? "]\n}\n" : "\n  ]\n}\n");
   };

@@ -23,9 +23,11 @@ namespace crowdface {
 /// \param casting  content of casting.json
 /// \param faces    results, one per face of the crowd
 /// \param lists    make the faces' lists of files
+/// \param neck_colours  see table_text
 TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
                        const nlohmann::ordered_json& casting, const FaceFileLists& lists,
-                       const std::vector<FaceResult>& faces, std::size_t sheets,
+                       const std::vector<FaceResult>& faces,
+                       const std::vector<Eigen::Array3d>& neck_colours, std::size_t sheets,
                        const std::vector<std::string>& warnings);
 
 /// Reads a report.json without its faces, of which there may be a million.

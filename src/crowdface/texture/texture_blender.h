@@ -54,6 +54,8 @@ class TextureBlender {
   /// \param picture  index of a picture of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
+  const SurfaceStatistics& statistics() const { return statistics_; }
+
   /// Memory of this object, and additional memory to blend the largest picture, in bytes.
   std::size_t memory_bytes() const;
   std::size_t blend_bytes() const;

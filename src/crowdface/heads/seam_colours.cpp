@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/seam_colours.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/cast/face_area.h"
+#include "crowdface/heads/heads_on_body.h"
+#include "crowdface/mesh/edge_distances.h"
+#include "crowdface/texture/optical_density.h"
+
+namespace crowdface {
+namespace {
+
+constexpr double kBandMm = 20;  ///< height of the band, along the skin
+
+/// The densities of a head's texture around each vertex: the mean of a sample in each polygon.
+Positions sampled(const TextureSet& textures, const HeadSet& faces, const VertexFaces& around,
+                  const std::vector<std::uint32_t>& vertices) {
+  constexpr float kOwn = 0.75F;  // weight of the vertex in a sample; the rest is the centroid's
+  Positions densities(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Eigen::Array3d sum = Eigen::Array3d::Zero();
+    double count = 0;
+    for (const std::uint32_t face : around.of(vertices[i])) {
+      const std::uint32_t texture =
+          textures.of_face.empty() ? TextureSet::kNone : textures.of_face[face];
+      if (texture == TextureSet::kNone) continue;
+      const auto corners = faces.topology.face(face);
+      const auto uvs = faces.topology.face_uvs(face);
+      Eigen::Vector2f place = Eigen::Vector2f::Zero();
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const float share = (1 - kOwn) / static_cast<float>(corners.size()) +
+                            (corners[c] == vertices[i] ? kOwn : 0.0F);
+        place += share * faces.uvs.row(uvs[c]).transpose().cast<float>();
+      }
+      const Light light = colour_at(*textures.textures[texture], place);
+      for (int c = 0; c < 3; ++c) sum[c] += density_of_light(light[c]);
+      count += 1;
+    }
+    if (count == 0) return Positions(0, 3);
+    densities.row(static_cast<Index>(i)) = (sum / count).matrix().transpose();
+  }
+  return densities;
+}
+
+/// The densities of the low frequencies of a head's blended texture.
+Positions coarse_of(const TextureBlender& blender, std::size_t head,
+                    const std::vector<std::uint32_t>& vertices) {
+  Positions densities(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    densities.row(static_cast<Index>(i)) =
+        blender.statistics().coarse[head].row(vertices[i]).cast<double>();
+  }
+  return densities;
+}
+
+Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_t>& vertices) {
+  if (colours.rows() == 0) return Positions(0, 3);
+  Positions densities(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (Index c = 0; c < 3; ++c) {
+      densities(static_cast<Index>(i), c) = densities_of_srgb8()[colours(vertices[i], c)];
+    }
+  }
+  return densities;
+}
+
+/// The image of the polygons at the ring in the layout of blended textures; kNoIndex if they have
+/// none.
+std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
+  for (const std::uint32_t face : around.of(rim.front())) {
+    if (layout.of_face[face] != kNoIndex) return layout.of_face[face];
+  }
+  return kNoIndex;
+}
+
+}  // namespace
+
+SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
+  const HeadSet& faces = inputs.faces;
+  const Rim& rim = inputs.neck->seam.rim;
+  vertices_ = rim;
+  ring_ = static_cast<Index>(rim.size());
+  EdgeDistances distances(inputs.adjacency, inputs.mean);
+  distances.search(rim, kBandMm / inputs.neck->mm_per_unit);
+  for (const std::uint32_t v : distances.reached()) {
+    if (distances.distance(v) > 0) vertices_.push_back(v);
+  }
+  const std::vector<double> areas =
+      face_areas(faces.topology, inputs.skin, inputs.mean, FaceArea::kSkin, {2, 1});
+  double total = 0;
+  for (const std::uint32_t v : vertices_) total += areas[v];
+  for (const std::uint32_t v : vertices_) areas_.push_back(areas[v] / total);
+  of_head_.assign(faces.heads.size(), Positions(0, 3));
+  const VertexFaces around(faces.topology);
+  const std::uint32_t picture =
+      blended == nullptr ? kNoIndex : picture_at(rim, around, inputs.textures.blended.layout);
+  for (std::size_t h = 0; h < of_head_.size(); ++h) {
+    if (picture != kNoIndex) {
+      if (inputs.textures.blended.maps[picture][h]) of_head_[h] = coarse_of(*blended, h, vertices_);
+    } else if (!inputs.textures.texture_sets.empty()) {
+      of_head_[h] = sampled(inputs.textures.texture_sets[h], faces, around, vertices_);
+    } else if (!inputs.colours.empty()) {
+      of_head_[h] = densities_at(inputs.colours[h], vertices_);
+    }
+  }
+}
+
+bool SeamColours::any() const {
+  return std::ranges::any_of(of_head_, [](const Positions& rows) { return rows.rows() > 0; });
+}
+
+Positions SeamColours::blend(const std::vector<double>& weights, Index rows) const {
+  double sum = 0;
+  for (std::size_t h = 0; h < of_head_.size(); ++h) {
+    if (of_head_[h].rows() > 0) sum += weights[h];
+  }
+  Positions blended = Positions::Zero(rows, 3);
+  double total = 0;
+  for (std::size_t h = 0; h < of_head_.size(); ++h) {
+    const double weight = sum > 0 ? weights[h] : 1;
+    if (of_head_[h].rows() == 0 || weight == 0) continue;
+    blended += weight * of_head_[h].topRows(rows);
+    total += weight;
+  }
+  return blended / total;
+}
+
+Positions SeamColours::at_ring(const std::vector<double>& weights) const {
+  return blend(weights, ring_);
+}
+
+Eigen::Array3d SeamColours::mean(const std::vector<double>& weights) const {
+  const Positions densities = blend(weights, static_cast<Index>(vertices_.size()));
+  Eigen::Array3d light = Eigen::Array3d::Zero();
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      light[c] += areas_[i] * static_cast<double>(light_of_density(
+                                  static_cast<float>(densities(static_cast<Index>(i), c))));
+    }
+  }
+  return light;
+}
+
+}  // namespace crowdface

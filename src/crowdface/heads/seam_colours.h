@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/heads/inputs.h"
+#include "crowdface/texture/texture_blender.h"
+
+namespace crowdface {
+
+/// The colours of the heads' skin in a band above the neck's ring, without detail. Faces blend them
+/// like their textures or their vertex colours.
+class SeamColours {
+ public:
+  /// \param inputs   must have a neck and outlive this object.
+  /// \param blended  blends the faces' colour textures; null if faces have none of their own.
+  SeamColours(const Inputs& inputs, const TextureBlender* blended);
+
+  /// Whether any head has colours there.
+  bool any() const;
+  /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
+  /// \param weights  #heads; heads without colours are left out. All zero: equal weights
+  Positions at_ring(const std::vector<double>& weights) const;
+  /// Mean colour of the band, linear light.
+  Eigen::Array3d mean(const std::vector<double>& weights) const;
+
+ private:
+  Positions blend(const std::vector<double>& weights, Index rows) const;
+
+  std::vector<std::uint32_t> vertices_;  ///< the ring, then the other vertices of the band
+  Index ring_ = 0;                       ///< number of vertices in the ring
+  std::vector<double> areas_;            ///< #vertices_, shares of the band; the sum is one
+  std::vector<Positions> of_head_;  ///< #heads, each #vertices_ by 3: densities; or without rows
+};
+
+}  // namespace crowdface
