@@ -144,8 +144,10 @@ Run add_check(CLI::App& program) {
         look_at_output(job);
         describe(job);
         if (!options.masks.empty()) write_masks(job, options.masks);
-        if (!options.traits && options.landmarks.empty()) return;
+        const bool limited = !job.config.named_traits().empty();
+        if (!limited && !options.traits && options.landmarks.empty()) return;
         const HeadLandmarks landmarks = find_head_landmarks(job.config, job.inputs);
+        require_named_traits(job.config, landmarks);
         if (options.traits) print(format_head_traits(job.config, job.inputs, landmarks));
         if (!options.landmarks.empty()) write_landmarks(job, landmarks, options.landmarks);
       });

@@ -16,7 +16,7 @@ TEST(Rejections, EveryReasonIsCountedApart) {
   for (const Reason reason :
        {Reason::kMinDistance, Reason::kMinDistanceToFaces, Reason::kMaxWeight, Reason::kImplausible,
         Reason::kFlipped, Reason::kStretched, Reason::kIntersecting, Reason::kGap, Reason::kExposed,
-        Reason::kFamily, Reason::kRejected}) {
+        Reason::kFamily, Reason::kRejected, Reason::kTraits}) {
     Rejections one;
     one.add(reason, 3);
     EXPECT_EQ(one.total(), 3U) << name_of(reason);

@@ -6,6 +6,7 @@
 
 #include "crowdface/cast/apply_review.h"
 #include "crowdface/cast/face_search.h"
+#include "crowdface/cast/population.h"
 #include "crowdface/cast/shares.h"
 #include "crowdface/cast/spread.h"
 #include "crowdface/core/interrupt.h"
@@ -22,6 +23,11 @@ constexpr std::uint64_t kBatch = 64;
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                     CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
+  PopulationBalance population(casting.population);
+  FaceSearch::Cost cost;
+  if (!casting.population.empty()) {
+    cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
+  }
   for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
     throw_if_interrupted();
     const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
@@ -38,16 +44,34 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
       auto found = search.settle(
-          crowd, [&](const FaceSpace::Point& point) { return family_separation.refuses(point); });
+          crowd, [&](const FaceSpace::Point& point) { return family_separation.refuses(point); },
+          cost);
       result.rejections.add(search.rejections());
       if (!found) {
         result.shortfall = Shortfall{index - 1, search.rejections(), result.kinds[index - 1]};
         return;
       }
+      if (cost) population.add(found->landmarks);
       crowd.add(std::move(found->face), std::move(found->point));
       if (joined) joined(search.rejections());
     }
   }
+}
+
+/// Draws what a hand-written recipe does not specify, until the face meets the recipe's limits on
+/// measurements. \return  nothing if no attempt does.
+std::optional<FacePlan> draw_by_hand(const CastingOptions& casting, const ManualRecipe& hand,
+                                     const FaceJudge& judge) {
+  const auto attempts =
+      kDrawsWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
+  for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
+    FacePlan face = draw_manual_recipe(casting, hand, attempt);
+    const TraitRules* rules = hand.traits.empty() ? nullptr : judge.traits();
+    if (rules == nullptr) return face;
+    if (rules->check(face, rules->measurer().landmarks(face.recipe))) continue;
+    if (!judge.check_traits(face)) return face;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -58,9 +82,15 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   CrowdSoFar& crowd = *so_far;
   for (const ManualRecipe& hand : casting.recipes) {
-    FacePlan face = draw_manual_recipe(casting, hand);
-    FaceSpace::Point point = judge.space().point(face.recipe);
-    crowd.add(std::move(face), std::move(point));
+    std::optional<FacePlan> face = draw_by_hand(casting, hand, judge);
+    if (!face) {
+      Rejections rejections;
+      rejections.add(Reason::kTraits);
+      result.shortfall = Shortfall{0, rejections, -1, {}, {}, hand.id};
+      return result;
+    }
+    FaceSpace::Point point = judge.space().point(face->recipe);
+    crowd.add(*std::move(face), std::move(point));
   }
   FamilySeparation family_separation;
   const UnrelatedFaces unrelated(casting, judge.space());

@@ -21,6 +21,7 @@ struct Shortfall {
   int kind = -1;              ///< group of the face that could not be found, or −1
   std::string family = {};    ///< name of the family that could not be cast, if any
   std::string reviewed = {};  ///< id of the face that could not be redrawn, if any
+  std::string recipe = {};    ///< id of the hand-written face that could not be drawn, if any
 };
 
 /// A cast crowd.

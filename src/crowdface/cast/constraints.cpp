@@ -17,6 +17,8 @@ constexpr Advice kShape[] = {"extrapolation nearer to 1", "a larger limit under 
 constexpr Advice kFamilies[] = {
     "another max_distance or min_distance of the family, fewer members or families",
     "more heads, so that families have more room between them"};
+constexpr Advice kTraits[] = {"wider limits, or heads that reach farther",
+                              "extrapolation above 1, which exaggerates the details of heads"};
 constexpr Advice kReview[] = {"a smaller min_distance_to_rejected"};
 
 using Diversity = DiversityOptions;
@@ -47,6 +49,7 @@ constexpr std::array<Constraint, kReasonCount> kConstraints = {{
      .section = "diversity",
      .key = "min_distance_to_rejected",
      .advice = kReview},
+    {.reason = Reason::kTraits, .section = "", .key = "traits", .advice = kTraits},
 }};
 
 constexpr bool constraints_are_in_order() {
@@ -78,6 +81,7 @@ const Constraint& constraint_of(Reason reason) {
 std::string describe(Reason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability) {
   if (reason == Reason::kFamily) return "the distances within the family";
+  if (reason == Reason::kTraits) return "the limits on measurements (traits)";
   const Constraint& constraint = constraint_of(reason);
   if (reason == Reason::kRejected) {
     return concat("the distance to faces that reviews rejected (", full_key(constraint), ")");

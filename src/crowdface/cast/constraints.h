@@ -28,8 +28,9 @@ enum class Reason {
   kExposed,             ///< the back side of the skin is visible near an intersection
   kFamily,              ///< intrudes into another family, or breaks a limit of its own family
   kRejected,            ///< too similar to a face that a review rejected
+  kTraits,              ///< a measurement is outside its limits
 };
-constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kRejected) + 1;
+constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kTraits) + 1;
 
 /// A constraint as the user sees it.
 struct Constraint {
@@ -61,7 +62,7 @@ std::string describe(Reason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability);
 /// Returns, for example, "nearer to a head than diversity.min_distance_to_faces (0.5 mm)".
 ///
-/// \pre `reason` is neither kFamily nor kRejected.
+/// \pre `reason` is none of kFamily, kRejected and kTraits.
 std::string describe_broken(Reason reason, const DiversityOptions& diversity,
                             const BelievabilityOptions& believability);
 

@@ -36,9 +36,10 @@ struct CastingOptions {
   LevelScale scale;
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
-  std::vector<Review> reviews = {};  ///< applied one after the other
-  std::vector<Group> groups = {};    ///< groups of the sampled faces
-  HeadTags tags = {};                ///< #heads, or empty
+  std::vector<Review> reviews = {};          ///< applied one after the other
+  std::vector<Group> groups = {};            ///< groups of the sampled faces
+  HeadTags tags = {};                        ///< #heads, or empty
+  std::vector<TraitTarget> population = {};  ///< asked distributions of measurements
 };
 
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the

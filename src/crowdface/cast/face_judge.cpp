@@ -33,6 +33,11 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
 }
 
+std::optional<Reason> FaceJudge::check_traits(const FacePlan& face) const {
+  if (traits_ == nullptr) return std::nullopt;
+  return traits_->check(face, traits_->measurer().exact_landmarks(face.recipe));
+}
+
 std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
                                               const FaceSpace::Point& point) const {
   for (const RegionRecipe& region : recipe.regions) {

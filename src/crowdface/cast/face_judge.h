@@ -8,6 +8,7 @@
 #include "crowdface/cast/face_point_index.h"
 #include "crowdface/cast/plausibility.h"
 #include "crowdface/cast/proxy_skin.h"
+#include "crowdface/cast/trait_rules.h"
 #include "crowdface/validity/skin_check.h"
 
 namespace crowdface {
@@ -27,6 +28,12 @@ class FaceJudge {
   FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
             const BelievabilityOptions& believability, const ProxySkin* skin = nullptr,
             MeshDefects meshes = {});
+
+  /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
+  void limit_traits(const TraitRules* rules) { traits_ = rules; }
+  const TraitRules* traits() const { return traits_; }
+  /// Checks the limits on measurements as exactly as on written meshes.
+  std::optional<Reason> check_traits(const FacePlan& face) const;
 
   /// Checks everything that follows from the recipe and its point, in microseconds: weights,
   /// distance from the input heads, plausibility.
@@ -56,6 +63,7 @@ class FaceJudge {
   Plausibility plausibility_;
   const ProxySkin* skin_;
   MeshDefects mesh_defects_;
+  const TraitRules* traits_ = nullptr;
 };
 
 }  // namespace crowdface

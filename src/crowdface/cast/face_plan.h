@@ -39,6 +39,8 @@ struct FacePlan {
   std::vector<std::string> inherits;
   double mother_share = 0;  ///< mother's fraction of the coarse shape, if the face inherits it
   std::vector<std::string> attachments;  ///< names
+  /// values of the measurements that the plan records (PlanNames::traits); empty: not measured
+  std::vector<double> traits = {};
   CastingNotes notes;
 };
 

@@ -13,7 +13,8 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
       diversity_(diversity),
       wanted_(static_cast<std::size_t>(candidates)),
       next_attempt_(first_attempt),
-      last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)) {}
+      last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
+      usual_attempt_(last_attempt_) {}
 
 /// Returns whether a candidate is far enough from all faces. Computes its distance to the nearest
 /// face only as exactly as necessary to find the farthest candidate.
@@ -33,11 +34,33 @@ bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crow
   return true;
 }
 
+/// Returns whether to draw another candidate. Limits on measurements may need many more attempts
+/// than all other constraints: beyond the usual number, one candidate is enough.
+bool FaceSearch::goes_on() const {
+  if (candidates_.size() >= wanted_ || next_attempt_ >= last_attempt_) return false;
+  return candidates_.empty() || next_attempt_ < usual_attempt_;
+}
+
+/// Measures a candidate, if that is asked for, and checks its limits. An attempt that fails here
+/// does not count as one of the usual attempts, up to a multiple of their number.
+bool FaceSearch::meets_limits(Candidate& candidate) {
+  const TraitRules* rules = judge_.traits();
+  if (rules == nullptr) return true;
+  candidate.landmarks = rules->measurer().landmarks(candidate.face.recipe);
+  const auto reason = rules->check(candidate.face, candidate.landmarks);
+  if (!reason) return true;
+  rejections_.add(*reason);
+  const auto usual = static_cast<std::uint32_t>(diversity_.max_attempts);
+  if (last_attempt_ - usual_attempt_ < (kDrawsWithTraits - 1) * usual) ++last_attempt_;
+  return false;
+}
+
 /// Draws until there are enough candidates or no attempts are left.
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
-  while (candidates_.size() < wanted_ && next_attempt_ < last_attempt_) {
+  while (goes_on()) {
     Candidate candidate;
     candidate.face = draw_(next_attempt_++);
+    if (!meets_limits(candidate)) continue;
     candidate.point = judge_.space().point(candidate.face.recipe);
     if (const auto reason = judge_.check_recipe(candidate.face.recipe, candidate.point)) {
       rejections_.add(*reason);
@@ -83,9 +106,17 @@ FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
   }
 }
 
+/// Returns the candidate with the least cost; of equal ones, the one drawn first.
+FaceSearch::Candidate& FaceSearch::cheapest(const Cost& cost) {
+  std::vector<double> costs;
+  for (const Candidate& candidate : candidates_) costs.push_back(cost(candidate.landmarks));
+  return candidates_[static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin())];
+}
+
 void FaceSearch::judge_skin(Candidate& candidate) const {
   if (candidate.judged) return;
-  candidate.broken = judge_.check_skin(candidate.face.recipe);
+  candidate.broken = judge_.check_traits(candidate.face);
+  if (!candidate.broken) candidate.broken = judge_.check_skin(candidate.face.recipe);
   candidate.judged = true;
 }
 
@@ -94,21 +125,24 @@ void FaceSearch::prepare(const CrowdSoFar& crowd) {
   if (!candidates_.empty()) judge_skin(farthest(crowd));  // most likely the one to be chosen
 }
 
-std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd,
-                                                    const Refuses& refuses) {
+std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd, const Refuses& refuses,
+                                                    const Cost& cost) {
   for (;;) {
     compare_with_newer(crowd);
     draw_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
-    // Take the farthest candidate that passes all checks. If none does, draw more.
+    // Take the farthest or cheapest candidate that passes all checks. If none does, draw more.
     while (!candidates_.empty()) {
-      Candidate& candidate = farthest(crowd);
+      Candidate& candidate = cost ? cheapest(cost) : farthest(crowd);
       auto why = refuses ? refuses(candidate.point) : std::nullopt;
       if (!why) {
         judge_skin(candidate);
         why = candidate.broken;
       }
-      if (!why) return Found{std::move(candidate.face), std::move(candidate.point)};
+      if (!why) {
+        return Found{std::move(candidate.face), std::move(candidate.point),
+                     std::move(candidate.landmarks)};
+      }
       rejections_.add(*why);
       candidates_.erase(candidates_.begin() + (&candidate - candidates_.data()));
     }

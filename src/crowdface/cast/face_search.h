@@ -22,6 +22,9 @@ class FaceSearch {
   /// An additional check of a candidate's point: returns the reason for a rejection, or nothing.
   using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
+  /// How undesirable a candidate is, from its landmarks; see FaceMeasurer.
+  using Cost = std::function<double(const Positions& landmarks)>;
+
   FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
              std::uint32_t first_attempt = 0);
 
@@ -32,9 +35,12 @@ class FaceSearch {
   struct Found {
     FacePlan face;
     FaceSpace::Point point;
+    Positions landmarks = {};  ///< no rows if measurements have neither limits nor distributions
   };
   /// Returns the face chosen against the current crowd; nothing if all attempts are used up.
-  std::optional<Found> settle(const CrowdSoFar& crowd, const Refuses& refuses = {});
+  /// \param cost  chooses the candidate with the least cost instead of the farthest; may be empty
+  std::optional<Found> settle(const CrowdSoFar& crowd, const Refuses& refuses = {},
+                              const Cost& cost = {});
 
   const Rejections& rejections() const { return rejections_; }
 
@@ -42,6 +48,7 @@ class FaceSearch {
   struct Candidate {
     FacePlan face;
     FaceSpace::Point point;
+    Positions landmarks = {};
     /// distance to the nearest face, or an upper bound of this distance
     double nearest_mm = HUGE_VAL;
     bool known = true;
@@ -49,17 +56,20 @@ class FaceSearch {
     std::optional<Reason> broken = std::nullopt;
   };
 
+  bool goes_on() const;
+  bool meets_limits(Candidate& candidate);
   void draw_candidates(const CrowdSoFar& crowd);
   bool compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   void compare_with_newer(const CrowdSoFar& crowd);
   Candidate& farthest(const CrowdSoFar& crowd);
+  Candidate& cheapest(const Cost& cost);
   void judge_skin(Candidate& candidate) const;
 
   Draw draw_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
   std::size_t wanted_;
-  std::uint32_t next_attempt_, last_attempt_;
+  std::uint32_t next_attempt_, last_attempt_, usual_attempt_;
   Index compared_ = 0;  ///< number of faces that the candidates were compared with
   std::vector<Candidate> candidates_;
   Rejections rejections_;

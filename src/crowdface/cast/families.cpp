@@ -63,13 +63,14 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
   FamilyDraws draws(casting, family, judge, unrelated, crowd);
   const DiversityOptions of_founder = unseen(casting.diversity);
   const bool drawn = draws.needs_parents();
+  const std::uint32_t attempts_each = kFounderAttempts * draws_factor(casting);
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
     throw_if_interrupted();
     if (drawn && !draws.draw_parents(crowd, family_separation, f, rejections)) return std::nullopt;
     // Find a founder. Drawn parents must match well enough.
     FaceSearch founder([&](std::uint32_t attempt) { return draws.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
-                       f * kFounderAttempts);
+                       f * attempts_each);
     auto found = founder.settle(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
@@ -82,7 +83,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     // For twins, a hidden child replaces the founder.
     if (family.twins) {
       FaceSearch model([&](std::uint32_t attempt) { return draws.model_of_twins(cast, attempt); },
-                       judge, of_founder, 1, f * kFounderAttempts);
+                       judge, of_founder, 1, f * attempts_each);
       auto child = model.settle(crowd, [&](const FaceSpace::Point& point) {
         const bool too_far = to_half <= kStrangersNearerToHalf &&
                              draws.strangers_nearer(point) > kStrangersNearerToHalf;

@@ -37,7 +37,8 @@ struct FamilyOptions {
   double min_distance_mm = 0;  ///< smallest distance between members
   /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
   bool twins = false;
-  Range age = {0, 0};  ///< ages of the members, see apply_age
+  Range age = {0, 0};       ///< ages of the members, see apply_age
+  TraitLimits traits = {};  ///< in place of the limits of the crowd or group on the same traits
 };
 
 }  // namespace crowdface

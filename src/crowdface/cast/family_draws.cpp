@@ -190,7 +190,8 @@ bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const FamilySeparation& 
           return draw_recipe(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
         },
         judge_, casting_.diversity, 1,
-        attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts));
+        attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts) *
+            draws_factor(casting_));
     auto found = search.settle(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
       if (drawn_parent_mm(point) < casting_.diversity.min_distance_mm) return Reason::kMinDistance;
       return family_separation.refuses(point);
@@ -243,7 +244,10 @@ FacePlan FamilyDraws::founder(std::uint32_t attempt) const {
   open.age = Range{0, 0};
   FacePlan face =
       draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, others_);
-  if (parents_.empty()) return face;
+  if (parents_.empty()) {
+    face.family = family_.name;  // so that the family's limits on measurements apply
+    return face;
+  }
   if (!family_.target) {
     set_target(face.recipe, mixed_weights(form_of(0), form_of(1), 0.5));
     face.mother_share = 0.5;

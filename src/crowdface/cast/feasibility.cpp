@@ -22,11 +22,14 @@ double whole_hundredths(double mm) {
 
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall, const std::function<void()>& tried) {
+                   const Shortfall& shortfall, const std::function<void()>& tried,
+                   const TraitRules* traits) {
   Remedy remedy;
   remedy.binding = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
-  if (!shortfall.family.empty() || !shortfall.reviewed.empty()) return remedy;
+  if (!shortfall.family.empty() || !shortfall.reviewed.empty() || !shortfall.recipe.empty()) {
+    return remedy;
+  }
   easier.reviews.clear();
   easier.count = std::min(casting.count, kMaxTried);
   remedy.tried = easier.count;
@@ -42,7 +45,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   for (std::uint64_t draws = 0; draws < kMaxDraws || works == 0;) {
     distance = whole_hundredths(next);
     if (distance <= works) break;
-    const FaceJudge judge(space, easier.diversity, believability, skin);
+    FaceJudge judge(space, easier.diversity, believability, skin);
+    judge.limit_traits(traits);
     const CastingResult cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() +
              cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidates_for(1));

@@ -22,7 +22,8 @@ struct Remedy {
 /// \param tried  Called after each trial.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall, const std::function<void()>& tried = {});
+                   const Shortfall& shortfall, const std::function<void()>& tried = {},
+                   const TraitRules* traits = nullptr);
 
 /// Checks in seconds whether a crowd of more than 3200 faces in spread mode is impossible: places
 /// up to 400 faces by first fit. Spread finds at most twice as many faces as first fit, so if first

@@ -15,6 +15,7 @@ struct PlanNames {
   std::vector<std::string> bands = {};  ///< empty: detail is one band
   /// Empty: recipes have no attachments.
   std::vector<std::string> attachments = {};
+  std::vector<std::string> traits = {};  ///< names of the measurements that a plan records
 };
 
 inline const std::string& name_at(const std::vector<std::string>& names, Index i) {

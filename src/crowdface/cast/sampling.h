@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crowdface/plane/weights.h"
+#include "crowdface/traits/trait_limits.h"
 
 namespace crowdface {
 
@@ -112,6 +113,7 @@ struct SamplingOptions {
   Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> old_heads;  ///< heads tagged old, ascending
   std::vector<Eigen::Index> young_heads;
+  TraitLimits traits = {};  ///< limits on measurements of the faces
 };
 
 /// Returns the number of bands of each region's detail.
@@ -165,6 +167,7 @@ struct ManualRecipe {
   std::optional<Range> age;                ///< empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
+  TraitLimits traits = {};  ///< the values that are not specified are drawn to meet these limits
 };
 
 }  // namespace crowdface

@@ -53,9 +53,18 @@ CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
   parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
     const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
-    for (int attempt = 0; attempt < casting.diversity.max_attempts; ++attempt) {
+    const bool limited = judge.traits() != nullptr && !kind.sampling->traits.empty();
+    const int attempts =
+        casting.diversity.max_attempts * (limited ? static_cast<int>(kDrawsWithTraits) : 1);
+    for (int attempt = 0; attempt < attempts; ++attempt) {
       const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
       FacePlan face = draw_recipe(casting, {}, key, kind);
+      const TraitRules* rules = judge.traits();
+      if (rules != nullptr && !rules->measurer().meets(kind.sampling->traits,
+                                                       rules->measurer().landmarks(face.recipe))) {
+        rejections[at].add(Reason::kTraits);
+        continue;
+      }
       FaceSpace::Point point = judge.space().point(face.recipe);
       if (const auto reason = judge.check_recipe(face.recipe, point)) {
         rejections[at].add(*reason);
@@ -117,7 +126,9 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     FarthestPoints::Pick pick = points.farthest(kind);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      std::optional<Reason> why = judge.check_skin(pool.faces[at].recipe);
+      pool.faces[at].index = index;  // as of the face that it may become
+      std::optional<Reason> why = judge.check_traits(pool.faces[at]);
+      if (!why) why = judge.check_skin(pool.faces[at].recipe);
       if (!why && family_separation.intrudes(pool.points[at])) why = Reason::kFamily;
       if (!why) break;
       result.rejections.add(*why);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config.h"
 
+#include <set>
+
 #include "crowdface/core/text.h"
 #include "crowdface/render/contact_sheet.h"
 
@@ -28,7 +30,23 @@ PlanNames Config::plan_names() const {
   PlanNames names{faces.names, region_names()};
   for (const BandSampling& band : sampling.bands) names.bands.push_back(band.name);
   for (const Attachment& item : attachments.items) names.attachments.push_back(item.name);
+  for (const std::size_t trait : named_traits()) {
+    names.traits.emplace_back(measurements()[trait].name);
+  }
   return names;
+}
+
+std::vector<std::size_t> Config::named_traits() const {
+  std::set<std::size_t> named;
+  const auto add = [&](const TraitLimits& limits) {
+    for (const TraitLimit& limit : limits) named.insert(limit.trait);
+  };
+  add(sampling.traits);
+  for (const Group& group : groups) add(group.sampling.traits);
+  for (const ManualRecipe& recipe : recipes) add(recipe.traits);
+  for (const FamilyOptions& family : families) add(family.traits);
+  for (const TraitTarget& target : population.targets) named.insert(target.trait);
+  return {named.begin(), named.end()};
 }
 
 }  // namespace crowdface

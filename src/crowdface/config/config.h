@@ -154,7 +154,9 @@ struct Config {
   } shapes;
 
   std::filesystem::path points;  ///< file of points that follow the face; empty: none
-  std::filesystem::path rig;     ///< GLB file of joints and the parts bound to them; empty: none
+  /// file of landmarks that replace those found on the heads; empty: none
+  std::filesystem::path landmarks;
+  std::filesystem::path rig;  ///< GLB file of joints and the parts bound to them; empty: none
 
   /// The ring of vertices at the neck in which all faces end.
   struct Neck {
@@ -213,6 +215,12 @@ struct Config {
   std::vector<FamilyOptions> families;
   std::vector<Group> groups;
 
+  /// Asked distributions of measurements of the sampled faces.
+  struct Population {
+    std::filesystem::path file;        ///< empty: none
+    std::vector<TraitTarget> targets;  ///< the file's content, ascending by trait
+  } population;
+
   struct Reviews {
     std::vector<std::filesystem::path> files;
     std::vector<std::string> texts;  ///< #files, the files' texts
@@ -261,6 +269,8 @@ struct Config {
   /// "top/build", "top/skin", …
   std::vector<std::string> part_names() const;
   PlanNames plan_names() const;
+  /// Returns the measurements that the config names, ascending, as indices into measurements().
+  std::vector<std::size_t> named_traits() const;
 };
 
 /// Returns the config as YAML with every default written out and keys in a fixed order. The same

@@ -5,6 +5,7 @@
 
 #include "crowdface/cast/family_draws.h"
 #include "crowdface/config/config_keys.h"
+#include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"
 
 namespace crowdface {
@@ -156,7 +157,8 @@ const Keys<FamilyOptions>& family_keys() {
       word_key("twins", &Family::twins).written_if([](const Family& family, const auto&) {
         return family.twins;
       }),
-      key("age", &Family::age, age())};
+      key("age", &Family::age, age()),
+      key("traits", &Family::traits, trait_limits())};
   return keys;
 }
 

@@ -4,6 +4,7 @@
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
+#include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"
 
 namespace crowdface {
@@ -81,6 +82,18 @@ const Keys<Group>& group_keys() {
                        return write(group.sampling, context);
                      }});
     }
+    const Codec<TraitLimits> limits = trait_limits();
+    own.push_back(Key<Group>{
+        "traits",
+        [=](const YamlNode& node, Group& group, ConfigDraft& draft) {
+          TraitLimits& all = group.sampling.traits;
+          if (const auto own_limits = limits.read(node, draft)) {
+            all = with_own(all, *own_limits);
+          }
+        },
+        [=](const Group& group, const WriteContext& context) {
+          return limits.write(group.sampling.traits, context);
+        }}.taking(limits.takes));
     // `without` must follow all keys that name heads.
     own.push_back(Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.taking(
         "list of tags"));

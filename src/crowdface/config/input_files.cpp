@@ -184,6 +184,8 @@ std::vector<fs::path> input_files(const Config& config) {
   std::ranges::for_each(config.shapes.files, add);
   for (const auto& of_head : config.shapes.of_head) std::ranges::for_each(of_head, add);
   add(config.points);
+  add(config.landmarks);
+  add(config.population.file);
   add(config.rig);
   add(config.neck.body);
   add(config.neck.rim);

@@ -6,6 +6,7 @@
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/edited_entries.h"
+#include "crowdface/config/traits_keys.h"
 
 namespace crowdface {
 namespace {
@@ -174,6 +175,7 @@ const Keys<ManualRecipe>& recipe_keys() {
       key("age", &ManualRecipe::age, age()),
       key("asymmetry", &ManualRecipe::asymmetry, asymmetry()),
       key("mirrored", &ManualRecipe::mirrored, word<bool>()),
+      key("traits", &ManualRecipe::traits, trait_limits()),
       Key<ManualRecipe>{"colours",
                         [](const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
                           if (draft.config.textures.blend != TextureBlend::kAuto) {

@@ -6,6 +6,7 @@
 #include "crowdface/blend/recipe_bounds.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
+#include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"
 
 namespace crowdface {
@@ -188,6 +189,40 @@ void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
       "GLB files cannot hold EXR textures; add png or jpeg to textures.formats");
 }
 
+/// Limits of the crowd, from which groups and families start.
+Key<Config> traits_key() {
+  const Codec<TraitLimits> codec = trait_limits();
+  return Key<Config>{"traits",
+                     [=](const YamlNode& node, Config& config, ConfigDraft& draft) {
+                       if (auto limits = codec.read(node, draft)) config.sampling.traits = *limits;
+                     },
+                     [=](const Config& config, const WriteContext& context) {
+                       return codec.write(config.sampling.traits, context);
+                     }};
+}
+
+Key<Config> population_key() {
+  return Key<Config>{"population",
+                     [](const YamlNode& node, Config& config, ConfigDraft& draft) {
+                       const auto file =
+                           path("a table of measurements, means and deviations").read(node, draft);
+                       if (!file || !expect_file(node, *file, draft)) return;
+                       if (config.diversity.mode != DiversityOptions::Mode::kFirstFit) {
+                         draft.complaints.add_at(node, "requires diversity.mode: first_fit");
+                       }
+                       config.population = {*file, read_population(node, *file, draft)};
+                     },
+                     [](const Config& config, const WriteContext& context) {
+                       return path("").write(config.population.file, context);
+                     }};
+}
+
+/// Written only if it is set, so that the configs of older crowds keep their bytes.
+Key<Config> landmarks_key() {
+  return file_key("landmarks", &Config::landmarks, "none, or a file of landmarks")
+      .written_if([](const Config& config, const auto&) { return !config.landmarks.empty(); });
+}
+
 void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kScalar && !node.quoted && parse_unsigned(node.text) == 1U)
     return;
@@ -218,6 +253,7 @@ const Keys<Config>& root_keys() {
       shapes_key().apart_from_faces(),
       file_key("points", &Config::points, "none, or a YAML file of points").apart_from_faces(),
       file_key("rig", &Config::rig, "none, or a GLB file with joints").apart_from_faces(),
+      landmarks_key().apart_from_faces(),
       neck_key().apart_from_faces(),
       attachments_key().apart_from_faces(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
@@ -228,6 +264,8 @@ const Keys<Config>& root_keys() {
       section_key("distance", &Config::distance, distance_keys()).apart_from_faces(),
       section_key("diversity", &Config::diversity, diversity_keys()).apart_from_faces(),
       believability_key().apart_from_faces(),
+      traits_key().apart_from_faces(),
+      population_key().apart_from_faces(),
       groups_key().apart_from_faces(),
       recipes_key().apart_from_faces(),
       families_key().apart_from_faces(),

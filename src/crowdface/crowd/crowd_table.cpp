@@ -124,6 +124,12 @@ TableColumns table_columns(const PlanNames& names) {
       {"colours", [&names](Face face) { return weights_text(face.recipe.colours, names); },
        [](Face face) { return !face.recipe.colours.empty(); }}};
   columns.insert(columns.end(), last.begin(), last.end());
+  for (std::size_t t = 0; t < names.traits.size(); ++t) {
+    columns.push_back({names.traits[t], [t](Face face) {
+                         return t < face.traits.size() ? format_number(rounded(face.traits[t]))
+                                                       : "";
+                       }});
+  }
   return columns;
 }
 

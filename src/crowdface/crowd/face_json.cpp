@@ -76,6 +76,9 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
     }
   }
   if (!names.attachments.empty()) json["attachments"] = face.attachments;
+  for (std::size_t t = 0; t < face.traits.size(); ++t) {
+    json["traits"][names.traits[t]] = rounded(face.traits[t]);
+  }
   if (face.notes.review) json["note"] = *face.notes.review;
   json["regions"] = Json::object();
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {

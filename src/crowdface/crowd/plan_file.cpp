@@ -76,6 +76,7 @@ class LineReader {
       }
     }
     if (const Json* placed = found(json, "attachments")) face.attachments = attachments(*placed);
+    if (const Json* measured = found(json, "traits")) face.traits = traits(*measured);
     if (json.contains("note")) face.notes.review = text(json, "note");
     if (const Json* near = found(json, "nearest")) face.notes.nearest = nearest(*near);
     result.settings = text(json, "settings");
@@ -161,6 +162,17 @@ class LineReader {
       placed.push_back(name);
     }
     return placed;
+  }
+
+  /// No mesh depends on the measurements, so lines written by hand may omit them.
+  std::vector<double> traits(const Json& json) const {
+    std::vector<double> values;
+    for (const std::string& name : names_.traits) {
+      const Json* value = json.is_object() ? found(json, name) : nullptr;
+      if (value == nullptr || !value->is_number()) return {};
+      values.push_back(value->get<double>());
+    }
+    return values;
   }
 
   double coordinate(const Json& value) const {

@@ -12,6 +12,7 @@
 #include "crowdface/core/rounded.h"
 #include "crowdface/heads/cached_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
+#include "crowdface/run/face_traits.h"
 #include "crowdface/run/shortfall.h"
 
 namespace crowdface {
@@ -147,7 +148,8 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
           config.families,
           config.review.reviews,
           config.groups,
-          config.faces.tags};
+          config.faces.tags,
+          config.population.targets};
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
@@ -164,7 +166,10 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   const Eigen::MatrixXd head_distances = space.head_distances();
   const CastingOptions casting = casting_options(config, inputs, head_distances);
   const BelievabilityOptions& believability = config.believability;
-  const FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
+  FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
+  const auto traits = named_face_traits(config, inputs, prepared);
+  std::optional<TraitRules> rules;
+  if (traits) judge.limit_traits(&rules.emplace(traits->measurer(), casting));
   CastingResult crowd;
   crowd.shortfall = hopeless_spread(casting, judge);
   if (!crowd.shortfall) {
@@ -178,9 +183,14 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   if (crowd.shortfall) {
     constexpr std::size_t kMaxTrials = 20;
     Progress progress("searching for values that work", kMaxTrials);
-    const Remedy remedy = find_remedy(casting, space, believability, &judged_in.skin,
-                                      *crowd.shortfall, [&] { progress.step(); });
-    tell_shortfall(config, remedy, *crowd.shortfall);
+    const Remedy remedy = find_remedy(
+        casting, space, believability, &judged_in.skin, *crowd.shortfall, [&] { progress.step(); },
+        judge.traits());
+    std::vector<std::string> about_traits;
+    if (remedy.binding == Reason::kTraits) {
+      about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
+    }
+    tell_shortfall(config, remedy, *crowd.shortfall, about_traits);
   }
   CrowdPlan result;
   result.distances = measure_distances(space, head_distances, crowd);
@@ -188,6 +198,10 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   round_as_planned(result.crowd);
+  if (traits) {
+    measure_faces(*traits, result.crowd);
+    measure_faces(*traits, crowd.rejected);
+  }
   if (config.textures.colours == ColourWeights::kDrawn) {
     draw_colours({config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike},
                  result.crowd);

@@ -113,7 +113,9 @@ Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan
 Json rejections_to_json(const Rejections& rejections) {
   Json json = Json::object();
   for (std::size_t r = 0; r < kReasonCount; ++r) {
-    if (static_cast<Reason>(r) == Reason::kRejected && rejections.count[r] == 0) continue;
+    const auto reason = static_cast<Reason>(r);
+    const bool is_rare = reason == Reason::kRejected || reason == Reason::kTraits;
+    if (is_rare && rejections.count[r] == 0) continue;
     json[std::string(name_of(static_cast<Reason>(r)))] = rejections.count[r];
   }
   return json;

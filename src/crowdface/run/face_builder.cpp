@@ -2,6 +2,7 @@
 #include "crowdface/run/face_builder.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "crowdface/blend/blend.h"
@@ -103,10 +104,25 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (recipe.asymmetry != 1) {
     face = between_mirrored(face, mirrored(mirror(), face), mirror_share(recipe.asymmetry, false));
   }
-  if (keeps_contacts_) contacts_->bring_into(contact_ranges(recipe), face);
+  correct_contacts(recipe, face);
   if (follower_) follower_->follow(recipe.target, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
   if (inputs_.neck) inputs_.neck->seam.fit(face);
+}
+
+std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
+  std::set<std::uint32_t> vertices;
+  for (std::size_t p = 0; keeps_contacts_ && p < contacts_->size(); ++p) {
+    const ContactPlace& place = contacts_->place(p);
+    for (const auto* profile : {&place.low, &place.high}) {
+      for (const EdgePoint& point : *profile) vertices.insert({point.a, point.b});
+    }
+  }
+  return {vertices.begin(), vertices.end()};
+}
+
+void FaceBuilder::correct_contacts(const Recipe& recipe, Positions& face) const {
+  if (keeps_contacts_) contacts_->bring_into(contact_ranges(recipe), face);
 }
 
 const MirrorMap& FaceBuilder::mirror() const {

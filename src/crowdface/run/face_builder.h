@@ -46,6 +46,12 @@ class FaceBuilder {
   /// positions.
   const RegionWeights& regions() const { return regions_; }
 
+  /// The vertices whose positions `correct_contacts` reads; empty if gaps are not corrected.
+  std::vector<std::uint32_t> contact_vertices() const;
+  /// Corrects the gaps between lips, or other skin surfaces that almost touch, in a face before it
+  /// is mirrored. \param face  #V by 3; only contact_vertices() need positions
+  void correct_contacts(const Recipe& recipe, Positions& face) const;
+
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 

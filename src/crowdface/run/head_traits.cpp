@@ -4,12 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/paint/face_landmarks.h"
+#include "crowdface/pick/landmark_file.h"
 
 namespace crowdface {
+namespace {
+
+void take_from_file(const Config& config, const Positions& mean, HeadLandmarks& landmarks) {
+  const LandmarkFile file = read_landmarks(config.landmarks, LandmarksOf::kTemplate);
+  for (const auto& [name, place] : file.of_template) {
+    const auto known = std::ranges::find(trait_landmarks(), name, &TraitLandmark::name);
+    if (known == trait_landmarks().end()) {
+      throw UsageError(concat(config.landmarks.string(), ": no measurement needs a landmark ",
+                              quoted(name), "; docs/traits.md lists all landmarks"));
+    }
+    const std::uint32_t v = template_vertex(place, mean);
+    const auto at = static_cast<std::size_t>(known - trait_landmarks().begin());
+    landmarks.places[at] = SurfacePoint{{v, v, v}, {1, 0, 0}, row3(mean, v), 0};
+    landmarks.missing[at].clear();
+  }
+}
+
+}  // namespace
 
 bool HeadLandmarks::allow(const Measurement& measurement) const {
   return std::ranges::all_of(landmarks_of(measurement),
@@ -51,7 +71,27 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
                                 : reason != found.missing.end() ? reason->second
                                                                 : "no face was found");
   }
+  if (!config.landmarks.empty()) take_from_file(config, inputs.mean, landmarks);
   return landmarks;
+}
+
+TraitSpread measure_heads(const Config& config, const Inputs& inputs,
+                          const HeadLandmarks& landmarks) {
+  std::vector<std::vector<std::optional<double>>> heads;
+  for (const Head& head : inputs.faces.heads) {
+    heads.push_back(measure_mesh(landmarks, head.positions, mm_per(config.faces.units)));
+  }
+  return TraitSpread(heads);
+}
+
+void require_named_traits(const Config& config, const HeadLandmarks& landmarks) {
+  for (const std::size_t trait : config.named_traits()) {
+    const Measurement& measurement = measurements()[trait];
+    if (landmarks.allow(measurement)) continue;
+    throw UsageError(concat(config.file.string(), ": the measurement ", measurement.name,
+                            " is not available on these heads, ",
+                            landmarks.reason_against(measurement)));
+  }
 }
 
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,

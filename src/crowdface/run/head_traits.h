@@ -9,7 +9,7 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/parts/surface_point.h"
-#include "crowdface/traits/measurements.h"
+#include "crowdface/traits/trait_limits.h"
 
 namespace crowdface {
 
@@ -26,12 +26,20 @@ struct HeadLandmarks {
   Positions on(const Positions& mesh, double mm_per_unit) const;
 };
 
-/// Finds the landmarks on the mean of the heads.
+/// Finds the landmarks on the mean of the heads, or takes them from the file of the config.
+/// \throws UsageError if a place in the file is not on the heads, or a name is not of a landmark.
 HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
 
 /// The measurements of a mesh: #measurements, nothing for those that are not available.
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit);
+
+/// The measurements of all heads.
+TraitSpread measure_heads(const Config& config, const Inputs& inputs,
+                          const HeadLandmarks& landmarks);
+
+/// \throws UsageError if the config names a measurement that is not available on these heads.
+void require_named_traits(const Config& config, const HeadLandmarks& landmarks);
 
 /// A readable table of the measurements of all heads, and of those that are not available.
 std::string format_head_traits(const Config& config, const Inputs& inputs,

@@ -84,7 +84,8 @@ void ScarcityWarning::face_joined(const Rejections& thrown) {
   }
 }
 
-void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall) {
+void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall,
+                    const std::vector<std::string>& about_traits) {
   const std::uint64_t thrown = shortfall.rejections.total();
   const std::uint64_t by_main = shortfall.rejections.of(remedy.binding);
   std::string message = concat(config.file.string(), ": ");
@@ -93,6 +94,9 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
                       "within max_distance of a founder, min_distance apart and nearer to each ",
                       "other than to all other faces (most candidates violate ",
                       asked_of(config, remedy.binding), ")");
+  } else if (!shortfall.recipe.empty()) {
+    message += concat("the recipe ", shortfall.recipe,
+                      " cannot be drawn: ", asked_of(config, remedy.binding), ", cannot be met");
   } else if (!shortfall.reviewed.empty()) {
     message += concat(shortfall.reviewed, ", which the review rejects, cannot be redrawn: ",
                       asked_of(config, remedy.binding), ", cannot be met");
@@ -101,7 +105,8 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
         config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
         ", cannot be met; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
   }
-  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty()) {
+  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
+      shortfall.recipe.empty()) {
     message += concat(" (for the next face ", by_main, " of ", thrown,
                       " candidates were rejected for this reason)");
   }
@@ -110,6 +115,7 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
     message += concat("; the next face belongs to the group ", group.name);
     message += few_heads(config, group);
   }
+  for (const std::string& line : about_traits) message += concat("\n  - ", line);
   for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
   throw Unsatisfiable(message);
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "crowdface/cast/capacity_forecast.h"
 #include "crowdface/cast/feasibility.h"
@@ -28,7 +30,9 @@ class ScarcityWarning {
 
 /// \throws Unsatisfiable; the message names the binding constraint, the number of faces cast, and a
 ///     change that would help.
+/// \param about_traits  if limits on measurements bind: a line for each limit, from trait_advice
 [[noreturn]] void tell_shortfall(const Config& config, const Remedy& remedy,
-                                 const Shortfall& shortfall);
+                                 const Shortfall& shortfall,
+                                 const std::vector<std::string>& about_traits = {});
 
 }  // namespace crowdface

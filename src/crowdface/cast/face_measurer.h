@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/traits/trait_limits.h"
+
+namespace crowdface {
+
+/// Measures faces from their recipes without building meshes: a landmark's position depends on a
+/// few vertices only, whose positions follow from the heads' levels there.
+class FaceMeasurer {
+ public:
+  /// A landmark as a weighted mean of samples; all weights are zero if nobody needs it.
+  struct Landmark {
+    std::array<Index, 3> samples = {};
+    std::array<double, 3> shares = {};
+  };
+  /// Computes the landmarks of a face's written mesh, #landmarks by 3 in millimetres. Must be
+  /// callable from any thread.
+  using Exactly = std::function<Positions(const Recipe&)>;
+
+  /// \param heads      the heads at the samples of the landmarks
+  /// \param landmarks  #trait_landmarks
+  /// \param spread     the measurements of the heads
+  FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks, TraitSpread spread,
+               Exactly exactly)
+      : heads_(std::move(heads)),
+        landmarks_(std::move(landmarks)),
+        spread_(std::move(spread)),
+        exactly_(std::move(exactly)) {}
+
+  /// The landmarks of a face, #landmarks by 3 in millimetres, in microseconds. Leaves out what
+  /// happens to a mesh after blending: the correction of the gap between the lips, which moves the
+  /// skin around the mouth by fractions of a millimetre.
+  Positions landmarks(const Recipe& recipe) const;
+  /// The landmarks of the mesh that is written for a recipe, in about a millisecond.
+  Positions exact_landmarks(const Recipe& recipe) const { return exactly_(recipe); }
+
+  const TraitSpread& spread() const { return spread_; }
+  /// Whether landmarks meet all limits.
+  bool meets(const TraitLimits& limits, const Positions& landmarks) const;
+
+ private:
+  SampledHeads heads_;
+  std::vector<Landmark> landmarks_;
+  TraitSpread spread_;
+  Exactly exactly_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The key `traits` of the crowd, of groups, recipes and families.
+#pragma once
+
+#include "crowdface/config/codec.h"
+#include "crowdface/traits/trait_limits.h"
+
+namespace crowdface {
+
+/// Limits on measurements: `{nose_width: {at_least: 38 mm}, intercanthal: [0 %, 30 %]}`. Empty
+/// limits are not written.
+Codec<TraitLimits> trait_limits();
+
+/// Reads a table of asked distributions: lines of a measurement, its mean and its standard
+/// deviation, separated by commas. Adds complaints at `node`.
+std::vector<TraitTarget> read_population(const YamlNode& node, const std::filesystem::path& file,
+                                         ConfigDraft& draft);
+
+}  // namespace crowdface
