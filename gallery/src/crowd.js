@@ -56,6 +56,10 @@ class LightFace {
     this.crowd = data;
   }
 
+  get traits() {
+    const { traits } = this.crowd.columns;
+    return traits && Object.fromEntries(Object.entries(traits).map(([name, all]) => [name, all[this.order]]));
+  }
   get byHand() { return Boolean(this.crowd.columns.by_hand[this.order]); }
   get parents() { return this.crowd.columns.parents[this.order]; }
   get note() { return this.crowd.columns.note[this.order]; }
@@ -106,6 +110,7 @@ export function readCrowd(data) {
     groups: present(faces.map((face) => face.group).filter((name) => name !== null)),
     targets: present(faces.map((face) => face.target)),
     bands: data.bands ?? [],
+    traits: data.traits ?? [],
     shapes: data.shapes ?? [],
     locks: [...(data.regions.length > 1 ? data.regions : []), ...(data.bands ?? [])],
     tags: present(data.columns ? data.heads.flatMap((head) => head.tags) : faces.flatMap((face) => face.tags)),
@@ -164,6 +169,21 @@ const orders = {
     (a.family ?? '\uffff').localeCompare(b.family ?? '\uffff') || a.order - b.order,
 };
 
+/// The order of a filter: one of `orders`, or by a measurement, "+nose_width" or "-nose_width".
+function orderOf(sort) {
+  if (orders[sort]) return orders[sort];
+  const name = sort.slice(1);
+  const sign = sort[0] === '-' ? -1 : 1;
+  const value = (face) => face.traits?.[name] ?? Infinity;
+  return (a, b) => sign * (value(a) - value(b)) || a.order - b.order;
+}
+
+/// Whether the measurements of a face are in the ranges, {nose_width: [30, 38]}; null is no end.
+const inRanges = (face, ranges) => Object.entries(ranges).every(([name, [low, high]]) => {
+  const value = face.traits?.[name];
+  return value !== undefined && value >= (low ?? -Infinity) && value <= (high ?? Infinity);
+});
+
 /// What is asked for, word by word: each word must occur in the id, family, group, target, tags, attachments or note.
 function matches(face, words, mark) {
   if (words.length === 0) return true;
@@ -195,10 +215,11 @@ export function chosenFaces(crowd, filters, markOf) {
         (!filters.target || face.target === filters.target) &&
         filters.tags.every((tag) => face.tags.includes(tag)) &&
         markFilters[filters.mark](mark) &&
+        inRanges(face, filters.traits) &&
         matches(face, words, mark)
       );
     })
-    .sort(orders[filters.sort]);
+    .sort(orderOf(filters.sort));
 }
 
-export const noFilters = { search: '', family: '', group: '', target: '', tags: [], mark: 'any', sort: 'plan' };
+export const noFilters = { search: '', family: '', group: '', target: '', tags: [], mark: 'any', sort: 'plan', traits: {} };

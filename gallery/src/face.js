@@ -2,6 +2,7 @@
 import { el, short } from './dom.js';
 import { bandsOf, isLoaded, loadFace, locksAll, relativesOf } from './crowd.js';
 import { picture } from './grid.js';
+import { headsMean, traitText, wordsOf } from './traits.js';
 import { Turntable } from './turntable.js';
 
 const viewNames = { front: 'Front', three_quarter: 'Three-quarter', profile: 'Profile', back: 'Back' };
@@ -58,8 +59,8 @@ export class FacePage {
     this.place.textContent = at >= 0 ? `${at + 1} of ${faces.length}` : '';
     this.rendersBox.replaceChildren(...(face.picture
       ? [el('img', { src: face.picture, alt: `Renders of ${face.id}` })] : []));
-    this.side.replaceChildren(...[this.marks(), this.about(), this.expressions(), this.family(), this.recipe(),
-      this.neighbours()].filter(Boolean));
+    this.side.replaceChildren(...[this.marks(), this.about(), this.expressions(), this.family(), this.traits(),
+      this.recipe(), this.neighbours()].filter(Boolean));
     this.compare('face');
   }
 
@@ -209,6 +210,18 @@ export class FacePage {
     ].filter(Boolean);
     return el('section', {}, el('dl', {}, rows.map(([name, value]) =>
       [el('dt', {}, name), el('dd', {}, value)])));
+  }
+
+  /// The measurements, and how they differ from the heads' mean.
+  traits() {
+    const { face, crowd } = this;
+    if (!face.traits) return null;
+    return el('section', {}, el('h2', {}, 'Measurements'), el('dl', {}, crowd.traits.map((trait) => {
+      const value = face.traits[trait.name];
+      const difference = value - headsMean(crowd, trait.name);
+      return [el('dt', {}, wordsOf(trait.name)), el('dd', {}, traitText(trait, value),
+        el('small', { class: 'muted' }, ` ${difference < 0 ? '−' : '+'}${short(Math.abs(difference), trait.unit ? 1 : 3)}`))];
+    })));
   }
 
   /// Without the crowd's name, which all ids begin with: there is little room under a small picture.

@@ -6,6 +6,7 @@ import { FacePage } from './face.js';
 import { Grid } from './grid.js';
 import { Plane } from './plane.js';
 import { Review } from './review.js';
+import { TraitPanel, wordsOf } from './traits.js';
 
 function storage() {
   try {
@@ -95,7 +96,9 @@ class Page {
       select('sort', 'Order', [['plan', 'as planned'], ['id', 'by id'],
         ['distance', 'nearest neighbour first'], ['far', 'most distinct first'],
         ['head', 'nearest to a head first'], ['likeness', 'by likeness'], ['family', 'by family'],
-        ...(crowd.groups.length > 0 ? [['group', 'by group']] : [])]),
+        ...(crowd.groups.length > 0 ? [['group', 'by group']] : []),
+        ...crowd.traits.flatMap(({ name }) => [[`+${name}`, `${wordsOf(name)}, least first`],
+          [`-${name}`, `${wordsOf(name)}, greatest first`]])]),
       select('target', 'Target', [['', 'all'], ...crowd.targets.map((name) => [name, name])]),
       crowd.families.length > 0 ? select('family', 'Family', [['', 'all'],
         ...crowd.families.map((name) => [name, name]), ['·none', 'none']]) : null,
@@ -104,6 +107,7 @@ class Page {
       select('mark', 'Marks', [['any', 'any'], ['unmarked', 'not marked yet'], ['keep', 'kept'],
         ['reject', 'rejected'], ['locked', 'locked'], ['noted', 'with a note']]),
       tags.length > 0 ? el('div', { class: 'tags' }, tags) : null,
+      crowd.traits.length > 0 ? new TraitPanel(crowd, (change) => this.filter(change)).node : null,
       el('label', {}, 'Size', this.size), this.summary,
       el('span', { class: 'grow' }), this.counts,
       el('button', { class: 'export', onclick: () => this.export() }, 'Export review.yaml'),

@@ -224,8 +224,23 @@ class Editor extends ProgramPage {
       distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
       distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
       face.ms === undefined ? null : el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
+      this.traits(face.traits ?? []),
       ...(face.warnings ?? []).map((text) => el('p', { class: 'warning' }, text)),
     ].filter(Boolean));
+  }
+
+  /// The measurements of the face, and how they differ from the heads' mean.
+  traits(all) {
+    if (all.length === 0) return null;
+    const digits = ({ unit }) => (unit ? 1 : 3);
+    const signed = (trait) => `${trait.more < 0 ? '−' : '+'}${Math.abs(trait.more).toFixed(digits(trait))}`;
+    return el('details', {
+      class: 'traits', open: this.showsTraits, ontoggle: (event) => { this.showsTraits = event.target.open; },
+    }, el('summary', {}, 'Measurements'), el('table', {},
+      el('tr', {}, el('th', {}, ''), el('th', {}, ''), el('th', { title: "difference to the heads' mean" }, 'to mean')),
+      all.map((trait) => el('tr', { title: trait.symbol }, el('td', {}, trait.name.replaceAll('_', ' ')),
+        el('td', {}, `${trait.value.toFixed(digits(trait))}${trait.unit === ' degrees' ? '°' : trait.unit}`),
+        el('td', {}, signed(trait))))));
   }
 
   // -- regions --

@@ -34,7 +34,7 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
 }
 
 std::optional<Reason> FaceJudge::check_traits(const FacePlan& face) const {
-  if (traits_ == nullptr) return std::nullopt;
+  if (traits_ == nullptr || traits_->limits_of(face).empty()) return std::nullopt;
   return traits_->check(face, traits_->measurer().exact_landmarks(face.recipe));
 }
 

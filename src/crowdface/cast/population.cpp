@@ -2,6 +2,7 @@
 #include "crowdface/cast/population.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace crowdface {
 
@@ -9,8 +10,8 @@ PopulationBalance::PopulationBalance(std::vector<TraitTarget> targets) {
   for (const TraitTarget& target : targets) {
     Trait& trait = traits_.emplace_back(Trait{target, {}, {}});
     trait.excess.assign(kBins, 0);
-    trait.change.assign(kBins, 0);
-    find_changes(trait);
+    trait.squares.assign(kBins, 0);
+    find_squares(trait);
   }
 }
 
@@ -21,18 +22,23 @@ std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions
 
 /// With one face more, every bin asks for one part of a face more, and all bins from that of the
 /// face on have one face more.
-void PopulationBalance::find_changes(Trait& trait) {
+void PopulationBalance::find_squares(Trait& trait) {
+  const auto lacks = [&](std::size_t b) {
+    return trait.excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);
+  };
   double sum = 0;
+  for (std::size_t b = 0; b < kBins; ++b) sum += lacks(b) * lacks(b);
   for (std::size_t b = kBins; b-- > 0;) {
-    const double asked = static_cast<double>(b + 1) / static_cast<double>(kBins);
-    sum += 2 * (trait.excess[b] - asked) + 1;
-    trait.change[b] = sum;
+    sum += 2 * lacks(b) + 1;
+    trait.squares[b] = sum;
   }
 }
 
 double PopulationBalance::cost(const Positions& landmarks) const {
   double sum = 0;
-  for (const Trait& trait : traits_) sum += trait.change[bin_of(trait.target, landmarks)];
+  for (const Trait& trait : traits_) {
+    sum += std::sqrt(std::max(trait.squares[bin_of(trait.target, landmarks)], 0.0));
+  }
   return sum;
 }
 
@@ -43,7 +49,7 @@ void PopulationBalance::add(const Positions& landmarks) {
       const double asked = static_cast<double>(b + 1) / static_cast<double>(kBins);
       trait.excess[b] += (b >= own ? 1 : 0) - asked;
     }
-    find_changes(trait);
+    find_squares(trait);
   }
 }
 

@@ -10,9 +10,9 @@ namespace crowdface {
 
 /// Steers casting so that measurements of a crowd have asked distributions. Of several candidates
 /// the one is chosen with which the crowd so far comes nearest to them: the sum over the traits of
-/// the squared differences between both cumulative distributions (the statistic of Cramér and von
-/// Mises, on a grid) is smallest. A choice depends on earlier faces only, so a larger crowd changes
-/// none.
+/// the root mean square differences between both cumulative distributions (after Cramér and von
+/// Mises, on a grid) is smallest. Roots keep a distribution that the heads cannot reach from
+/// outweighing the others. A choice depends on earlier faces only, so a larger crowd changes none.
 class PopulationBalance {
  public:
   explicit PopulationBalance(std::vector<TraitTarget> targets);
@@ -29,11 +29,11 @@ class PopulationBalance {
     TraitTarget target;
     /// number of faces up to each bin minus the number that is asked for
     std::vector<double> excess;
-    /// the change of the squared differences if a face joins each bin
-    std::vector<double> change;
+    /// the sum of the squared differences if a face joins each bin
+    std::vector<double> squares;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);
-  static void find_changes(Trait& trait);
+  static void find_squares(Trait& trait);
 
   std::vector<Trait> traits_;
 };

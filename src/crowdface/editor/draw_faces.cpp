@@ -73,6 +73,12 @@ std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge&
   for (std::uint32_t i = 0; i < most && faces.size() < request.count; ++i) {
     throw_if_interrupted();
     FacePlan face = draw_one(casting, request, request.first_attempt + i);
+    const TraitRules* rules = judge.traits();
+    if (rules != nullptr && (rules->check(face, rules->measurer().landmarks(face.recipe)) ||
+                             judge.check_traits(face))) {
+      ++reasons[Reason::kTraits];
+      continue;
+    }
     const FaceSpace::Point point = judge.space().point(face.recipe);
     std::optional<Reason> why = judge.check_recipe(face.recipe, point);
     const double least = casting.diversity.min_distance_mm;

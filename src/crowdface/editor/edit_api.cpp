@@ -160,6 +160,15 @@ nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
     json["nearest_face"] = {{"id", (*session_.crowd())[*measures.face].id},
                             {"mm", measures.face_mm}};
   }
+  json["traits"] = Json::array();
+  for (const FaceMeasures::Trait& one : measures.traits) {
+    const Measurement& of = measurements()[one.trait];
+    json["traits"].push_back({{"name", of.name},
+                              {"symbol", of.symbol},
+                              {"unit", unit_of(of)},
+                              {"value", one.value},
+                              {"more", one.more}});
+  }
   json["warnings"] = measures.warnings;
   return json;
 }

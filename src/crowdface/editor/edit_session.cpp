@@ -28,6 +28,23 @@ std::string sentence(Reason reason, const Config& config) {
   return describe_broken(reason, config.diversity, config.believability);
 }
 
+/// Measures a face, and warns of each limit that it does not meet.
+void measure_traits(const FaceTraits& traits, const TraitRules& rules, const FacePlan& face,
+                    FaceMeasures& measures) {
+  const TraitSpread& spread = traits.measurer().spread();
+  const std::vector<double> values = traits.values(face.recipe);
+  const TraitLimits limits = rules.limits_of(face);
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    const std::size_t trait = traits.traits()[t];
+    measures.traits.push_back({trait, values[t], values[t] - spread.mean(trait)});
+    const auto limit = std::ranges::find(limits, trait, &TraitLimit::trait);
+    if (limit == limits.end() || spread.meets(*limit, values[t])) continue;
+    const Measurement& of = measurements()[trait];
+    measures.warnings.push_back(
+        concat(of.name, ", ", format_trait(of, values[t]), ", is outside its limits (traits)"));
+  }
+}
+
 /// The faces in the job's output folder if the folder holds a plan with the same heads, masks and
 /// smoothing settings. Returns nothing without a plan; warns and returns nothing if the plan does
 /// not match.
@@ -99,7 +116,12 @@ EditSession::Judging EditSession::judging() const {
     for (const FaceSpace::Point& point : points) crowd.add(point);
   }
   FaceJudge judge(space, job_.config.diversity, job_.config.believability, &where->skin);
-  return {std::move(where), std::move(judge), std::move(crowd)};
+  auto traits = available_face_traits(job_.config, job_.inputs, prepared_);
+  std::unique_ptr<const TraitRules> rules;
+  if (traits) rules = std::make_unique<const TraitRules>(traits->measurer(), casting_);
+  judge.limit_traits(rules.get());
+  return {std::move(where), std::move(judge), std::move(crowd), std::move(traits),
+          std::move(rules)};
 }
 
 std::vector<HeadLevels> EditSession::preview_levels() const {
@@ -139,6 +161,7 @@ FaceMeasures EditSession::measure(const FacePlan& recipe) const {
       measures.face_mm = nearest.mm;
     }
   }
+  if (judging.traits) measure_traits(*judging.traits, *judging.rules, recipe, measures);
   if (const auto why = judge.check_recipe(recipe.recipe, point)) {
     measures.warnings.push_back(sentence(*why, job_.config));
   }

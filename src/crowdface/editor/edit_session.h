@@ -35,6 +35,12 @@ struct FaceMeasures {
   double head_mm = 0;
   std::optional<std::size_t> face;  ///< the nearest other face of the crowd
   double face_mm = 0;
+  /// A measurement of the face, in its unit, and how much larger it is than the heads' mean.
+  struct Trait {
+    std::size_t trait = 0;  ///< index into measurements()
+    double value = 0, more = 0;
+  };
+  std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.
   std::vector<std::string> warnings;
 };
@@ -91,6 +97,8 @@ class EditSession {
     std::unique_ptr<const CastingSpace> where;
     FaceJudge judge;
     FacePointIndex crowd;
+    std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
+    std::unique_ptr<const TraitRules> rules;
   };
   Judging judging() const;
   nlohmann::ordered_json regions_json() const;

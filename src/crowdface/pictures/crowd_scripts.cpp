@@ -16,6 +16,7 @@
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
 #include "crowdface/pictures/pictures.h"
+#include "crowdface/traits/measurements.h"
 
 namespace crowdface {
 namespace {
@@ -26,7 +27,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMaxOnPlane = 2000;
 
 /// All data except the faces.
-Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness) {
+Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
+                    const std::vector<std::vector<double>>& head_traits) {
   const PlanNames names = config.plan_names();
   Json json;
   json["name"] = config.crowd.name;
@@ -41,6 +43,13 @@ Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLik
     json["heads"].push_back({{"name", names.heads[h]},
                              {"tags", config.faces.tags[h]},
                              {"anchor", {likeness.anchors[h].x(), likeness.anchors[h].y()}}});
+    for (std::size_t t = 0; !head_traits.empty() && t < names.traits.size(); ++t) {
+      json["heads"].back()["traits"][names.traits[t]] = rounded(head_traits[h][t]);
+    }
+  }
+  for (std::size_t t = 0; !head_traits.empty() && t < names.traits.size(); ++t) {
+    const Measurement& of = measurements()[*find_measurement(names.traits[t])];
+    json["traits"].push_back({{"name", of.name}, {"symbol", of.symbol}, {"unit", unit_of(of)}});
   }
   return json;
 }
@@ -89,7 +98,8 @@ Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
 }
 
 /// The data for filtering, sorting and the grid, column by column.
-std::string columns(const std::vector<FacePlan>& crowd, const Likeness& likeness) {
+std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                    const Likeness& likeness) {
   std::string text;
   const auto add = [&](const char* name, const auto& of) {
     text += concat(text.empty() ? "{\"" : ",\n\"", name, "\":", list_of(crowd.size(), of));
@@ -120,6 +130,14 @@ std::string columns(const std::vector<FacePlan>& crowd, const Likeness& likeness
   if (std::ranges::any_of(crowd, [](const FacePlan& face) { return !face.attachments.empty(); })) {
     add("attachments", [&](std::size_t i) { return Json(crowd[i].attachments).dump(); });
   }
+  std::vector<std::string> traits;
+  for (std::size_t t = 0; t < names.traits.size(); ++t) {
+    const auto value = [&](std::size_t i) {
+      return t < crowd[i].traits.size() ? concat(rounded(crowd[i].traits[t])) : std::string("null");
+    };
+    traits.push_back(concat(Json(names.traits[t]).dump(), ':', list_of(crowd.size(), value)));
+  }
+  if (!traits.empty()) text += concat(",\n\"traits\":{", join(traits, ",\n"), '}');
   const Json parents = some_of_them(crowd, [](const FacePlan& face) {
     return face.parents.empty() ? Json()
                                 : Json{{"mother", face.parents[0]}, {"father", face.parents[1]}};
@@ -161,7 +179,7 @@ Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const 
 void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
                                   const CrowdLikeness& likeness) const {
   const PlanNames names = config_.plan_names();
-  Json head = head_of_script(config_, inputs_.shapes, likeness);
+  Json head = head_of_script(config_, inputs_.shapes, likeness, head_traits_);
   std::set<std::filesystem::path> pages;
   std::string script;
   if (const auto a_page = static_cast<std::size_t>(directory_.faces_per_folder); a_page == 0) {
@@ -184,8 +202,9 @@ void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
     const std::vector<std::size_t> rank = ranks(likeness.likeness, crowd.size());
     script = head.dump();
     script.pop_back();
-    script += concat(",\n\"columns\":", columns(crowd, likeness.likeness), ",\n\"likeness\":",
-                     list_of(crowd.size(), [&](std::size_t i) { return rank[i]; }), '}');
+    script += concat(
+        ",\n\"columns\":", columns(crowd, names, likeness.likeness),
+        ",\n\"likeness\":", list_of(crowd.size(), [&](std::size_t i) { return rank[i]; }), '}');
   }
   for (const auto& path : list_files(directory_.gallery_pages(), has_ending(".js"))) {
     if (!pages.contains(path)) remove_if_exists(path);

@@ -27,6 +27,11 @@ class CrowdPictures {
 
   const CrowdRenders& renders() const { return renders_; }
 
+  /// Sets the measurements of the heads for the gallery. \param of_heads  #heads by #named traits
+  void show_traits(std::vector<std::vector<double>> of_heads) {
+    head_traits_ = std::move(of_heads);
+  }
+
   /// Renders the heads. Further calls do nothing.
   void write_heads();
   /// Renders the founder of a family, who has no mesh file in the crowd.
@@ -56,6 +61,7 @@ class CrowdPictures {
   std::optional<std::filesystem::path> page_;
   std::unique_ptr<GalleryMeshes> gallery_;
   bool heads_are_written_ = false;
+  std::vector<std::vector<double>> head_traits_;
 };
 
 /// The files in the folder that `finish` and the steps before it wrote, sorted, except the renders

@@ -12,7 +12,6 @@
 #include "crowdface/core/rounded.h"
 #include "crowdface/heads/cached_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
-#include "crowdface/run/face_traits.h"
 #include "crowdface/run/shortfall.h"
 
 namespace crowdface {
@@ -201,6 +200,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   if (traits) {
     measure_faces(*traits, result.crowd);
     measure_faces(*traits, crowd.rejected);
+    result.traits = report_traits(casting, *traits, result.crowd);
   }
   if (config.textures.colours == ColourWeights::kDrawn) {
     draw_colours({config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike},

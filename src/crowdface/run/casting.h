@@ -8,6 +8,7 @@
 #include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
+#include "crowdface/run/face_traits.h"
 #include "crowdface/run/pipeline.h"
 
 namespace crowdface {
@@ -56,8 +57,9 @@ struct CrowdPlan {
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
-  std::vector<FacePlan> founders;  ///< hidden heads of families, which are not part of the crowd
-  std::vector<FacePlan> rejected;  ///< faces that reviews rejected
+  std::vector<TraitReport> traits;  ///< of the measurements that the config names
+  std::vector<FacePlan> founders;   ///< hidden heads of families, which are not part of the crowd
+  std::vector<FacePlan> rejected;   ///< faces that reviews rejected
   std::vector<FaceSpace::Point>
       points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
 };

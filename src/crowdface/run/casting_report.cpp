@@ -137,6 +137,20 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
   return json;
 }
 
+Json trait_to_json(const TraitReport& report) {
+  Json json = {{"heads", nearest_to_json(report.heads)}, {"crowd", nearest_to_json(report.crowd)}};
+  if (report.asked) {
+    json["population"] = {{"asked_mean", report.asked->target.mean},
+                          {"asked_deviation", report.asked->target.deviation},
+                          {"mean", rounded(report.asked->mean)},
+                          {"deviation", rounded(report.asked->deviation)},
+                          {"largest_difference", rounded(report.asked->difference)},
+                          {"asked_below_reach", rounded(report.asked->below)},
+                          {"asked_above_reach", rounded(report.asked->above)}};
+  }
+  return json;
+}
+
 }  // namespace
 
 std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
@@ -186,6 +200,9 @@ Json casting_to_json(const Config& config, const CrowdPlan& crowd_plan) {
     json["attachments"] = attachments_to_json(config.attachments, crowd_plan);
   }
   json["families"] = families_to_json(crowd_plan);
+  for (const TraitReport& report : crowd_plan.traits) {
+    json["traits"][std::string(measurements()[report.trait].name)] = trait_to_json(report);
+  }
   json["thrown_away"] = rejections_to_json(crowd_plan.rejections);
   return json;
 }

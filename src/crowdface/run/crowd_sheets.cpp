@@ -18,6 +18,7 @@
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_finisher.h"
 #include "crowdface/run/face_ledger.h"
+#include "crowdface/run/head_traits.h"
 #include "crowdface/run/output_check.h"
 #include "crowdface/run/planned.h"
 #include "crowdface/run/report.h"
@@ -122,6 +123,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
+  pictures.get().show_traits(named_head_traits(job.config, job.inputs));
   if (!crowd_plan.founders.empty()) {
     write_founders(crowd_plan.founders, builder.get(), pictures.get());
   }
@@ -170,6 +172,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
+  pictures.show_traits(named_head_traits(job.config, job.inputs));
   const WrittenSheets sheets = pictures.finish(crowd, likeness);
   ledger.adopt(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
   lock.require_still_there();

@@ -11,6 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/run/casting.h"
+#include "crowdface/run/face_traits.h"
 
 namespace crowdface {
 namespace {
@@ -157,6 +158,7 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   write_file(folder / "estimate.svg", plot_estimate(rows, asked, asked_mm));
   log_info(concat("plot: ", (folder / "estimate.svg").string()));
   std::string table = format_estimate(rows, asked, asked_mm);
+  table += format_trait_ranges(job.config, job.inputs, prepared, casting);
   if (!job.config.groups.empty() || !job.config.families.empty()) {
     table +=
         "The estimate draws all faces with the section sampling. It ignores groups and families.\n";

@@ -153,6 +153,9 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
   });
   log_casting(crowd->crowd_plan);
   crowd->warnings = near_heads(crowd->crowd_plan, job.names.heads);
+  for (std::string& text : population_warnings(crowd->crowd_plan.traits)) {
+    crowd->warnings.push_back(std::move(text));
+  }
   for (const std::string& text : crowd->warnings) log_warning(text);
   check_compared_crowd(job.config, crowd->crowd_plan.crowd);
   crowd->casting = casting_to_json(job.config, crowd->crowd_plan);

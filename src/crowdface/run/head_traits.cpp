@@ -84,6 +84,20 @@ TraitSpread measure_heads(const Config& config, const Inputs& inputs,
   return TraitSpread(heads);
 }
 
+std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs) {
+  const std::vector<std::size_t> named = config.named_traits();
+  if (named.empty()) return {};
+  const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
+  require_named_traits(config, landmarks);
+  std::vector<std::vector<double>> values;
+  for (const Head& head : inputs.faces.heads) {
+    const Positions points = landmarks.on(head.positions, mm_per(config.faces.units));
+    std::vector<double>& own = values.emplace_back();
+    for (const std::size_t trait : named) own.push_back(measure(measurements()[trait], points));
+  }
+  return values;
+}
+
 void require_named_traits(const Config& config, const HeadLandmarks& landmarks) {
   for (const std::size_t trait : config.named_traits()) {
     const Measurement& measurement = measurements()[trait];

@@ -38,6 +38,9 @@ std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
 TraitSpread measure_heads(const Config& config, const Inputs& inputs,
                           const HeadLandmarks& landmarks);
 
+/// The values of the measurements that the config names: #heads by #named.
+std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs);
+
 /// \throws UsageError if the config names a measurement that is not available on these heads.
 void require_named_traits(const Config& config, const HeadLandmarks& landmarks);
 
