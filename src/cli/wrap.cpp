@@ -170,20 +170,27 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
   return result;
 }
 
-/// Returns a hint for an error message if a face is found in the scan's relief with other axes than
-/// --scan-up and --scan-front; else empty.
-std::string other_bearing(const WrapInputs& shared, const Scan& scan,
+/// Returns hints for an error message if landmarks are missing: whether the scan is only a part of a
+/// head, and whether its relief has a face with other axes than --scan-up and --scan-front.
+std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
+  constexpr double kPart = 0.3;  // of the surface
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
-  if (!shared.hint || picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
+  if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
+  const std::string part =
+      missing_share(scan) < kPart
+          ? ""
+          : "; the scan seems to be only a part of a head, whose place is not found without "
+            "landmarks: pick four or more";
+  if (!shared.hint) return part;
   const auto face = find_scan_face(scan, std::nullopt);
-  if (!face) return {};
+  if (!face) return part;
   const Orientation found = all_orientations()[face->view];
   if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
-    return {};
-  return concat("; the scan seems to look along ", name_of(found.front), " with ",
-                name_of(found.up), " up: use --scan-up ", name_of(found.up), " --scan-front ",
-                name_of(found.front));
+    return part;
+  return concat(part, part.empty() ? "; the scan seems to look" : "; or it looks", " along ",
+                name_of(found.front), " with ", name_of(found.up), " up: use --scan-up ",
+                name_of(found.up), " --scan-front ", name_of(found.front));
 }
 
 void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
@@ -201,7 +208,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
       return wrapped;
     } catch (const InvalidInput& error) {
       throw InvalidInput(
-          concat(task.scan.string(), ": ", error.what(), other_bearing(shared, scan, landmarks)));
+          concat(task.scan.string(), ": ", error.what(), likely_causes(shared, scan, landmarks)));
     }
   }();
   // Write head, picture and report.

@@ -96,6 +96,25 @@ TEST(Inputs, MissingPolygonsAreCounted) {
   expect_refused(folder, ExitCode::kBadData, {"cyd.obj", "lacks 2 of the polygons"});
 }
 
+TEST(Inputs, AFileThatEndsWithinALineAndAPartOfAHeadAreTold) {
+  const SmallCrowdFolder cut{SmallCrowd{}};
+  std::string text = testing::read_text(cut.head("cyd"));
+  cut.folder().write("heads/cyd.obj", text.substr(0, text.size() - 1));
+  EXPECT_NO_THROW(load_job(cut.config(), {})) << "only the last line end is missing";
+  text.resize(text.size() - 2);  // the last texture coordinate loses a digit
+  cut.folder().write("heads/cyd.obj", text);
+  expect_refused(cut, ExitCode::kBadData, {"cyd.obj", "its text ends within a line"});
+
+  const SmallCrowdFolder part{SmallCrowd{}};
+  edit(part, "cyd", [](Lines& lines) {  // the first polygons and their vertices
+    lines.resize(first_line(lines, "f ", 8));
+    lines[first_line(lines, "v ", 1)] += '1';
+    const auto begin = lines.begin() + static_cast<std::ptrdiff_t>(first_line(lines, "v ", 60));
+    lines.erase(begin, lines.begin() + static_cast<std::ptrdiff_t>(first_line(lines, "vt ")));
+  });
+  expect_refused(part, ExitCode::kBadData, {"cyd.obj", "only a part of a head?"});
+}
+
 // With three heads, the median distance to the nearest head was that of the copies.
 TEST(Inputs, CopiesOfAHeadAreTold) {
   const SmallCrowdFolder folder{SmallCrowd{}};

@@ -218,6 +218,15 @@ TEST(ParseGltf, ReadsIntegersThatANodeScales) {
   expect_square(mesh_of(parts), 1e-4);
 }
 
+TEST(ParseGltf, RefusesUnknownRequiredExtensionsByName) {
+  GltfParts parts = plain_parts();
+  parts.more = R"("extensionsRequired":["KHR_materials_unlit","KHR_texture_basisu"],)";
+  expect_square(mesh_of(parts), 0);
+  parts.more = R"("extensionsRequired":["KHR_materials_unlit","XYZ_packed_mesh"],)";
+  expect_error(ExitCode::kBadData, {"scene.gltf", "not read: XYZ_packed_mesh; export"},
+               [&] { mesh_of(parts); });
+}
+
 TEST(ParseGltf, FillsInSparseRows) {
   GltfParts parts = plain_parts();
   parts.data = bytes_of_all(kPlaces) + bytes_of_all(kCorners) +
@@ -426,6 +435,15 @@ TEST(ParseFbx, SaysThatShapesAreNotUsed) {
   const FileMesh mesh = parse_fbx(square_fbx({}, "smile"), "head.fbx");
   ASSERT_EQ(mesh.notes.size(), 1U);
   EXPECT_TRUE(mesh.notes[0].starts_with("its 1 blend shapes are not used")) << mesh.notes[0];
+}
+
+TEST(ParseFbx, SaysThatAFileHasNoMesh) {
+  const TemporaryFolder folder;
+  std::string text = square_fbx({});
+  text.erase(text.find("Geometry: 1"), text.find("Model: 2") - text.find("Geometry: 1"));
+  folder.write("camera.fbx", text);
+  expect_error(ExitCode::kBadData, {"camera.fbx", "expected a mesh, found none: select the head"},
+               [&] { read_mesh(folder / "camera.fbx"); });
 }
 
 TEST(JoinSplitVertices, GivesOurOwnFilesTheirVerticesBack) {

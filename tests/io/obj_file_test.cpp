@@ -308,5 +308,19 @@ TEST(ReadObj, SurvivesEveryCutOfAFile) {
   EXPECT_GE(read, 2);  // with and without the final line end
 }
 
+TEST(ReadObj, SaysThatAFileEndsWithinALine) {
+  const TemporaryFolder folder;
+  for (const std::string end : {"v 0 1", "v 0 1 -", "v"}) {
+    const auto path = folder.write("cut.obj", "v 0 0 0\nv 1 0 0\n" + end);
+    expect_error(ExitCode::kBadData, {"cut.obj:3:", "the file ends within this line"},
+                 [&] { read_obj(path); });
+  }
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 3";
+  EXPECT_THAT(read_obj(folder.write("cut.obj", text)).notes,
+              ::testing::Contains(::testing::HasSubstr("the file ends within a line")));
+  EXPECT_THAT(read_obj(folder.write("cut.obj", text + "\n")).notes,
+              ::testing::Not(::testing::Contains(::testing::HasSubstr("ends within a line"))));
+}
+
 }  // namespace
 }  // namespace crowdface

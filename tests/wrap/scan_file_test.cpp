@@ -119,6 +119,14 @@ std::vector<Eigen::RowVector3d> corners_of(const Scan& scan) {
   return corners;
 }
 
+TEST(MissingShare, IsOfTheSurfaceThatWouldCloseTheScan) {
+  Scan scan = cube();
+  EXPECT_NEAR(missing_share(scan), 0, 1e-12);
+  const auto count = scan.triangles.size();
+  scan.triangles.resize(count - 2);  // five of six sides
+  EXPECT_NEAR(missing_share(scan), 0.2, 1e-12);
+}
+
 // Programs that wind triangles the other way, or mirror a scan, leave it inside out.
 TEST(ReadScan, TurnsAScanThatIsInsideOut) {
   const TemporaryFolder folder;

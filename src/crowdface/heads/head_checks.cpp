@@ -60,8 +60,28 @@ bool has_only_faces_of(const Topology& first, const Topology& found) {
   return true;
 }
 
+/// Says so if a head has the extent of a part of the first head; else empty.
+std::string part_of_head(const Positions& first, const Positions& found) {
+  constexpr double kMinShare = 0.7;  // heads of people differ less in their proportions
+  const auto sizes = [](const Positions& positions) -> Eigen::Array3d {
+    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).transpose().array();
+  };
+  const Eigen::Array3d shares = sizes(found) / sizes(first);
+  if (!(shares.minCoeff() < kMinShare * shares.maxCoeff())) return {};
+  return concat("; it is ", format_fixed(shares.x(), 2), ", ", format_fixed(shares.y(), 2), " and ",
+                format_fixed(shares.z(), 2),
+                " times as large along X, Y and Z as the first: is it only a part of a head?");
+}
+
+/// Whether the text of an OBJ file ends within a line.
+bool ends_within_line(const ObjFile& file) {
+  const std::string_view text = file.file.bytes();
+  return !text.empty() && text.back() != '\n' && text.back() != '\r';
+}
+
 /// Explains which export setting gave a head another topology than the first, and how to fix it.
-std::string cause_of_difference(const Topology& first, const Topology& found) {
+std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head) {
+  const Topology &first = first_head.mesh->topology, &found = head.mesh->topology;
   const auto triangles = [](const Topology& topology) {
     return topology.corner_count() - 2 * topology.face_count();
   };
@@ -89,6 +109,7 @@ std::string cause_of_difference(const Topology& first, const Topology& found) {
   }
   return concat("; it has ", found.vertex_count, " vertices and ", found.face_count(),
                 " faces, the first ", first.vertex_count, " and ", first.face_count(),
+                part_of_head(first_head.file.positions, head.file.positions),
                 ": it is another mesh; to fit the first head's mesh to it, use crowdface wrap");
 }
 
@@ -100,7 +121,7 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
     const HeadMesh &first = *heads[0].mesh, &mesh = *head.mesh;
     std::string difference = first_difference(first.topology, mesh.topology);
     if (!difference.empty()) {
-      difference += cause_of_difference(first.topology, mesh.topology);
+      difference += cause_of_difference(heads[0], head);
     } else {
       difference = first_uv_difference(first, mesh);
       if (!difference.empty()) {
@@ -110,6 +131,10 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
       }
     }
     if (difference.empty()) continue;
+    if (ends_within_line(head.file)) {
+      difference +=
+          "; its text ends within a line: if the file is cut off, copy or export it again";
+    }
     problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
                                             heads[0].file.path.string(), ": ", difference));
   }

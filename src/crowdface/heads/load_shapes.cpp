@@ -9,10 +9,12 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/common_mesh.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/load_carried.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"
 #include "crowdface/parts/rigid_motion.h"
@@ -54,6 +56,9 @@ void read_meshes(const std::vector<std::filesystem::path>& asked, const Source& 
     if (known->second.empty()) {
       fitting.push_back(std::move(*read[i]));
       numbers.push_back(places[i]);
+    } else if (const auto vertices =
+                   vertices_of_corners(source.topology, mesh->topology, read[i]->file.positions)) {
+      take(places[i], read[i]->file.positions(*vertices, kAllColumns));
     } else {
       problems.add(ExitCode::kBadData,
                    concat(files[i].string(), ": not the same mesh as ",

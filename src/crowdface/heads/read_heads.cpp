@@ -2,13 +2,9 @@
 #include "crowdface/heads/read_heads.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -21,12 +17,14 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached.h"
+#include "crowdface/heads/common_mesh.h"
 #include "crowdface/heads/file_fingerprint.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/io/right_side_out.h"
-#include "crowdface/mesh/same_graph.h"
+#include "crowdface/mesh/all_columns.h"
 
 namespace crowdface {
 namespace {
@@ -211,7 +209,8 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
 /// Files with only positions have no polygons: then the head has no mesh yet.
 void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
-  FileMesh mesh = read_joined_mesh(file.path);
+  FileMesh mesh = read_mesh(file.path);
+  reading.head.is_joined = join_split_vertices(mesh);
   if (mesh.topology.face_count() > 0) {
     auto [textures_at, library] = keep_textures(reading.head, cache, mesh);
     take_mesh(reading, as_obj(std::move(mesh), fs::path(file.path), library), shelf);
@@ -261,30 +260,6 @@ void end_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
-}
-
-/// Gives a head with the same vertex order the mesh of another head.
-/// \param colours  vertex colours
-void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours = {}) {
-  FileMesh mesh;
-  mesh.topology = other.mesh->topology;
-  mesh.uvs = other.mesh->uvs;
-  // Several materials can only be assigned to polygons as in the other file.
-  mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
-  mesh.positions = head.file.positions;
-  mesh.colours = colour_shares(colours);
-  const std::vector<std::string>& libraries = head.file.material_libraries;
-  ObjFile file =
-      as_obj(std::move(mesh), head.file.path, libraries.empty() ? std::string() : libraries[0]);
-  file.positions = std::move(head.file.positions);
-  file.material_libraries = std::move(head.file.material_libraries);
-  file.textures_at = std::move(head.file.textures_at);
-  file.notes = std::move(head.file.notes);
-  file.topology = {};
-  file.uvs.resize(0, 2);
-  head.file = std::move(file);
-  head.mesh = other.mesh;
-  head.mesh_digest = other.mesh_digest;
 }
 
 /// Gives heads without polygons those of the first mesh with as many vertices.
@@ -345,92 +320,6 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
   return files;
 }
 
-namespace {
-
-/// Minimum and maximum texture coordinates of each vertex; they differ between layouts.
-std::vector<std::array<double, 4>> uv_bounds(const HeadMesh& mesh) {
-  constexpr double kFar = std::numeric_limits<double>::max();
-  std::vector<std::array<double, 4>> bounds(static_cast<std::size_t>(mesh.topology.vertex_count),
-                                            {kFar, kFar, -kFar, -kFar});
-  for (std::size_t c = 0; c < mesh.topology.corner_uvs.size(); ++c) {
-    if (mesh.topology.corner_uvs[c] == kNoIndex) continue;
-    std::array<double, 4>& of = bounds[mesh.topology.corner_vertices[c]];
-    for (Index k = 0; k < 2; ++k) {
-      const double uv = mesh.uvs(mesh.topology.corner_uvs[c], k);
-      const auto at = static_cast<std::size_t>(k);
-      of[at] = std::min(of[at], uv);
-      of[at + 2] = std::max(of[at + 2], uv);
-    }
-  }
-  return bounds;
-}
-
-bool has_same_uvs(const HeadMesh& first, const HeadMesh& found,
-                  const std::vector<std::uint32_t>& vertices) {
-  if (found.uvs.rows() == 0 || first.uvs.rows() == 0) return true;
-  constexpr double kTolerance = 1e-4;
-  const auto expected = uv_bounds(first), others = uv_bounds(found);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (!(std::abs(expected[v][k] - others[vertices[v]][k]) <= kTolerance) &&
-          expected[v][k] != others[vertices[v]][k]) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-/// Maps each vertex of the first head to a vertex of `head`, if both are the same mesh except for
-/// the vertex order, or except for missing polygons or texture coordinates; otherwise nothing.
-std::optional<std::vector<std::uint32_t>> vertices_in_order(const HeadFile& first,
-                                                            const HeadFile& head) {
-  const Topology &expected = first.mesh->topology, &found = head.mesh->topology;
-  if (first_difference(expected, found).empty()) {
-    if (head.mesh->uvs.rows() > 0 || first.mesh->uvs.rows() == 0) return std::nullopt;
-    std::vector<std::uint32_t> same(static_cast<std::size_t>(expected.vertex_count));
-    std::iota(same.begin(), same.end(), 0U);
-    return same;
-  }
-  if (expected.vertex_count != found.vertex_count) return std::nullopt;
-  const Positions &there = first.file.positions, &here = head.file.positions;
-  auto vertices = same_graph(expected, there, found, here);
-  for (std::uint32_t around = 0; around < 2 && !vertices; ++around) {
-    vertices = same_graph(triangulated(expected, around), there, found, here);
-  }
-  if (vertices && !has_same_uvs(*first.mesh, *head.mesh, *vertices)) return std::nullopt;
-  return vertices;
-}
-
-/// Reorders the vertices of heads that have the first head's mesh in another order.
-void put_in_order(std::vector<HeadFile>& heads) {
-  std::vector<std::size_t> moved(heads.size(), 0);
-  parallel_for_each(heads.size(), [&](std::size_t h) {
-    HeadFile &head = heads[h], &first = heads[0];
-    if (head.mesh == first.mesh) return;
-    const auto vertices = vertices_in_order(first, head);
-    if (!vertices) return;
-    const ColourRows found = obj_colours(head.file.file.bytes(), head.file.positions.rows());
-    ColourRows colours = found;
-    Positions positions(head.file.positions.rows(), 3);
-    for (std::size_t v = 0; v < vertices->size(); ++v) {
-      positions.row(static_cast<Index>(v)) = head.file.positions.row((*vertices)[v]);
-      if (found.rows() > 0) colours.row(static_cast<Index>(v)) = found.row((*vertices)[v]);
-      moved[h] += (*vertices)[v] != v ? 1U : 0U;
-    }
-    head.file.positions = std::move(positions);
-    give_mesh(head, first, colours);
-  });
-  for (std::size_t h = 0; h < heads.size(); ++h) {
-    if (moved[h] == 0) continue;
-    log_warning(concat(heads[h].file.path.string(), ": ", moved[h],
-                       " of its vertices are in another order than those of ",
-                       heads[0].file.path.string(), "; they were reordered"));
-  }
-}
-
-}  // namespace
-
 std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const CacheFolder& cache,
                                  Problems& problems) {
   std::vector<HeadFile> read;
@@ -440,7 +329,7 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const Cache
     kept += head->is_kept ? 1U : 0U;
     read.push_back(std::move(*head));
   }
-  if (!read.empty()) put_in_order(read);
+  if (!read.empty()) give_common_mesh(read);
   if (kept > 0) log_info(concat(kept, " of ", paths.size(), " heads were read from the cache"));
   return read;
 }
@@ -449,6 +338,9 @@ Positions read_positions(const fs::path& file, const Topology& topology, std::st
   ObjFile mesh = read_mesh_as_obj(file);
   const std::string difference = first_difference(topology, mesh.topology);
   if (difference.empty()) return std::move(mesh.positions);
+  if (const auto vertices = vertices_of_corners(topology, mesh.topology, mesh.positions)) {
+    return mesh.positions(*vertices, kAllColumns);
+  }
   refuse_file(file, concat("not the same mesh as ", others, ": ", difference));
 }
 

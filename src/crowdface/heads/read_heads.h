@@ -26,6 +26,7 @@ struct HeadFile {
   Digest mesh_digest;
   std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
   bool is_kept = false;            ///< whether the cache has the head
+  bool is_joined = false;          ///< whether reading joined vertices at the same position
 };
 
 /// What to do with meshes whose polygons face inward.

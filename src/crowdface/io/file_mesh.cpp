@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/file_mesh.h"
 
-#include <array>
 #include <map>
 #include <tuple>
+#include <utility>
+
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/joined_borders.h"
 
 namespace crowdface {
 namespace {
 
+/// The vertices with the same id in the same piece.
+JoinedBorders joined_ids(const FileMesh& mesh) {
+  JoinedBorders result;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> of_id;
+  for (std::uint32_t v = 0; v < mesh.vertex_ids.size(); ++v) {
+    const std::uint32_t piece = mesh.pieces.empty() ? 0 : mesh.pieces[v];
+    const auto [place, is_new] = of_id.try_emplace({piece, mesh.vertex_ids[v]},
+                                                   static_cast<std::uint32_t>(result.first.size()));
+    if (is_new) result.first.push_back(v);
+    result.joined.push_back(place->second);
+  }
+  return result;
+}
+
 /// Merges the copies of each split vertex.
 void join_vertices(FileMesh& mesh) {
-  const auto count = static_cast<std::size_t>(mesh.positions.rows());
-  const bool has_ids = !mesh.vertex_ids.empty();
-  std::vector<std::uint32_t> joined(count);  // index of the merged vertex for each vertex
-  std::map<std::array<double, 4>, std::uint32_t> of_place;
-  std::uint32_t next = 0;
-  for (std::size_t v = 0; v < count; ++v) {
-    const auto row = mesh.positions.row(static_cast<Index>(v));
-    const double piece = mesh.pieces.empty() ? 0 : mesh.pieces[v];
-    const std::array<double, 4> key = {piece, has_ids ? mesh.vertex_ids[v] : row[0],
-                                       has_ids ? 0 : row[1], has_ids ? 0 : row[2]};
-    const auto [place, is_new] = of_place.try_emplace(key, next);
-    if (is_new) {
-      mesh.positions.row(next) = row;
-      if (mesh.colours.rows() > 0) mesh.colours.row(next) = mesh.colours.row(static_cast<Index>(v));
-      ++next;
-    }
-    joined[v] = place->second;
-  }
+  const JoinedBorders by = mesh.vertex_ids.empty()
+                               ? joined_borders(mesh.topology, mesh.positions, mesh.pieces)
+                               : joined_ids(mesh);
   mesh.pieces.clear();
   mesh.vertex_ids.clear();
-  if (next == count) return;
-  mesh.positions.conservativeResize(next, 3);
-  if (mesh.colours.rows() > 0) mesh.colours.conservativeResize(next, 3);
-  for (std::uint32_t& vertex : mesh.topology.corner_vertices) vertex = joined[vertex];
-  mesh.topology.vertex_count = next;
+  mesh.positions = Positions(mesh.positions(by.first, kAllColumns));
+  if (mesh.colours.rows() > 0) mesh.colours = Positions(mesh.colours(by.first, kAllColumns));
+  for (std::uint32_t& vertex : mesh.topology.corner_vertices) vertex = by.joined[vertex];
+  mesh.topology.vertex_count = mesh.positions.rows();
 }
 
 /// Merges equal texture coordinates at corners of the same vertex; unequal ones form a seam.
@@ -68,10 +69,14 @@ void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vect
   if (!colours.empty()) mesh.colours = Eigen::Map<const Positions>(colours.data(), rows, 3);
 }
 
-void join_split_vertices(FileMesh& mesh) {
-  if (mesh.pieces.empty() && mesh.vertex_ids.empty()) return;
+bool join_split_vertices(FileMesh& mesh) {
+  if (mesh.pieces.empty() && mesh.vertex_ids.empty()) return false;
+  const Index split = mesh.positions.rows();
   join_vertices(mesh);
   join_uvs(mesh);
+  if (mesh.positions.rows() == split) return false;
+  mesh.notes.emplace_back("vertices that the export split at seams are joined again");
+  return true;
 }
 
 }  // namespace crowdface

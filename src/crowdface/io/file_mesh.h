@@ -48,9 +48,11 @@ inline std::string note_of_shapes(std::size_t count, std::string_view kind) {
 }
 
 /// Merges vertices that a format has split at seams: vertices of the same mesh with the same id or,
-/// if the file has no ids, with the same position. Merged vertices are ordered by their first
-/// copies. Texture coordinates move from vertices to polygon corners.
-void join_split_vertices(FileMesh& mesh);
+/// if the file has no ids, border vertices with the same position (see joined_borders). Merged
+/// vertices are ordered by their first copies. Texture coordinates move from vertices to polygon
+/// corners. Adds a note if vertices are merged.
+/// \return whether vertices are merged.
+bool join_split_vertices(FileMesh& mesh);
 
 /// Parses a PLY or STL file.
 /// \param name  name of the file, for messages.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -46,6 +47,7 @@ class GltfMeshReader {
 
   FileMesh read() {
     const GltfJson& scene = file_.scene();
+    refuse_unknown_extensions();
     const GltfJson& nodes = scene.at("nodes");
     const std::vector<std::uint32_t> parents = file_.parents();
     const std::vector<Eigen::Matrix4d> worlds = file_.worlds(parents);
@@ -61,6 +63,27 @@ class GltfMeshReader {
   }
 
  private:
+  /// glTF 2.0, section 3.12: a file must not be read without the extensions that it requires.
+  /// Extensions that do not affect meshes are ignored.
+  void refuse_unknown_extensions() const {
+    constexpr std::array<std::string_view, 5> kRead = {
+        "KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_meshopt_compression",
+        "KHR_meshopt_compression", "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 8> kNotOfMeshes = {
+        "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
+        "MSFT_packing_",  "KHR_lights_",  "EXT_lights_",  "KHR_xmp"};
+    std::vector<std::string> unknown;
+    for (const GltfJson& one : file_.scene().value("extensionsRequired", GltfJson::array())) {
+      const auto name = one.get<std::string>();
+      const auto begins = [&](std::string_view start) { return name.starts_with(start); };
+      if (std::ranges::find(kRead, name) != kRead.end()) continue;
+      if (std::ranges::none_of(kNotOfMeshes, begins)) unknown.push_back(name);
+    }
+    if (unknown.empty()) return;
+    file_.fail(concat("it requires glTF extensions that are not read: ", join(unknown),
+                      "; export it without them"));
+  }
+
   std::vector<bool> nodes_of_scene(const std::vector<std::uint32_t>& parents) const {
     const GltfJson& scene = file_.scene();
     if (!scene.contains("scenes") || scene["scenes"].empty()) {

@@ -48,11 +48,7 @@ ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::stri
 
 FileMesh read_joined_mesh(const std::filesystem::path& path) {
   FileMesh mesh = read_mesh(path);
-  const Index split = mesh.positions.rows();
   join_split_vertices(mesh);
-  if (mesh.positions.rows() < split) {
-    mesh.notes.emplace_back("vertices that the export split at seams are joined again");
-  }
   return mesh;
 }
 

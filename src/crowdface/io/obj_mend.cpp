@@ -26,6 +26,7 @@ struct CornerWords {
 class Mender {
  public:
   std::optional<MendedObj> mend(std::string_view text) {
+    ends_within_line_ = !text.ends_with('\n') && !text.ends_with('\r');
     join_lines(text);
     count();
     std::string out;
@@ -242,6 +243,9 @@ class Mender {
       notes.push_back(
           concat(small_faces_, " of its faces have fewer than 3 corners and are left out"));
     }
+    if (ends_within_line_ && lost_uvs_ + small_faces_ > 0) {
+      notes.emplace_back("the file ends within a line: if it is cut off, copy or export it again");
+    }
     if (lost_colours_ > 0) {
       notes.push_back(
           concat(lost_colours_,
@@ -253,7 +257,7 @@ class Mender {
   std::string text_;  ///< the text with one statement per line
   std::vector<bool> bad_uvs_;
   std::uint64_t normals_ = 0, uvs_so_far_ = 0;
-  bool drops_normals_ = false;
+  bool drops_normals_ = false, ends_within_line_ = false;
   std::size_t bad_normals_ = 0, lost_uvs_ = 0, small_faces_ = 0, lost_colours_ = 0;
 };
 

@@ -142,8 +142,10 @@ class Scanner {
     scan_.uvs.resize(lines_ == ObjLines::kAll ? static_cast<Index>(total_.uvs) : 0, 2);
     for_each_line(text_, [&](std::string_view line) {
       ++line_number_;
+      in_cut_line_ = line.data() + line.size() == text_.data() + text_.size();
       if (lines_ == ObjLines::kAll || !passes_over(line)) check(line);
     });
+    in_cut_line_ = false;
     if (total_.vertices == 0 && first_other_line_ != 0) {
       line_number_ = first_other_line_;
       fail(concat("expected an OBJ statement, found ", quoted(first_other_)));
@@ -159,7 +161,9 @@ class Scanner {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw InvalidInput(concat(name_, ":", std::max<std::size_t>(line_number_, 1), ": ", what));
+    throw InvalidInput(
+        concat(name_, ":", std::max<std::size_t>(line_number_, 1), ": ", what,
+               in_cut_line_ ? "; the file ends within this line: copy or export it again" : ""));
   }
 
   void require_at_most(std::uint64_t most, std::uint64_t found, std::string_view what) const {
@@ -326,6 +330,7 @@ class Scanner {
   std::string_view text_;
   const std::string& name_;
   std::size_t line_number_ = 0;
+  bool in_cut_line_ = false;  ///< whether the text ends within the line
   std::vector<std::string_view> words_;
   ObjLines lines_;
   ObjOutline total_, seen_;  ///< counts in the whole text, and in the lines checked so far

@@ -165,6 +165,9 @@ FileMesh read_mesh(const fs::path& path) {
     std::vector<std::string> endings(mesh_endings().begin(), mesh_endings().end());
     refuse_file(path, concat("expected a mesh whose name ends in ", join(endings)));
   }
+  if (mesh.positions.rows() == 0) {
+    refuse_file(path, "expected a mesh, found none: select the head, and export it as polygons");
+  }
   require_limits(mesh, path);
   return mesh;
 }

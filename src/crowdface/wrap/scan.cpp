@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "crowdface/mesh/disjoint_sets.h"
+#include "crowdface/mesh/triangles.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/part_list.h"
 
@@ -61,6 +62,17 @@ std::vector<bool> used_vertices(const Scan& scan) {
     for (const std::uint32_t v : t) used[v] = true;
   }
   return used;
+}
+
+double missing_share(const Scan& scan) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area = 0;
+  for (const Triangle& triangle : scan.triangles) {
+    const Eigen::Vector3d vector = area_vector(scan.positions, triangle);
+    sum += vector;
+    area += vector.norm();
+  }
+  return area > 0 ? sum.norm() / area : 0;
 }
 
 std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangles,

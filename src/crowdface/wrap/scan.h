@@ -18,6 +18,11 @@ struct Scan {
 /// #V: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
 
+/// How much of a surface is missing that would close it: the length of the sum of the triangles' area
+/// vectors, as a share of the area. 0 for a closed surface, less than 0.2 for a head with its neck,
+/// about 0.5 for half a head, 0.8 for a face alone.
+double missing_share(const Scan& scan);
+
 /// The vertices of boundary loops that are at least `min_length` long, ascending: where a surface
 /// ends.
 std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangles,

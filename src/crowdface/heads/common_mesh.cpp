@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/common_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/obj_colours.h"
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/disjoint_sets.h"
+#include "crowdface/mesh/joined_borders.h"
+#include "crowdface/mesh/same_graph.h"
+
+namespace crowdface {
+namespace {
+
+using Vertices = std::vector<std::uint32_t>;
+
+constexpr double kUvTolerance = 1e-4;
+
+/// Distance below which two vertices have the same position.
+double same_place(const Positions& positions) {
+  constexpr double kOfSize = 1e-6;
+  return kOfSize * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+/// Minimum and maximum texture coordinates of each vertex; they differ between layouts.
+std::vector<std::array<double, 4>> uv_bounds(const Topology& topology,
+                                             const TextureCoordinates& uvs) {
+  constexpr double kFar = std::numeric_limits<double>::max();
+  std::vector<std::array<double, 4>> bounds(static_cast<std::size_t>(topology.vertex_count),
+                                            {kFar, kFar, -kFar, -kFar});
+  for (std::size_t c = 0; c < topology.corner_uvs.size(); ++c) {
+    if (topology.corner_uvs[c] == kNoIndex) continue;
+    std::array<double, 4>& of = bounds[topology.corner_vertices[c]];
+    for (Index k = 0; k < 2; ++k) {
+      const double uv = uvs(topology.corner_uvs[c], k);
+      const auto at = static_cast<std::size_t>(k);
+      of[at] = std::min(of[at], uv);
+      of[at + 2] = std::max(of[at + 2], uv);
+    }
+  }
+  return bounds;
+}
+
+/// \param vertices  the vertex of `found` for each vertex of `first`
+bool has_same_uvs(const HeadMesh& first, const Topology& found, const TextureCoordinates& uvs,
+                  const Vertices& vertices) {
+  if (uvs.rows() == 0 || first.uvs.rows() == 0) return true;
+  const auto expected = uv_bounds(first.topology, first.uvs), others = uv_bounds(found, uvs);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!(std::abs(expected[v][k] - others[vertices[v]][k]) <= kUvTolerance) &&
+          expected[v][k] != others[vertices[v]][k]) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool has_same_corner_uvs(const HeadMesh& first, const HeadMesh& found) {
+  if (found.uvs.rows() == 0 || first.uvs.rows() == 0) return true;
+  const Vertices &expected = first.topology.corner_uvs, &others = found.topology.corner_uvs;
+  for (std::size_t c = 0; c < expected.size(); ++c) {
+    if (expected[c] == kNoIndex && others[c] == kNoIndex) continue;
+    if (expected[c] == kNoIndex || others[c] == kNoIndex) return false;
+    const auto off = first.uvs.row(expected[c]) - found.uvs.row(others[c]);
+    if (!(off.cwiseAbs().maxCoeff() <= kUvTolerance)) return false;
+  }
+  return true;
+}
+
+/// A vertex of a head for each vertex of another head's mesh.
+struct VertexMatch {
+  Vertices vertices;
+  bool has_own_uvs = false;  ///< whether the head has other texture coordinates
+};
+
+/// Matches the vertices by the graph of the polygons, which may be triangulated, after vertices at
+/// seams are joined.
+std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& head) {
+  const Topology& expected = first.mesh->topology;
+  Topology found = head.mesh->topology;
+  Positions positions = head.file.positions;
+  Vertices copies;  // first copy of each joined vertex
+  if (found.vertex_count > expected.vertex_count) {
+    JoinedBorders by = joined_borders(found, positions);
+    copies = std::move(by.first);
+    if (std::ssize(copies) != expected.vertex_count) return std::nullopt;
+    for (std::uint32_t& vertex : found.corner_vertices) vertex = by.joined[vertex];
+    found.vertex_count = expected.vertex_count;
+    positions = Positions(positions(copies, kAllColumns));
+  }
+  const Positions& there = first.file.positions;
+  auto vertices = same_graph(expected, there, found, positions);
+  for (std::uint32_t around = 0; around < 2 && !vertices; ++around) {
+    vertices = same_graph(triangulated(expected, around), there, found, positions);
+  }
+  if (!vertices || !has_same_uvs(*first.mesh, found, head.mesh->uvs, *vertices)) {
+    return std::nullopt;
+  }
+  for (std::uint32_t& vertex : *vertices) vertex = copies.empty() ? vertex : copies[vertex];
+  return VertexMatch{std::move(*vertices)};
+}
+
+/// Matches the vertices of a head with another head's mesh if the meshes differ and the difference
+/// is one that an export makes.
+std::optional<VertexMatch> match_vertices(const HeadFile& first, const HeadFile& head) {
+  const Topology &expected = first.mesh->topology, &found = head.mesh->topology;
+  if (first_difference(expected, found).empty()) {
+    if (head.mesh->uvs.rows() > 0 || first.mesh->uvs.rows() == 0) return std::nullopt;
+    Vertices same(static_cast<std::size_t>(expected.vertex_count));
+    std::iota(same.begin(), same.end(), 0U);
+    return VertexMatch{std::move(same)};
+  }
+  auto vertices = vertices_of_corners(expected, found, head.file.positions);
+  if (!vertices) return match_graphs(first, head);
+  return VertexMatch{std::move(*vertices), !has_same_corner_uvs(*first.mesh, *head.mesh)};
+}
+
+/// Gives a head the mesh of another head.
+void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& head) {
+  const std::vector<std::uint32_t>& vertices = match.vertices;
+  ColourRows colours = obj_colours(head.file.file.bytes(), head.file.positions.rows());
+  if (colours.rows() > 0) colours = ColourRows(colours(vertices, kAllColumns));
+  head.file.positions = Positions(head.file.positions(vertices, kAllColumns));
+  if (!match.has_own_uvs) {
+    give_mesh(head, other, colours);
+    return;
+  }
+  // The checks of the heads report the other texture coordinates.
+  HeadMesh mesh = *head.mesh;
+  mesh.topology.corner_vertices = other.mesh->topology.corner_vertices;
+  mesh.topology.vertex_count = other.mesh->topology.vertex_count;
+  head.mesh_digest = mesh.digest();
+  head.mesh = std::make_shared<HeadMesh>(std::move(mesh));
+}
+
+/// Whether all corners of each set have one position in a head.
+bool has_one_position(DisjointSets& sets, const HeadFile& head) {
+  const Topology& topology = head.mesh->topology;
+  const double near = same_place(head.file.positions);
+  for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
+    const std::uint32_t vertex = topology.corner_vertices[c];
+    const std::uint32_t other = topology.corner_vertices[sets.root(c)];
+    if (vertex == other) continue;
+    if (!((head.file.positions.row(vertex) - head.file.positions.row(other)).norm() <= near)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void join_corners_of_vertices(const Topology& topology, DisjointSets& sets) {
+  Vertices first(static_cast<std::size_t>(topology.vertex_count), kNoIndex);
+  for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
+    std::uint32_t& corner = first[topology.corner_vertices[c]];
+    if (corner == kNoIndex) corner = c;
+    sets.join(corner, c);
+  }
+}
+
+/// Number of vertices that have polygons.
+Index used_vertices(const Topology& topology) {
+  std::vector<bool> used(static_cast<std::size_t>(topology.vertex_count), false);
+  for (const std::uint32_t vertex : topology.corner_vertices) used[vertex] = true;
+  return std::ranges::count(used, true);
+}
+
+/// A mesh with the polygons of a head, and with a vertex for each number in `vertices`.
+/// \param vertices  #C; replaced by numbers in the order of the corners
+HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  for (std::uint32_t& vertex : vertices) {
+    vertex = numbers.try_emplace(vertex, static_cast<std::uint32_t>(numbers.size())).first->second;
+  }
+  HeadFile made;
+  made.file.path = head.file.path;
+  made.file.materials = head.file.materials;
+  made.mesh = std::make_shared<HeadMesh>(*head.mesh);
+  made.mesh->topology.vertex_count = std::ssize(numbers);
+  made.mesh->topology.corner_vertices = std::move(vertices);
+  made.mesh_digest = made.mesh->digest();
+  return made;
+}
+
+/// Finds the mesh of heads whose exports may have split vertices: corners that are one vertex in any
+/// head are one vertex in all, if they have one position in each head.
+/// \param heads  their polygons are the same, and reading has not joined vertices
+/// \param made   receives the mesh if no head has it
+/// \return a head with the mesh
+const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
+  DisjointSets sets(heads[0]->mesh->topology.corner_vertices.size());
+  std::vector<const HeadFile*> united;
+  for (const HeadFile* head : heads) {
+    const auto has_mesh = [&](const HeadFile* other) { return other->mesh == head->mesh; };
+    const bool is_known = std::ranges::any_of(united, has_mesh);
+    DisjointSets joined = sets;
+    if (!is_known) join_corners_of_vertices(head->mesh->topology, joined);
+    const auto fits = [&](const HeadFile* other) { return has_one_position(joined, *other); };
+    if (!fits(head) || (!is_known && !std::ranges::all_of(united, fits))) continue;
+    sets = std::move(joined);
+    united.push_back(head);
+  }
+  Vertices roots;
+  for (std::uint32_t c = 0; c < heads[0]->mesh->topology.corner_vertices.size(); ++c) {
+    roots.push_back(sets.root(c));
+  }
+  made = with_vertices(*heads[0], std::move(roots));
+  for (const HeadFile* head : united) {
+    if (used_vertices(head->mesh->topology) == made.mesh->topology.vertex_count) return *head;
+  }
+  return made;
+}
+
+/// Finds the mesh of heads whose vertices reading has joined by position: corners are one vertex if
+/// they have one position in each head.
+/// \param heads  their polygons are the same
+/// \param made   receives the mesh if vertices touch in some heads only
+/// \return a head with the mesh
+const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
+  constexpr double kMaxTouching = 0.02;  // share of the vertices; other meshes differ in more
+  Vertices vertices = heads[0]->mesh->topology.corner_vertices;
+  std::size_t count = 0;
+  const HeadFile* most = heads[0];
+  for (const HeadFile* head : heads) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
+    for (std::size_t c = 0; c < vertices.size(); ++c) {
+      const std::pair key(vertices[c], head->mesh->topology.corner_vertices[c]);
+      vertices[c] =
+          numbers.try_emplace(key, static_cast<std::uint32_t>(numbers.size())).first->second;
+    }
+    count = numbers.size();
+    if (head->mesh->topology.vertex_count > most->mesh->topology.vertex_count) most = head;
+  }
+  const auto known = static_cast<std::size_t>(most->mesh->topology.vertex_count);
+  if (count <= known) return *most;
+  if (static_cast<double>(count - known) > kMaxTouching * static_cast<double>(known)) {
+    return *heads[0];
+  }
+  made = with_vertices(*heads[0], std::move(vertices));
+  return made;
+}
+
+/// Finds the mesh that all heads take.
+/// \param made  receives the mesh if no head has it
+const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& made) {
+  const auto has_first = [&](const HeadFile& head) { return head.mesh == heads[0].mesh; };
+  if (std::ranges::all_of(heads, has_first)) return heads[0];
+  std::vector<const HeadFile*> read, joined;
+  for (const HeadFile& head : heads) {
+    if (head.mesh->topology.face_offsets != heads[0].mesh->topology.face_offsets) continue;
+    (head.is_joined ? joined : read).push_back(&head);
+  }
+  return read.empty() ? find_separate_mesh(joined, made) : find_whole_mesh(read, made);
+}
+
+/// What the export of a head did with its vertices; empty if nothing.
+std::string difference_made(const HeadFile& head, const Vertices& vertices) {
+  const auto found = static_cast<std::size_t>(head.file.positions.rows());
+  if (found > vertices.size()) {
+    return concat(found - vertices.size(), " of its vertices are copies at seams; they are joined");
+  }
+  if (found < vertices.size()) {
+    return concat(vertices.size() - found,
+                  " of its vertices were joined where they touch; they are separated");
+  }
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) moved += vertices[v] != v ? 1U : 0U;
+  if (moved == 0) return {};
+  return concat(moved, " of its vertices are in another order; they were reordered");
+}
+
+}  // namespace
+
+void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours) {
+  FileMesh mesh;
+  mesh.topology = other.mesh->topology;
+  mesh.uvs = other.mesh->uvs;
+  // Several materials can only be assigned to polygons as in the other file.
+  mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
+  mesh.positions = head.file.positions;
+  mesh.colours = colour_shares(colours);
+  const std::vector<std::string>& libraries = head.file.material_libraries;
+  ObjFile file =
+      as_obj(std::move(mesh), head.file.path, libraries.empty() ? std::string() : libraries[0]);
+  file.positions = std::move(head.file.positions);
+  file.material_libraries = std::move(head.file.material_libraries);
+  file.textures_at = std::move(head.file.textures_at);
+  file.notes = std::move(head.file.notes);
+  file.topology = {};
+  file.uvs.resize(0, 2);
+  head.file = std::move(file);
+  head.mesh = other.mesh;
+  head.mesh_digest = other.mesh_digest;
+}
+
+std::optional<std::vector<std::uint32_t>> vertices_of_corners(const Topology& expected,
+                                                              const Topology& found,
+                                                              const Positions& there) {
+  if (expected.face_offsets != found.face_offsets) return std::nullopt;
+  const double near = same_place(there);
+  Vertices vertices(static_cast<std::size_t>(expected.vertex_count), kNoIndex);
+  std::vector<bool> has_corner(static_cast<std::size_t>(found.vertex_count), false);
+  for (std::size_t c = 0; c < expected.corner_vertices.size(); ++c) {
+    std::uint32_t& vertex = vertices[expected.corner_vertices[c]];
+    const std::uint32_t other = found.corner_vertices[c];
+    has_corner[other] = true;
+    if (vertex == kNoIndex) vertex = other;
+    if (vertex != other && !((there.row(vertex) - there.row(other)).norm() <= near)) {
+      return std::nullopt;
+    }
+  }
+  // Vertices without a polygon keep their order.
+  std::uint32_t loose = 0;
+  for (std::uint32_t& vertex : vertices) {
+    if (vertex != kNoIndex) continue;
+    while (loose < has_corner.size() && has_corner[loose]) ++loose;
+    if (loose == has_corner.size()) return std::nullopt;
+    vertex = loose++;
+  }
+  while (loose < has_corner.size() && has_corner[loose]) ++loose;
+  if (loose < has_corner.size()) return std::nullopt;
+  return vertices;
+}
+
+void give_common_mesh(std::vector<HeadFile>& heads) {
+  HeadFile made;
+  const HeadFile& common = find_common_mesh(heads, made);
+  std::vector<std::string> changes(heads.size());
+  parallel_for_each(heads.size(), [&](std::size_t h) {
+    HeadFile& head = heads[h];
+    if (head.mesh == common.mesh) return;
+    const auto match = match_vertices(common, head);
+    if (!match) return;
+    changes[h] = difference_made(head, match->vertices);
+    take_mesh_of(common, *match, head);
+  });
+  const std::string others = &common == &made ? "" : " as in " + common.file.path.string();
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    if (changes[h].empty()) continue;
+    log_warning(concat(heads[h].file.path.string(), ": ", changes[h], others));
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "crowdface/heads/read_heads.h"
+#include "crowdface/mesh/colour_rows.h"
+
+namespace crowdface {
+
+/// Gives a head the mesh of another head. Both have the same vertices in the same order.
+/// \param colours  vertex colours
+void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours = {});
+
+/// Matches the vertices of two meshes that have the same polygons in the same order, although an
+/// export may have numbered the vertices anew, split them at seams or joined them where they touch.
+/// \param there  positions of `found`
+/// \return #V, a vertex of `found` for each vertex of `expected`; nothing if the corners of an
+///         expected vertex have several positions, or if the meshes differ otherwise.
+std::optional<std::vector<std::uint32_t>> vertices_of_corners(const Topology& expected,
+                                                              const Topology& found,
+                                                              const Positions& there);
+
+/// Gives heads one mesh if their meshes differ only by their export: in the order of vertices and
+/// polygons, by triangulation, or by vertices that are split at seams or joined where they touch.
+/// The mesh is that of the first head, with the vertices at seams joined if any head joins them.
+/// Logs each change.
+void give_common_mesh(std::vector<HeadFile>& heads);
+
+}  // namespace crowdface
