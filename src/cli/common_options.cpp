@@ -94,8 +94,15 @@ void ConfigOptions::add_review_to(CLI::App& command) {
                "Draw the rejected faces of this review again; reviews apply in order");
 }
 
+void ConfigOptions::add_without_reviews_to(CLI::App& command) {
+  add_flag(command, "--without-reviews", overrides.without_reviews,
+           "Start without the reviews that the output folder keeps; move them to a folder that is "
+           "named after the date");
+}
+
 void WriteOptions::add_to(CLI::App& command) {
-  add_flag(command, "--force", force, "Replace another config's crowd in the output folder");
+  add_flag(command, "--force", force,
+           "Replace another config's crowd in the output folder; its reviews stay and apply");
   add_flag(command, "--dry-run", dry_run,
            "Check everything and report what would be written, but write nothing");
   add_option(command, "--memory", memory, "SIZE",

@@ -49,6 +49,8 @@ struct ConfigOptions : CacheOption {
   void add_to(CLI::App& command);
   /// Adds `--review`, for commands that plan a crowd.
   void add_review_to(CLI::App& command);
+  /// Adds `--without-reviews`, for commands that write a plan.
+  void add_without_reviews_to(CLI::App& command);
 };
 
 /// `--force`, `--dry-run`, `--memory`: options of the commands that write into a crowd's folder.

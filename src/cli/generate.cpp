@@ -16,6 +16,7 @@ Run add_generate(CLI::App& program) {
       [](CLI::App& command, Options& options) {
         options.config.add_to(command);
         options.config.add_review_to(command);
+        options.config.add_without_reviews_to(command);
         options.write.add_to(command);
         options.write.add_shard_to(command);
       },

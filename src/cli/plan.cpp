@@ -19,6 +19,7 @@ Run add_plan(CLI::App& program) {
       [](CLI::App& command, Options& options) {
         options.config.add_to(command);
         options.config.add_review_to(command);
+        options.config.add_without_reviews_to(command);
         options.write.add_to(command);
         add_flag(command, "--estimate", options.estimate,
                  "Make no plan; estimate how many faces these heads allow at each minimum distance")

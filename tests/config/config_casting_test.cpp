@@ -184,8 +184,8 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   EXPECT_TRUE(top.bands[0].weights.empty());
   EXPECT_EQ(top.bands[2].weights[0].head, 1);
   EXPECT_THAT(config->families[0].inherit, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
-  EXPECT_THAT(config->review.reviews[0][0].locked, ElementsAre(0, 1, 2));
-  EXPECT_THAT(config->review.reviews[0][1].locked, ElementsAre(2, 3, 5, 8));
+  EXPECT_THAT(config->review.reviews[0].marks[0].locked, ElementsAre(0, 1, 2));
+  EXPECT_THAT(config->review.reviews[0].marks[1].locked, ElementsAre(2, 3, 5, 8));
 
   const std::string written = effective_config(*config, folder_);
   const auto again = read(written);
@@ -315,7 +315,7 @@ TEST_F(ConfigTest, ReviewsAreReadAtTheirPlaces) {
   const auto config = read(kBands + "review: review.yaml\n");
   ASSERT_TRUE(config) << told();
   ASSERT_EQ(config->review.reviews.size(), 1U);
-  const Review& review = config->review.reviews[0];
+  const std::vector<ReviewMark>& review = config->review.reviews[0].marks;
   ASSERT_EQ(review.size(), 3U);
   EXPECT_EQ(review[0].verdict, ReviewMark::Verdict::kReject);
   EXPECT_EQ(review[1].verdict, ReviewMark::Verdict::kReject);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/crowd/crowd_directory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/crowd_files.h"
@@ -12,7 +13,8 @@ namespace {
 /// A crowd of this text and no other.
 CrowdConfig config_of(const std::string& text) {
   return {text, {}, [text](const std::string& other) {
-            return other == text ? std::nullopt : std::optional<std::string>("crowd.seed");
+            return other == text ? std::vector<std::string>()
+                                 : std::vector<std::string>{"crowd.seed"};
           }};
 }
 
@@ -66,6 +68,29 @@ TEST(CrowdDirectory, ForceRemovesNothingOutsideTheFolder) {
   EXPECT_FALSE(files.contains("crowd/sheets/sheet_001.png"));
   EXPECT_FALSE(files.contains("crowd/plan.jsonl"));
   EXPECT_EQ(files.at("crowd/config.yaml"), "new\n");
+}
+
+// Two runs were started at the same time, each with its own review; one review was overwritten.
+TEST(CrowdDirectory, AReviewOfAnotherRunIsNotOverwritten) {
+  const testing::TemporaryFolder folder;
+  const CrowdDirectory directory{folder / "crowd"};
+  CrowdConfig mine = config_of("text\n"), theirs = mine;
+  mine.reviews = {"mine"};
+  theirs.reviews = {"theirs"};
+  open_crowd_directory(directory, theirs, Replace::kRefuse);
+  for (const Replace replace : {Replace::kRefuse, Replace::kForce}) {
+    testing::expect_error(ExitCode::kUsage, {"review_001.yaml", "run the same command again"},
+                          [&] { open_crowd_directory(directory, mine, replace); });
+  }
+  EXPECT_EQ(testing::read_text(directory.review(1)), "theirs");
+  mine.without_kept_reviews = true;
+  for (int i = 0; i < 2; ++i) open_crowd_directory(directory, mine, Replace::kRefuse);
+  EXPECT_EQ(testing::read_text(directory.review(1)), "mine");
+  std::vector<std::string> aside;
+  for (const auto& [name, text] : testing::crowd_files(directory.root)) {
+    if (name.starts_with("reviews-20")) aside.push_back(text);
+  }
+  EXPECT_THAT(aside, ::testing::UnorderedElementsAre("theirs", "mine"));
 }
 
 TEST(CrowdDirectory, FolderOfOtherThingsIsKept) {

@@ -34,7 +34,7 @@ std::vector<Redraw> read_marks(const Review& review, CastingResult& cast) {
     faces[cast.crowd[i].id] = static_cast<Index>(i);
   }
   std::vector<Redraw> redraws;
-  for (const ReviewMark& mark : review) {
+  for (const ReviewMark& mark : review.marks) {
     const auto found = faces.find(mark.id);
     if (found == faces.end()) {
       throw InvalidInput(
@@ -124,6 +124,7 @@ class Redrawing {
   /// \return  The points of this face and of all faces rejected in its place before.
   std::vector<FaceSpace::Point> reject(std::size_t face) {
     cast_.rejected.push_back(cast_.crowd[face]);
+    cast_.rejected_from.push_back(cast_.crowd.size());
     std::vector<FaceSpace::Point> points;
     for (const FacePlan& old : cast_.rejected) {
       if (old.id == cast_.crowd[face].id) points.push_back(judge_.space().point(old.recipe));

@@ -300,33 +300,44 @@ class AttachmentDrawing {
 }  // namespace
 
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected) {
+                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
+                      const std::vector<std::size_t>& rejected_from) {
   AttachmentDrawing drawing(draw, groups);
   // all versions of a redrawn face, by id: the rejected ones in order, then the final one
   std::map<std::string, std::vector<const FacePlan*>> before;
   for (const FacePlan& face : rejected) {
     if (face.index) before[face.id].push_back(&face);
   }
-  std::map<std::string, FacePlan*> redrawn;
-  // First, place attachments on all faces as they were before any review, so that a redrawn face
-  // changes no other face.
   for (FacePlan& face : crowd) {
+    const auto found = before.find(face.id);
+    if (found != before.end()) found->second.push_back(&face);
+  }
+  std::map<std::string, FacePlan*> redrawn;
+  // The replacements, in the order of the reviews, as soon as the crowd has the reviewed size.
+  std::map<std::string, std::size_t> times;
+  std::size_t next = 0;
+  const auto replace_up_to = [&](std::size_t size) {
+    for (; next < rejected.size(); ++next) {
+      if (!rejected_from.empty() && rejected_from[next] > size) return;
+      const std::string& id = rejected[next].id;
+      if (!redrawn.contains(id)) continue;
+      redrawn[id]->attachments = drawing.of(*before[id][++times[id]]);
+    }
+  };
+  // Each face first gets attachments as it was before any review, so that a redrawn face changes
+  // no face of the reviewed crowd.
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    if (!rejected_from.empty()) replace_up_to(i);
+    FacePlan& face = crowd[i];
     const auto found = before.find(face.id);
     if (found == before.end()) {
       face.attachments = drawing.of(face);
       continue;
     }
     drawing.of(*found->second.front());
-    found->second.push_back(&face);
     redrawn[face.id] = &face;
   }
-  // Then the replacements, in the order of the reviews.
-  std::map<std::string, std::size_t> times;
-  for (const FacePlan& face : rejected) {
-    if (!redrawn.contains(face.id)) continue;
-    const FacePlan& next = *before[face.id][++times[face.id]];
-    redrawn[face.id]->attachments = drawing.of(next);
-  }
+  replace_up_to(crowd.size());
 }
 
 }  // namespace crowdface

@@ -45,9 +45,11 @@ struct AttachmentDraw {
 ///
 /// \param crowd     In the order of the plan.
 /// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
-/// \param rejected  Faces that reviews rejected, in order. Their replacements are processed last,
-///                  so that no other face changes.
+/// \param rejected  Faces that reviews rejected, in order. Their replacements are processed after
+///                  all faces of the crowd that was reviewed, so that no other face changes.
+/// \param rejected_from  #rejected: size of the crowd that was reviewed. Empty: the whole crowd.
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {});
+                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
+                      const std::vector<std::size_t>& rejected_from = {});
 
 }  // namespace crowdface

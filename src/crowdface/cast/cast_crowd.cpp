@@ -19,18 +19,19 @@ namespace {
 /// the other.
 constexpr std::uint64_t kBatch = 64;
 
-/// Casts faces 1 … count, each against all earlier faces.
+/// Casts sampled faces `from` … `to`, each against all earlier faces.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                    CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
-  PopulationBalance population(casting.population);
+                    std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
+                    PopulationBalance& population, const FaceJoined& joined,
+                    CastingResult& result) {
   FaceSearch::Cost cost;
   if (!casting.population.empty()) {
     cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
   }
-  for (std::uint64_t first = 1; first <= casting.count; first += kBatch) {
+  for (std::uint64_t first = from; first <= to; first += kBatch) {
     throw_if_interrupted();
-    const std::uint64_t last = std::min(casting.count, first + kBatch - 1);
+    const std::uint64_t last = std::min(to, first + kBatch - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
       const FaceKind& kind = kinds[static_cast<std::size_t>(result.kinds[index - 1] + 1)];
@@ -74,6 +75,51 @@ std::optional<FacePlan> draw_by_hand(const CastingOptions& casting, const Manual
   return std::nullopt;
 }
 
+/// Returns the number of sampled faces that are cast before each review is applied.
+std::vector<std::uint64_t> faces_before_reviews(const CastingOptions& casting) {
+  std::vector<std::uint64_t> counts;
+  std::uint64_t so_far = 0;
+  const bool at_once = casting.diversity.mode == DiversityOptions::Mode::kSpread;
+  for (const Review& review : casting.reviews) {
+    const std::uint64_t own = at_once ? casting.count : review.count.value_or(casting.count);
+    so_far = std::max(so_far, std::min(own, casting.count));
+    counts.push_back(so_far);
+  }
+  return counts;
+}
+
+FamilySeparation separation_of(const CastingResult& cast) {
+  FamilySeparation separation;
+  for (const FamilyPlan& family : cast.families) {
+    separation.add(family.name,
+                   {cast.points.begin() + family.begin, cast.points.begin() + family.end});
+  }
+  return separation;
+}
+
+void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result) {
+  const std::size_t known = result.crowd.size();
+  result.crowd = crowd.take_faces();
+  result.points = crowd.take_points();
+  if (!result.shortfall) find_nearest(judge, result, known);
+}
+
+/// Casts further sampled faces after a review, up to face `to`.
+void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
+          std::uint64_t from, std::uint64_t to, PopulationBalance& population,
+          const FaceJoined& joined, CastingResult& result) {
+  auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
+  const std::size_t others = result.crowd.size() - (from - 1);
+  for (std::size_t i = 0; i < result.crowd.size(); ++i) {
+    if (i == others) crowd->begin_sampled();
+    crowd->add(result.crowd[i], result.points[i]);
+  }
+  if (others == result.crowd.size()) crowd->begin_sampled();
+  cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd,
+                 population, joined, result);
+  take_crowd(judge, *crowd, result);
+}
+
 }  // namespace
 
 CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
@@ -108,27 +154,36 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   crowd.begin_sampled();
   result.kinds = schedule_groups(casting.groups, casting.count);
   const std::vector<FaceKind> kinds = face_kinds(casting);
+  const std::vector<std::uint64_t> before = faces_before_reviews(casting);
+  PopulationBalance population(casting.population);
+  std::uint64_t sampled = before.empty() ? casting.count : before.front();
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
     cast_spread(casting, judge, kinds, family_separation, crowd, joined, result);
   } else {
-    cast_first_fit(casting, judge, kinds, family_separation, crowd, joined, result);
+    cast_first_fit(casting, judge, kinds, family_separation, 1, sampled, crowd, population, joined,
+                   result);
   }
-  result.crowd = crowd.take_faces();
-  result.points = crowd.take_points();
+  take_crowd(judge, crowd, result);
   so_far.reset();  // free the index, which is as large as the points
-  if (result.shortfall) return result;
-  find_nearest(judge, result);
-  for (const Review& review : casting.reviews) {
-    if (!result.shortfall) apply_review(casting, judge, review, result);
+  const auto grow_to = [&](std::uint64_t count) {
+    if (result.shortfall || count <= sampled) return;
+    grow(casting, judge, kinds, sampled + 1, count, population, joined, result);
+    sampled = count;
+  };
+  for (std::size_t r = 0; r < casting.reviews.size(); ++r) {
+    grow_to(before[r]);
+    if (!result.shortfall) apply_review(casting, judge, casting.reviews[r], result);
   }
+  grow_to(casting.count);
   return result;
 }
 
-void find_nearest(const FaceJudge& judge, CastingResult& cast) {
+void find_nearest(const FaceJudge& judge, CastingResult& cast, std::size_t first) {
   FacePointIndex index(judge.space().dimensions());
   for (const FaceSpace::Point& point : cast.points) index.add(point);
-  parallel_for_each(index.size(), [&](Index i) {
-    const FaceSpace::Point& point = cast.points[static_cast<std::size_t>(i)];
+  parallel_for_each(cast.points.size() - first, [&](std::size_t after_first) {
+    const auto i = static_cast<Index>(first + after_first);
+    const FaceSpace::Point& point = cast.points[first + after_first];
     const auto [head, head_mm] = judge.nearest_head(point);
     Nearest nearest{head, head_mm, std::nullopt, 0};
     if (i > 0) {

@@ -8,8 +8,9 @@
 namespace crowdface {
 
 /// Casts a crowd: hand-written recipes in their order, then families, then sampled faces; each face
-/// is judged before it joins the crowd. Then applies the reviews, one after the other. Each face
-/// records its nearest head and the nearest earlier face. The number of attempts is bounded. If
+/// is judged before it joins the crowd. Applies the reviews in their order, each as soon as the
+/// faces that it is about are cast; with `mode: spread`, after all faces. Each face records its
+/// nearest head and the nearest earlier face. The number of attempts is bounded. If
 /// constraints cannot be met, the result has a shortfall; no exception is thrown.
 ///
 /// \param joined  Called after each sampled face.
@@ -17,7 +18,8 @@ namespace crowdface {
 CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
                          const FaceJoined& joined = {});
 
-/// Finds the nearest head and the nearest earlier face for each face of a crowd.
-void find_nearest(const FaceJudge& judge, CastingResult& cast);
+/// Finds the nearest head and the nearest earlier face for each face of a crowd from face `first`
+/// on, counted from 0.
+void find_nearest(const FaceJudge& judge, CastingResult& cast, std::size_t first = 0);
 
 }  // namespace crowdface

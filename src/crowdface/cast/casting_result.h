@@ -31,6 +31,8 @@ struct CastingResult {
   std::vector<int> kinds;                ///< group of each sampled face, or −1
   std::vector<FamilyPlan> families;
   std::vector<FacePlan> rejected;  ///< faces that reviews rejected, in order; ids as in `crowd`
+  /// #rejected: size of the crowd when the face was rejected; later faces joined afterwards
+  std::vector<std::size_t> rejected_from;
   Rejections rejections;
   std::optional<Shortfall> shortfall;
 };

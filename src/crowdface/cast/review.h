@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,14 @@ struct ReviewMark {
   std::vector<std::size_t> locked;
   std::optional<std::string> note;
 };
-using Review = std::vector<ReviewMark>;
+
+/// The marks of one reviewer.
+struct Review {
+  /// Number of sampled faces of the crowd that was reviewed. The review applies to this crowd;
+  /// faces with larger numbers are cast later, so that a larger crowd changes none of its faces.
+  /// Empty: the whole crowd.
+  std::optional<std::uint64_t> count;
+  std::vector<ReviewMark> marks;
+};
 
 }  // namespace crowdface

@@ -69,9 +69,9 @@ const Keys<Attachment>& item_keys() {
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
-      key("file", &Attachment::file, obj_file(), "an OBJ file"),
+      key("file", &Attachment::file, obj_file(), "an OBJ file").after_casting(),
       Key<Attachment>{"tags", read_item_tags, write_tags}.taking("list of tags"),
-      word_key("moves", &Attachment::moves),
+      word_key("moves", &Attachment::moves).after_casting(),
       of_item("share", &AttachmentItem::share, number(0, kMaxShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
       of_item("excludes", &AttachmentItem::excludes,
@@ -210,8 +210,9 @@ auto write_shares(std::map<std::string, double> Attachments::*shares) {
 /// The keys of attachments.yaml.
 const Keys<Attachments>& wardrobe_keys() {
   static const Keys<Attachments> keys = {
-      Key<Attachments>{"fitted_to", read_fitted_to, write_fitted_to}.taking(
-          "`mean`, head, or OBJ file"),
+      Key<Attachments>{"fitted_to", read_fitted_to, write_fitted_to}
+          .taking("`mean`, head, or OBJ file")
+          .after_casting(),
       Key<Attachments>{"items", read_items, write_items}
           .taking("list of mappings with the keys below")
           .holding(item_keys()),

@@ -223,8 +223,10 @@ struct Config {
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> texts;  ///< #files, the files' texts
-    std::vector<Review> reviews;     ///< #files, the parsed texts
+    std::vector<std::string> texts;      ///< #files, the files' texts, with the key `count`
+    std::vector<std::string> originals;  ///< #files, the files' texts as they were read
+    std::vector<Review> reviews;         ///< #files, the parsed texts
+    bool without_kept = false;           ///< the reviews in the crowd's folder are set aside
   } review;
   std::filesystem::path edits;  ///< file saved by `crowdface edit`, already merged; empty: none
 

@@ -2,53 +2,112 @@
 #include "crowdface/config/config_difference.h"
 
 #include "crowdface/config/config.h"
+#include "crowdface/config/config_keys.h"
+#include "crowdface/config/words.h"
 #include "crowdface/config/yaml.h"
 
 namespace crowdface {
 namespace {
 
-/// Returns the first node of `b` that is missing in `a` or has another value there. If there is
-/// none, returns the first node of `a` that is missing in `b`, or null.
+constexpr const char* kCount = "crowd.count";
+
+/// Returns a node's path without the numbers of list items: "attachments.items #2.file" gives
+/// "attachments.items.file".
+std::string path_of_key(std::string path) {
+  for (std::size_t at = path.find(" #"); at != path.npos; at = path.find(" #", at)) {
+    path.erase(at, std::min(path.find('.', at), path.size()) - at);
+  }
+  return path;
+}
+
+void remove_keys(const std::set<std::string>& paths, YamlNode& node) {
+  std::erase_if(node.entries, [&](const YamlEntry& entry) {
+    return paths.contains(path_of_key(entry.value.path));
+  });
+  for (YamlEntry& entry : node.entries) remove_keys(paths, entry.value);
+  for (YamlNode& item : node.items) remove_keys(paths, item);
+}
+
+/// Adds the paths of all values of `b` that `a` lacks or that differ there, and of all values of
+/// `a` that `b` lacks.
 /// \param defaults  values for keys that `a` lacks because an older version wrote `a`; may be null.
-const YamlNode* first_difference(const YamlNode& a, const YamlNode& b, const YamlNode* defaults) {
-  if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return &b;
+void add_differences(const YamlNode& a, const YamlNode& b, const YamlNode* defaults,
+                     std::vector<std::string>& paths) {
+  const auto add = [&](const YamlNode& node) {
+    paths.push_back(node.path.empty() ? "its keys" : node.path);
+  };
+  if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size()) return add(b);
   for (std::size_t i = 0; i < a.items.size(); ++i) {
-    if (first_difference(a.items[i], b.items[i], nullptr) != nullptr) return &b;
+    std::vector<std::string> inside;
+    add_differences(a.items[i], b.items[i], nullptr, inside);
+    if (!inside.empty()) return add(b);
   }
   for (const YamlEntry& entry : b.entries) {
     const YamlEntry* own_default = defaults == nullptr ? nullptr : defaults->find(entry.key);
     const YamlNode* value = own_default == nullptr ? nullptr : &own_default->value;
     const YamlEntry* old = a.find(entry.key);
     const YamlNode* before = old == nullptr ? value : &old->value;
-    if (before == nullptr) return &entry.value;
-    if (const YamlNode* found = first_difference(*before, entry.value, value)) return found;
+    if (before == nullptr) {
+      if (entry.value.kind != YamlNode::Kind::kMap || !entry.value.entries.empty())
+        add(entry.value);
+    } else {
+      add_differences(*before, entry.value, value, paths);
+    }
   }
   for (const YamlEntry& entry : a.entries) {
-    if (b.find(entry.key) == nullptr) return &entry.value;
+    if (b.find(entry.key) == nullptr) add(entry.value);
   }
-  return nullptr;
 }
 
-/// Removes the key `review`: a crowd's folder stores its reviews, and later runs may add to them.
-void forget_reviews(YamlNode& root) {
-  std::erase_if(root.entries, [](const YamlEntry& entry) { return entry.key == "review"; });
+const YamlNode* node_at(const YamlNode& root, std::string_view key_path) {
+  const YamlNode* node = &root;
+  while (node != nullptr && !key_path.empty()) {
+    const std::size_t end = std::min(key_path.find('.'), key_path.size());
+    const YamlEntry* entry = node->find(std::string(key_path.substr(0, end)));
+    node = entry == nullptr ? nullptr : &entry->value;
+    key_path.remove_prefix(std::min(end + 1, key_path.size()));
+  }
+  return node;
+}
+
+std::optional<std::uint64_t> number_at(const YamlNode& root, std::string_view key_path) {
+  const YamlNode* node = node_at(root, key_path);
+  return node == nullptr ? std::nullopt : parse_unsigned(node->text);
+}
+
+/// Returns whether the faces of the smaller crowd are the first ones of the larger crowd.
+bool only_grows(const YamlNode& old, const YamlNode& root) {
+  const YamlNode* mode = node_at(root, "diversity.mode");
+  const auto before = number_at(old, kCount), now = number_at(root, kCount);
+  const bool one_by_one =
+      mode == nullptr || mode->text == word_of(DiversityOptions::Mode::kFirstFit);
+  return one_by_one && before && now && *before <= *now;
 }
 
 }  // namespace
 
-std::optional<std::string> config_difference(const std::string& old_text, const std::string& text) {
-  if (old_text == text) return std::nullopt;
+std::vector<std::string> config_differences(const std::string& old_text, const std::string& text) {
+  if (old_text == text) return {};
   Complaints complaints;
   auto old = parse_yaml(old_text, "", complaints);
   auto root = parse_yaml(text, "", complaints);
   if (!old || !root || !complaints.empty())
-    return "every key, because one of the two is not a valid config";
-  forget_reviews(*old);
-  forget_reviews(*root);
-  const auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);
-  const YamlNode* found = first_difference(*old, *root, defaults ? &*defaults : nullptr);
-  if (found == nullptr) return std::nullopt;
-  return found->path.empty() ? "its keys" : found->path;
+    return {"every key, because one of the two is not a valid config"};
+  auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);
+  std::set<std::string> ignored = keys_after_casting();
+  if (only_grows(*old, *root)) ignored.insert(kCount);
+  for (YamlNode* node : {&*old, &*root, defaults ? &*defaults : nullptr}) {
+    if (node != nullptr) remove_keys(ignored, *node);
+  }
+  std::vector<std::string> paths;
+  add_differences(*old, *root, defaults ? &*defaults : nullptr, paths);
+  return paths;
+}
+
+std::optional<std::uint64_t> number_in_config(const std::string& text, std::string_view key_path) {
+  Complaints complaints;
+  const auto root = parse_yaml(text, "", complaints);
+  return root ? number_at(*root, key_path) : std::nullopt;
 }
 
 }  // namespace crowdface

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,9 @@ using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 /// A row of the tables in docs/config.md.
 struct KeyRow {
   std::string section, key;
-  std::string takes;    ///< accepted values
-  std::string initial;  ///< default value; "required"; or empty if there is no default
+  std::string takes;          ///< accepted values
+  std::string initial;        ///< default value; "required"; or empty if there is no default
+  bool decides_faces = true;  ///< see Key::decides_faces
 };
 
 template <class Section>
@@ -46,7 +48,8 @@ struct Key {
   std::string takes = {};          ///< accepted values, for docs/config.md
   /// Documents the nested keys, if the value is a mapping. \param section  path of that mapping.
   std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
-  bool shapes_faces = true;  ///< false: the value itself never affects a face's files
+  bool shapes_faces = true;   ///< false: the value itself never affects a face's files
+  bool decides_faces = true;  ///< false: no recipe depends on the value or on the files it names
 
   Key in_starter(const Starter& lines) const {
     Key key = *this;
@@ -75,6 +78,12 @@ struct Key {
   Key apart_from_faces() const {
     Key key = *this;
     key.shapes_faces = false;
+    return key;
+  }
+  /// Marks a key that may change in a finished crowd, because its faces stay who they are.
+  Key after_casting() const {
+    Key key = *this;
+    key.decides_faces = false;
     return key;
   }
   /// Writes the key only if `is(section, writing)` holds.
@@ -138,10 +147,11 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
   std::vector<KeyRow> rows;
   const Config defaults;
   for (const Key<Section>& key : keys) {
-    if (!key.takes.empty()) {
+    if (!key.takes.empty() || !key.decides_faces) {
       rows.push_back(
           {section, std::string(key.name), key.takes,
-           key.required.empty() ? in_one_line(key.write(initial, {defaults, {}})) : "required"});
+           key.required.empty() ? in_one_line(key.write(initial, {defaults, {}})) : "required",
+           key.decides_faces});
     }
     if (!key.rows) continue;
     const std::string path =
@@ -152,8 +162,10 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
   return rows;
 }
 
-/// Returns the rows of all keys of a config.
+/// Returns the rows of all documented keys of a config.
 std::vector<KeyRow> config_key_rows();
+/// Returns the paths of the keys marked with Key::after_casting, such as "output".
+std::set<std::string> keys_after_casting();
 
 /// Writes a list of sections that have the same keys.
 template <class Section>

@@ -71,6 +71,9 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   ConfigDraft draft(complaints);
   draft.config.file = file;
   draft.folder = file.parent_path();
+  draft.kept_reviews = overrides.kept_reviews;
+  draft.kept_count = overrides.kept_count;
+  draft.ignored_reviews = overrides.ignored_reviews;
   std::optional<YamlNode> root = parse(complaints);
   if (root) {
     apply(overrides, *root, complaints);

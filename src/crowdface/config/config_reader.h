@@ -20,9 +20,16 @@ struct ConfigOverrides {
   std::optional<std::string> out;        ///< `--out`, relative to the working directory
   std::vector<std::string> review = {};  ///< `--review`, relative to the working directory; read
                                          ///< after the files of the key `review`
-  /// Reviews stored in the crowd's folder. They are read first; a later copy with the same bytes is
-  /// ignored.
+  /// `--without-reviews`: the reviews stored in the crowd's folder do not apply
+  bool without_reviews = false;
+  /// the stored reviews apply even if the folder holds another config's crowd
+  bool with_reviews_of_others = false;
+  /// Reviews stored in the crowd's folder. They are read first; a later copy is ignored.
   std::vector<std::filesystem::path> kept_reviews = {};
+  /// The crowd's number of sampled faces, for kept reviews that do not state it.
+  std::optional<std::uint64_t> kept_count = {};
+  /// Reviews in this folder are not read; empty: all reviews are read.
+  std::filesystem::path ignored_reviews = {};
 };
 
 /// A config that may be read only in part because of problems.

@@ -14,6 +14,7 @@ namespace {
 using Verdict = ReviewMark::Verdict;
 
 constexpr std::size_t kLongestNote = 2000;
+constexpr std::uint64_t kMaxCount = 1'000'000;
 
 /// Returns every id of this config's crowd except those of sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
@@ -102,9 +103,12 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   Review review;
   if (!root) return review;
-  const MapReader map(*root, {"schema", "faces"}, draft.complaints);
+  const MapReader map(*root, {"schema", "count", "faces"}, draft.complaints);
   if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
     read_whole(*schema, 1, 1, draft.complaints);
+  }
+  if (const YamlNode* count = map.find("count")) {
+    review.count = read_whole(*count, 0, kMaxCount, draft.complaints);
   }
   const YamlNode* faces = map.require("faces", "such as \"faces: {market_0007: reject}\"");
   if (faces == nullptr) return review;
@@ -134,22 +138,49 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
                            concat(quoted(entry.key), " is written by hand and cannot be rejected; ",
                                   "change its recipe"));
     }
-    review.push_back(std::move(mark));
+    review.marks.push_back(std::move(mark));
   }
   return review;
 }
 
-/// Adds a review file, unless an earlier one has the same bytes.
+/// Returns a review's text with the key `count`: in a new line, or as the first key of a mapping in
+/// braces.
+std::string with_count(std::string text, std::uint64_t count) {
+  std::size_t first = 0;
+  while (first < text.size() &&
+         (text[first] == '#' || is_blank(text[first]) || text[first] == '\n')) {
+    first = text[first] == '#' ? std::min(text.find('\n', first), text.size()) : first + 1;
+  }
+  if (first < text.size() && text[first] == '{') {
+    return text.insert(first + 1, concat("count: ", count, ", "));
+  }
+  if (!text.empty() && !text.ends_with('\n')) text += '\n';
+  return text + concat("count: ", count, '\n');
+}
+
+/// Adds a review file, unless an earlier one is a copy of it. A review that does not state the
+/// number of faces that it is about gets this number.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;
+  if (!draft.ignored_reviews.empty() && is_inside_folder(file, draft.ignored_reviews)) return;
   Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
   std::string text = draft.complaints.empty() ? read_file(file) : std::string();
-  std::vector<std::string>& texts = config.review.texts;
-  if (!text.empty() && contains(texts, text)) return;
-  config.review.files.push_back(file);
-  texts.push_back(std::move(text));
-  config.review.reviews.push_back(std::move(review));
+  const std::string original = text;
+  Config::Reviews& known = config.review;
+  for (std::size_t i = 0; i < known.texts.size() && !text.empty(); ++i) {
+    if (known.texts[i] == text) return;
+    if (!review.count && known.texts[i] == with_count(text, *known.reviews[i].count)) return;
+  }
+  if (!review.count) {
+    const bool is_kept = contains(draft.kept_reviews, file);
+    review.count = is_kept ? draft.kept_count.value_or(config.crowd.count) : config.crowd.count;
+    if (!text.empty()) text = with_count(std::move(text), *review.count);
+  }
+  known.files.push_back(file);
+  known.texts.push_back(std::move(text));
+  known.originals.push_back(original);
+  known.reviews.push_back(std::move(review));
 }
 
 }  // namespace

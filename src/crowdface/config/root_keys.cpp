@@ -65,9 +65,11 @@ const Keys<Config::Textures>& textures_keys() {
     return textures.colours == ColourWeights::kDrawn;
   };
   static const Keys<Textures> keys = {
-      word_key("blend", &Textures::blend), key("size", &Textures::size, whole(16, 16384)),
+      word_key("blend", &Textures::blend).after_casting(),
+      key("size", &Textures::size, whole(16, 16384)).after_casting(),
       key("formats", &Textures::formats,
-          words<TextureFormat>("a list of formats, [png, jpeg, exr]")),
+          words<TextureFormat>("a list of formats, [png, jpeg, exr]"))
+          .after_casting(),
       word_key("colours", &Textures::colours).written_if(are_drawn),
       key("alike", &Textures::alike, list(name(), "a list of tags, [female, male]"))
           .written_if(are_drawn)};
@@ -250,9 +252,13 @@ const Keys<Config>& root_keys() {
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
       Key<Config>{"parts", read_parts, write_parts}.holding(parts_keys()),
-      shapes_key().apart_from_faces(),
-      file_key("points", &Config::points, "none, or a YAML file of points").apart_from_faces(),
-      file_key("rig", &Config::rig, "none, or a GLB file with joints").apart_from_faces(),
+      shapes_key().apart_from_faces().after_casting(),
+      file_key("points", &Config::points, "none, or a YAML file of points")
+          .apart_from_faces()
+          .after_casting(),
+      file_key("rig", &Config::rig, "none, or a GLB file with joints")
+          .apart_from_faces()
+          .after_casting(),
       landmarks_key().apart_from_faces(),
       neck_key().apart_from_faces(),
       attachments_key().apart_from_faces(),
@@ -269,10 +275,10 @@ const Keys<Config>& root_keys() {
       groups_key().apart_from_faces(),
       recipes_key().apart_from_faces(),
       families_key().apart_from_faces(),
-      Key<Config>{"review", read_review, write_review}.apart_from_faces(),
+      Key<Config>{"review", read_review, write_review}.apart_from_faces().after_casting(),
       // read_edits merges the file before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
-      section_key("output", &Config::output, output_keys(), {}, check_output)};
+      section_key("output", &Config::output, output_keys(), {}, check_output).after_casting()};
   return keys;
 }
 
@@ -283,7 +289,18 @@ std::string in_one_line(std::string_view value) {
 }
 
 std::vector<KeyRow> config_key_rows() {
-  return key_rows("", root_keys(), Config{});
+  std::vector<KeyRow> rows = key_rows("", root_keys(), Config{});
+  std::erase_if(rows, [](const KeyRow& row) { return row.takes.empty(); });
+  return rows;
+}
+
+std::set<std::string> keys_after_casting() {
+  std::set<std::string> paths;
+  for (const KeyRow& row : key_rows("", root_keys(), Config{})) {
+    if (row.decides_faces) continue;
+    paths.insert(row.section.empty() ? row.key : concat(row.section, '.', row.key));
+  }
+  return paths;
 }
 
 std::string effective_config(const Config& config, const std::filesystem::path& directory) {

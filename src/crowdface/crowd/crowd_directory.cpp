@@ -2,6 +2,7 @@
 #include "crowdface/crowd/crowd_directory.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <system_error>
 
@@ -11,6 +12,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/text_pieces.h"
 #include "crowdface/crowd/ledger.h"
@@ -113,8 +115,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
   for (const std::vector<fs::path>& more :
-       {files_of_faces(directory), crowd_sheets(directory), files_beside_sheets(directory),
-        directory.kept_reviews()}) {
+       {files_of_faces(directory), crowd_sheets(directory), files_beside_sheets(directory)}) {
     files.insert(files.end(), more.begin(), more.end());
   }
   for (const fs::path& path : files) remove_file(path);
@@ -180,6 +181,41 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
                          });
   // Another shard may have begun in the meantime; it writes its config first.
   return holds_any && !path_exists(directory.config());
+}
+
+/// Moves the folder of reviews to a new folder beside it, such as "reviews-2026-11-27".
+void set_reviews_aside(const CrowdDirectory& directory) {
+  if (directory.kept_reviews().empty()) return;
+  const std::chrono::year_month_day today{
+      std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now())};
+  const std::string name = concat("reviews-", static_cast<int>(today.year()), '-',
+                                  zero_padded(static_cast<unsigned>(today.month()), 2), '-',
+                                  zero_padded(static_cast<unsigned>(today.day()), 2));
+  fs::path aside = directory.root / name;
+  for (int i = 2; path_exists(aside); ++i) aside = directory.root / concat(name, '-', i);
+  std::error_code error;
+  fs::rename(directory.reviews(), aside, error);
+  if (error) {
+    throw IoError(concat(directory.reviews().string(), ": cannot be moved to ", aside.string(),
+                         ": ", error.message()));
+  }
+  log_info(concat("moved the reviews to ", aside.string()));
+}
+
+/// \throws UsageError if the folder has reviews that this run would overwrite or not apply, because
+///         another run has added them.
+void refuse_unread_reviews(const CrowdDirectory& directory, const CrowdConfig& config) {
+  const std::vector<fs::path> kept = directory.kept_reviews();
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (i < config.reviews.size()) {
+      const std::string text = read_file(kept[i]);
+      if (text == config.reviews[i]) continue;
+      if (i < config.original_reviews.size() && text == config.original_reviews[i]) continue;
+    }
+    throw UsageError(concat(kept[i].string(),
+                            ": this run has not applied this review, which another run has added; "
+                            "run the same command again"));
+  }
 }
 
 /// Refuses links that would lead a run to write, append or remove outside the crowd's folder.
@@ -321,12 +357,14 @@ void require_crowd(const CrowdDirectory& directory) {
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                            Replace replace) {
   if (path_exists(directory.config()) && replace == Replace::kRefuse) {
-    if (const auto key = config.difference(read_file(directory.config()))) {
+    const std::vector<std::string> keys = config.differences(read_file(directory.config()));
+    if (!keys.empty()) {
       throw UsageError(concat(directory.root.string(),
                               ": holds another config's crowd (its config.yaml differs from this "
                               "run's in ",
-                              *key,
-                              "); choose another folder with --out, or replace it with --force"));
+                              join(keys),
+                              "); choose another folder with --out, or replace the crowd with "
+                              "--force, which keeps its reviews"));
     }
   }
   fs::path existing = fs::absolute(directory.root);
@@ -356,8 +394,10 @@ void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& co
                           Replace replace) {
   check_crowd_directory(directory, config, replace);
   make_directories(directory.root);
+  if (config.without_kept_reviews) set_reviews_aside(directory);
+  refuse_unread_reviews(directory, config);
   const bool is_others = path_exists(directory.config())
-                             ? config.difference(read_file(directory.config())).has_value()
+                             ? !config.differences(read_file(directory.config())).empty()
                              : holds_other_files(directory, config.text);
   if (is_others && replace == Replace::kForce) remove_crowd(directory);
   if (!config.reviews.empty()) make_directories(directory.reviews());

@@ -164,9 +164,12 @@ enum class Replace { kRefuse, kForce };
 struct CrowdConfig {
   std::string text;                  ///< content to write to config.yaml
   std::vector<std::string> reviews;  ///< content of each review file
-  /// Returns the first key in which another config.yaml differs; nothing if it describes the same
-  /// crowd.
-  std::function<std::optional<std::string>(const std::string& other)> difference;
+  /// Returns the keys in which another config.yaml differs; none if it describes the same crowd.
+  std::function<std::vector<std::string>(const std::string& other)> differences;
+  /// #reviews: the content of each review file when this run read it
+  std::vector<std::string> original_reviews = {};
+  /// Whether the reviews in the folder are moved into a folder that is named after the date.
+  bool without_kept_reviews = false;
 };
 
 /// Checks before any heavy work whether open_crowd_directory would succeed; changes nothing.
@@ -176,8 +179,10 @@ void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& c
                            Replace replace);
 
 /// Prepares the folder for this crowd: creates the folder, and either refuses a folder that holds
-/// another crowd or (kForce) first removes the files of that crowd and no other files.
-/// \throws UsageError if the folder holds another crowd; CannotCreate, IoError.
+/// another crowd or (kForce) first removes the files of that crowd. Never removes reviews or other
+/// files that a person wrote.
+/// \throws UsageError if the folder holds another crowd, or reviews that this run did not read;
+///         CannotCreate, IoError.
 void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                           Replace replace);
 

@@ -145,15 +145,15 @@ fs::path EditedFolder::save_mark(const Config& config, const ReviewMark& mark) {
   Review review;
   if (path_exists(file)) review = parse_review(read_file(file), file.string(), config, problems);
   problems.throw_if_any();
-  const auto known = std::ranges::find(review, mark.id, &ReviewMark::id);
-  if (known == review.end()) {
-    review.push_back(mark);
+  const auto known = std::ranges::find(review.marks, mark.id, &ReviewMark::id);
+  if (known == review.marks.end()) {
+    review.marks.push_back(mark);
   } else {
     *known = mark;
   }
   const std::vector<std::string> parts = config.part_names();
   std::string text = "schema: 1\nfaces:\n";
-  for (const ReviewMark& one : review) text += format_mark(one, parts);
+  for (const ReviewMark& one : review.marks) text += format_mark(one, parts);
   parse_review(text, file.string(), config, problems);
   problems.throw_if_any();
   write_file(file, text);

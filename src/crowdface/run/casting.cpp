@@ -207,7 +207,8 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
                  result.crowd);
   }
   if (!config.attachments.items.empty()) {
-    draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected);
+    draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected,
+                     crowd.rejected_from);
   }
   for (FamilyPlan& family : crowd.families) {
     const auto member = std::ranges::find(result.crowd, family.name, &FacePlan::family);

@@ -362,6 +362,21 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
   retry_if_truncated([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
 }
 
+/// A run that replaces another config's crowd applies the reviews of that crowd.
+ConfigOverrides with_reviews(ConfigOverrides overrides, const GenerateOptions& options) {
+  overrides.with_reviews_of_others = options.replace == Replace::kForce;
+  return overrides;
+}
+
+Job load_job(const fs::path& config_file, const ConfigOverrides& overrides,
+             const GenerateOptions& options) {
+  return load_job(config_file, with_reviews(overrides, options), options.cache);
+}
+
+Job load_job(const Config& config, const GenerateOptions& options) {
+  return load_job(config, options.cache, with_reviews({}, options));
+}
+
 void plan_job(const Job& job, const GenerateOptions& options) {
   check_output(job, options.replace);
   if (options.dry_run) return tell_dry_run(job.config, nullptr);
@@ -382,11 +397,11 @@ void plan_job(const Job& job, const GenerateOptions& options) {
 
 void generate(const fs::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options) {
-  generate_loaded([&] { return load_job(config_file, overrides, options.cache); }, options);
+  generate_loaded([&] { return load_job(config_file, overrides, options); }, options);
 }
 
 void generate(const Config& config, const GenerateOptions& options) {
-  generate_loaded([&] { return load_job(config, options.cache); }, options);
+  generate_loaded([&] { return load_job(config, options); }, options);
 }
 
 void gather(const fs::path& crowd_directory, const fs::path& cache) {
@@ -401,11 +416,11 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options) {
-  plan_job(load_job(config_file, overrides, options.cache), options);
+  plan_job(load_job(config_file, overrides, options), options);
 }
 
 void plan(const Config& config, const GenerateOptions& options) {
-  plan_job(load_job(config, options.cache), options);
+  plan_job(load_job(config, options), options);
 }
 
 }  // namespace crowdface

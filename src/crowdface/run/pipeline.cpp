@@ -121,37 +121,60 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
 constexpr std::uint64_t kMaxInOneFolder = 10'000;
 constexpr std::uint64_t kFacesPerFolder = 1'000;
 
-/// Sets numbered subfolders for a large crowd, unless its folder already exists without them.
+/// Sets numbered subfolders for a large crowd. If the folder holds this crowd, keeps the crowd's
+/// subfolders.
 void choose_folders(Config& config) {
-  if (config.output.faces_per_folder || face_count(config) <= kMaxInOneFolder) return;
+  if (config.output.faces_per_folder) return;
   const CrowdDirectory directory{config.output.directory};
-  const bool stands_there =
-      path_exists(directory.config()) &&
-      !config_difference(read_file(directory.config()), effective_config(config, directory.root));
-  if (!stands_there) config.output.faces_per_folder = kFacesPerFolder;
+  const std::string before =
+      path_exists(directory.config()) ? read_file(directory.config()) : std::string();
+  if (!before.empty() &&
+      config_differences(before, effective_config(config, directory.root)).empty()) {
+    config.output.faces_per_folder = number_in_config(before, "output.faces_per_folder");
+  } else if (face_count(config) > kMaxInOneFolder) {
+    config.output.faces_per_folder = kFacesPerFolder;
+  }
 }
 
 using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&)>;
 
-/// Reads the config, including the reviews in the crowd's folder if that holds the same crowd.
+/// Reads the config, including the reviews in the crowd's folder if that holds the same crowd or if
+/// `overrides` asks for them.
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);
   if (reading.complete) choose_folders(reading.config);
   const CrowdDirectory directory{reading.config.output.directory};
-  if (!reading.complete || !path_exists(directory.config())) return reading;
-  overrides.kept_reviews = directory.kept_reviews();
-  if (overrides.kept_reviews.empty()) return reading;
-  const std::string config = effective_config(reading.config, directory.root);
-  const auto difference = config_difference(read_file(directory.config()), config);
-  if (!difference) {
+  const std::vector<std::filesystem::path> kept = directory.kept_reviews();
+  if (!reading.complete || kept.empty()) return reading;
+  const auto read_again = [&] {
     reading = read(overrides, problems);
-    choose_folders(reading.config);
+    if (reading.complete) choose_folders(reading.config);
+  };
+  if (overrides.without_reviews) {
+    overrides.ignored_reviews = directory.reviews();
+    read_again();
+    reading.config.review.without_kept = true;
     return reading;
   }
-  log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
-                     "differs in ", *difference,
-                     "), which are not applied; to apply them, pass them with --review"));
+  std::vector<std::string> differences;
+  if (path_exists(directory.config())) {
+    const std::string before = read_file(directory.config());
+    differences = config_differences(before, effective_config(reading.config, directory.root));
+    overrides.kept_count = number_in_config(before, "crowd.count");
+  }
+  if (!differences.empty() && !overrides.with_reviews_of_others) {
+    log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
+                       "differs in ", join(differences), "), which are not applied"));
+    return reading;
+  }
+  overrides.kept_reviews = kept;
+  read_again();
+  if (!differences.empty() && !reading.complete) {
+    problems.add(ExitCode::kUsage,
+                 concat(directory.reviews().string(), ": --force applies the reviews of the crowd ",
+                        "that it replaces; to start without them, use --without-reviews"));
+  }
   return reading;
 }
 
@@ -190,7 +213,7 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
                        overrides, cache, problems);
 }
 
-Job load_job(const Config& config, const CacheFolder& cache) {
+Job load_job(const Config& config, const CacheFolder& cache, const ConfigOverrides& overrides) {
   const std::filesystem::path file = config.file.empty() ? "config" : config.file;
   const std::string text = effective_config(config, std::filesystem::absolute(file).parent_path());
   Problems problems;
@@ -198,7 +221,7 @@ Job load_job(const Config& config, const CacheFolder& cache) {
       [&](const ConfigOverrides& more, Problems& out) {
         return read_config_text(text, std::filesystem::absolute(file), more, out);
       },
-      {}, cache, problems);
+      overrides, cache, problems);
   problems.throw_if_any();
   return std::move(*job);
 }
@@ -234,7 +257,8 @@ std::string config_in_folder(Config config, const CrowdDirectory& directory) {
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) {
   std::string text = config_in_folder(config, directory);
   return {text, config.review.texts,
-          [text](const std::string& other) { return config_difference(other, text); }};
+          [text](const std::string& other) { return config_differences(other, text); },
+          config.review.originals, config.review.without_kept};
 }
 
 LevelScale level_scale(const Config& config, const Inputs& inputs) {

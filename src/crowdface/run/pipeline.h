@@ -35,7 +35,8 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
 
 /// Loads the job of a config object. The config is written as text and read again, so that its
 /// values and paths are validated like those of a file.
-Job load_job(const Config& config, const CacheFolder& cache = {});
+Job load_job(const Config& config, const CacheFolder& cache = {},
+             const ConfigOverrides& overrides = {});
 
 /// The number of faces that the config asks for.
 std::uint64_t face_count(const Config& config);

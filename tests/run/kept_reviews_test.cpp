@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reviews stay in a crowd's folder and in effect, whatever else of the config changes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/core/text.h"
+#include "crowdface/run/crowd_sheets.h"
+#include "crowdface/run/generate.h"
+
+#include "support/crowd_files.h"
+#include "support/expect_error.h"
+#include "support/small_crowd.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::crowd_files;
+using testing::differing_files;
+using ::testing::IsEmpty;
+using testing::plan_lines;
+using testing::run;
+using testing::SmallCrowd;
+using testing::SmallCrowdFolder;
+
+SmallCrowd dressed() {
+  SmallCrowd crowd;
+  crowd.heads = 6;
+  crowd.regions = 2;
+  crowd.count = 6;
+  crowd.contact_sheet = "{columns: 3, rows: 1, cell: 32}";
+  return crowd;
+}
+
+class KeptReviews : public ::testing::Test {
+ protected:
+  KeptReviews() : folder_(dressed()) {
+    run(folder_);
+    first_ = plan_lines(folder_.out());
+    review("a.yaml", "{mob_0002: reject, mob_0003: {mark: keep, note: good}}");
+    reviewed_ = plan_lines(folder_.out());
+  }
+
+  ConfigOverrides with_review(const std::string& name, const std::string& faces) const {
+    ConfigOverrides overrides;
+    overrides.review = {folder_.folder().write(name, "schema: 1\nfaces: " + faces + "\n").string()};
+    return overrides;
+  }
+  void review(const std::string& name, const std::string& faces,
+              const std::vector<std::string>& set = {}) const {
+    ConfigOverrides overrides = with_review(name, faces);
+    overrides.set = set;
+    run(folder_, overrides);
+  }
+  fs::path out(const std::string& name) const { return folder_.out() / name; }
+  std::string kept() const { return testing::read_text(out("reviews/review_001.yaml")); }
+
+  SmallCrowdFolder folder_;
+  std::vector<json> first_, reviewed_;
+};
+
+TEST_F(KeptReviews, ForceKeepsThemAndAppliesThem) {
+  ASSERT_NE(first_[1], reviewed_[1]);
+  const std::string text = kept();
+  folder_.folder().write("out/edited/review.yaml", "mine");
+  run(folder_, {"smoothing.boundary=free"}, Replace::kForce);
+  EXPECT_EQ(kept(), text);
+  EXPECT_EQ(testing::read_text(out("edited/review.yaml")), "mine");
+  ConfigOverrides overrides{{"smoothing.boundary=free"}, {}, {}, {}};
+  overrides.review = {(folder_ / "a.yaml").string()};
+  testing::run_to(folder_, "again", overrides);
+  EXPECT_EQ(plan_lines(folder_.out()), plan_lines(folder_ / "again"));
+  EXPECT_TRUE(fs::exists(out("rejected.jsonl")));
+}
+
+TEST_F(KeptReviews, ForceStartsWithoutThemOnlyIfAskedTo) {
+  ConfigOverrides overrides{{"crowd.seed=12"}, {}, {}, {}};
+  overrides.without_reviews = true;
+  run(folder_, overrides, Replace::kForce);
+  EXPECT_FALSE(fs::exists(out("reviews")));
+  int aside = 0;
+  for (const auto& [name, text] : crowd_files(folder_.out())) {
+    aside +=
+        name.starts_with("reviews-") && text.starts_with("schema: 1\nfaces: {mob_0002: reject");
+  }
+  EXPECT_EQ(aside, 1);
+  testing::run_to(folder_, "again", ConfigOverrides{{"crowd.seed=12"}, {}, {}, {}});
+  EXPECT_EQ(plan_lines(folder_.out()), plan_lines(folder_ / "again"));
+}
+
+TEST_F(KeptReviews, ReviewsThatNoLongerFitAreToldAndKept) {
+  review("b.yaml", "{mob_0006: reject}");
+  const auto before = crowd_files(folder_.out());
+  testing::expect_error(ExitCode::kUsage, {"review_002.yaml", "mob_0006", "--without-reviews"},
+                        [&] {
+                          run(folder_, {"crowd.count=3", "crowd.seed=12"}, Replace::kForce);
+                        });
+  EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
+}
+
+// From the folder's own config, too, which names the reviews.
+TEST_F(KeptReviews, OfTheSameCrowdAreSetAsideOnlyIfAskedTo) {
+  ConfigOverrides overrides;
+  overrides.without_reviews = true;
+  generate(out("config.yaml"), overrides, {folder_.cache(), Replace::kRefuse, false});
+  EXPECT_EQ(plan_lines(folder_.out()), first_);
+  EXPECT_FALSE(fs::exists(out("reviews")));
+  run(folder_);
+  EXPECT_EQ(plan_lines(folder_.out()), first_);
+}
+
+// A review of an older version does not state the count of its crowd.
+TEST_F(KeptReviews, OfAnOlderVersionKeepTheirFaces) {
+  folder_.folder().write("out/reviews/review_001.yaml", testing::read_text(folder_ / "a.yaml"));
+  run(folder_, {"crowd.count=12"});
+  const auto lines = plan_lines(folder_.out());
+  for (std::size_t i = 0; i < reviewed_.size(); ++i) EXPECT_EQ(lines[i], reviewed_[i]);
+}
+
+TEST_F(KeptReviews, WhatDoesNotDecideWhoTheFacesAreMayChange) {
+  for (const char* set :
+       {"output.meshes=[obj, ply]", "output.contact_sheet.columns=2", "output.lods=[50 %]",
+        "textures.size=64", "output.contact_sheet=none", "output.meshes=[points]"}) {
+    run(folder_, {set});
+    EXPECT_EQ(plan_lines(folder_.out()), reviewed_) << set;
+  }
+}
+
+TEST_F(KeptReviews, AnotherFormatLeavesEveryOtherByte) {
+  const auto before = crowd_files(folder_.out());
+  run(folder_, {"output.meshes=[obj, ply]"});
+  const auto after = crowd_files(folder_.out());
+  for (const auto& [name, bytes] : before) {
+    if (name == "config.yaml" || name == "report.json" || name == "ledger.jsonl") continue;
+    EXPECT_TRUE(after.contains(name) && after.at(name) == bytes) << name;
+  }
+  EXPECT_TRUE(after.contains("meshes/mob_0002.ply"));
+  SmallCrowdFolder& other = folder_;
+  other.folder().write("b.yaml", kept());
+  ConfigOverrides overrides{{"output.meshes=[obj, ply]"}, {}, {}, {}};
+  overrides.review = {(folder_ / "b.yaml").string()};
+  testing::run_to(folder_, "again", overrides);
+  EXPECT_THAT(differing_files(crowd_files(folder_ / "again"), after), IsEmpty());
+}
+
+TEST_F(KeptReviews, ACrowdGrowsAndItsFacesStay) {
+  const auto meshes = [&] {
+    auto files = crowd_files(folder_.out());
+    std::erase_if(files, [](const auto& file) { return !file.first.starts_with("meshes/"); });
+    return files;
+  };
+  const auto before = meshes();
+  run(folder_, {"crowd.count=24"});
+  const auto lines = plan_lines(folder_.out());
+  ASSERT_EQ(lines.size(), 24U);
+  for (std::size_t i = 0; i < reviewed_.size(); ++i) EXPECT_EQ(lines[i], reviewed_[i]);
+  const auto after = meshes();
+  for (const auto& [name, bytes] : before) EXPECT_EQ(after.at(name), bytes) << name;
+
+  // Rejected again in the larger crowd, and then the crowd grows once more.
+  review("c.yaml", "{mob_0002: reject, mob_0020: reject}", {"crowd.count=24"});
+  const auto second = plan_lines(folder_.out());
+  EXPECT_NE(second[1], reviewed_[1]);
+  run(folder_, {"crowd.count=30"});
+  const auto third = plan_lines(folder_.out());
+  for (std::size_t i = 0; i < second.size(); ++i) EXPECT_EQ(third[i], second[i]);
+
+  // From nothing, with the kept reviews.
+  ConfigOverrides overrides{{"crowd.count=30"}, {}, {}, {}};
+  overrides.review = {out("reviews/review_001.yaml").string(),
+                      out("reviews/review_002.yaml").string()};
+  testing::run_to(folder_, "again", overrides);
+  EXPECT_EQ(plan_lines(folder_ / "again"), third);
+}
+
+// The folder's own config, which names the kept reviews, grows as well.
+TEST_F(KeptReviews, ACrowdGrowsFromItsKeptConfig) {
+  ConfigOverrides overrides{{"crowd.count=12"}, {}, {}, {}};
+  generate(out("config.yaml"), overrides, {folder_.cache(), Replace::kRefuse, false});
+  const auto lines = plan_lines(folder_.out());
+  ASSERT_EQ(lines.size(), 12U);
+  for (std::size_t i = 0; i < reviewed_.size(); ++i) EXPECT_EQ(lines[i], reviewed_[i]);
+}
+
+TEST_F(KeptReviews, WhatDecidesWhoTheFacesAreIsRefusedByName) {
+  const auto before = crowd_files(folder_.out());
+  testing::expect_error(
+      ExitCode::kUsage, {"crowd.seed", "sampling.max_sources", "--out", "--force"}, [&] {
+        run(folder_, {"crowd.seed=12", "sampling.max_sources=2", "output.meshes=[ply]"});
+      });
+  testing::expect_error(ExitCode::kUsage, {"crowd.count", "--out", "--force"},
+                        [&] { run(folder_, {"crowd.count=5"}); });
+  testing::expect_error(ExitCode::kUsage, {"diversity.mode", "--force"}, [&] {
+    run(folder_, {"crowd.count=8", "diversity.mode=spread"});
+  });
+  EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
+}
+
+TEST(PlannedCrowd, GetsItsFormatsLater) {
+  const SmallCrowdFolder folder(dressed());
+  plan(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  const auto planned = plan_lines(folder.out());
+  run(folder, {"output.meshes=[ply]"});
+  EXPECT_EQ(plan_lines(folder.out()), planned);
+  EXPECT_TRUE(fs::exists(folder.out() / "meshes/mob_0001.ply"));
+}
+
+}  // namespace
+}  // namespace crowdface
