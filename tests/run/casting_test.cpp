@@ -208,14 +208,14 @@ TEST(CastingOptions, ReviewsAddUpInRounds) {
   EXPECT_GE(reference::distance_mm(faces.areas, faces.as_built[4], old, kMmPerCm),
             0.4 * all[all.size() / 2]);
 
-  // A folder of another config is refused by its key; with --force its reviews are not applied.
+  // A folder of another config is refused by its key; with --force its reviews stay and apply.
   ConfigOverrides other;
   other.seed = "12";
   testing::expect_error(ExitCode::kUsage, {"another config's crowd", "crowd.seed"},
                         [&] { run(folder, other); });
   plan(folder.config(), other, {folder.cache(), Replace::kForce, false});
-  EXPECT_FALSE(fs::exists(folder.out() / "reviews"));
-  EXPECT_FALSE(fs::exists(folder.out() / "rejected.jsonl"));
+  EXPECT_TRUE(fs::exists(folder.out() / "reviews/review_001.yaml"));
+  EXPECT_TRUE(fs::exists(folder.out() / "rejected.jsonl"));
 }
 
 TEST(CastingOptions, AskingForDistanceLowersNothing) {
