@@ -3,6 +3,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstring>
+#include <ctime>
+
+#include <unistd.h>
 
 #include "crowdface/core/error.h"
 
@@ -13,15 +17,38 @@ namespace {
 std::atomic<int> signal_seen = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
+constexpr const char* kMessage = "interrupted by a signal; run the same command again to continue";
+constexpr timespec kGrace = {0, 700'000'000};  ///< 0.7 s
+
+timer_t grace_timer;
+const int grace_signal = SIGRTMIN;
+
+/// Ends the program as a kill would: files under their final names are complete.
+extern "C" void end_program(int) {
+  for (const char* text : {"error: ", kMessage, "\n"}) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
+  }
+  ::_exit(static_cast<int>(ExitCode::kInterrupted));
+}
+
+// Calls only functions that a signal handler may call (POSIX).
 extern "C" void remember_signal(int signal) {
   signal_seen = signal;
   // A second signal ends the program.
   std::signal(signal, SIG_DFL);
+  const itimerspec once = {{}, kGrace};
+  ::timer_settime(grace_timer, 0, &once, nullptr);
 }
 
 }  // namespace
 
 void catch_interrupts() {
+  std::signal(grace_signal, end_program);
+  sigevent event{};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = grace_signal;
+  // Without a timer, the program ends after the current block of work, however long that takes.
+  ::timer_create(CLOCK_MONOTONIC, &event, &grace_timer);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction action {};
     // The parent process wants this signal ignored, as nohup does.
@@ -39,7 +66,7 @@ bool interrupted() {
 
 void throw_if_interrupted() {
   if (interrupted()) {
-    throw Interrupted("interrupted by a signal; run the same command again to continue");
+    throw Interrupted(kMessage);
   }
 }
 
