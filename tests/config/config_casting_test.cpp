@@ -114,6 +114,20 @@ TEST_F(ConfigTest, GroupsLeaveOutHeadsWithATag) {
   EXPECT_EQ(effective_config(*again, folder_), written);
 }
 
+// Eleven of thirty-three faces stood on heads of the other sex without a word.
+TEST_F(ConfigTest, TagsOfAGroupBindTargetsThatHaveWeights) {
+  const auto config = read(kTagged +
+                           "groups:\n  - {name: women, tags: [female], targets: {old: 1, cyd: 3}}\n"
+                           "  - {name: all, tags: [old], targets: all}\n");
+  ASSERT_TRUE(config) << told();
+  const auto& women = config->groups[0].sampling.targets;
+  ASSERT_EQ(women.size(), 2U) << "bob is old, but not female";
+  EXPECT_EQ(women[0].head, 0);
+  EXPECT_EQ(women[1].head, 2);
+  EXPECT_EQ(women[1].weight, 3);
+  EXPECT_EQ(config->groups[1].sampling.targets.size(), 2U);
+}
+
 TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   const auto refused = [&](const std::string& group, const std::string& phrase) {
     EXPECT_FALSE(read(kTagged + "sampling: {bands: {build: {}, skin: 8 mm}}\ngroups: [{name: a, " +
@@ -125,6 +139,8 @@ TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   refused("tags: [old], without: [old]", "the group has no head left");
   refused("sources: [ann], without: [female]", "the group has no head left");
   refused("bands: {skin: {sources: [ann]}}, without: [old]", "the band skin has no source left");
+  refused("tags: [female], targets: [ann, bob]", "\"bob\" does not have the group's tags, female");
+  refused("targets: {bob: 2}, tags: [female]", "\"bob\" does not have the group's tags, female");
   refused("without: old", "a list of tags");
   refused("without: [not old]", "name");
 }

@@ -28,6 +28,32 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   }
 }
 
+/// Keeps the targets that have all tags of the group's key `tags`, also if the key `targets` gives
+/// targets and their weights. Refuses targets that are named but lack a tag.
+void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
+  const YamlEntry *tags = node.find("tags"), *targets = node.find("targets");
+  if (tags == nullptr || targets == nullptr || !draft.heads_known || !draft.tags_known) return;
+  const std::vector<std::string> wanted =
+      texts_of(tags->value.items, [](const YamlNode& item) { return item.text; });
+  const std::vector<Eigen::Index> bound = heads_with(wanted, draft.config.faces);
+  const auto& heads = draft.config.faces.names;
+  const auto check = [&](const std::string& name, const YamlPlace& place) {
+    const auto head = std::ranges::find(heads, name);
+    if (head == heads.end() || contains(bound, head - heads.begin())) return;
+    draft.complaints.add(place, concat(quoted(name), " does not have the group's tags, ",
+                                       join(wanted), "; change targets or tags"));
+  };
+  for (const YamlEntry& entry : targets->value.entries) check(entry.key, entry.key_place);
+  for (const YamlNode& item : targets->value.items) check(item.text, item.place);
+  auto& own = group.sampling.targets;
+  const bool had_some = !own.empty();
+  std::erase_if(own, [&](const WeightedHead& target) { return !contains(bound, target.head); });
+  if (had_some && own.empty()) {
+    draft.complaints.add_at(
+        targets->value, concat("no target has all of the group's tags, ", join(wanted)));
+  }
+}
+
 /// Removes the heads that have one of these tags from targets, sources and bands.
 void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, bearded]").read(node, draft);
@@ -143,6 +169,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
     group.share = kOpenShare;
     group.sampling = config.sampling;
     if (!read_keys(item, group_keys(), group, draft)) continue;
+    bind_targets(item, group, draft);
     if (group.count) group.share = 0;
     if (!group.name.empty()) check_group(item, group, draft);
     config.groups.push_back(std::move(group));
