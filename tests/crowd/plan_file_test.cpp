@@ -221,6 +221,29 @@ TEST(PlanFile, FileErrorsNameTheLine) {
                         [&] { read_plan(folder / "none.jsonl", kNames); });
 }
 
+// The parents' family was empty.
+TEST(PlanFile, TableTellsWhoAFaceIs) {
+  FacePlan mother = example(), child = example(), stranger = example();
+  mother.id = "mob_smith_mother";
+  child.id = "mob_smith_01";
+  child.family = "smith";
+  child.parents = {"mob_smith_mother", "bob"};
+  child.recipe.target = 1;
+  child.age = 0.5;
+  mother.attachments = {"cap", "bun"};
+  PlanNames names = kNames;
+  names.attachments = {"cap", "bun"};
+  const TableFacts facts{{{}, {"male", "old"}, {"female"}}, {"hat", "hair"}};
+  const std::vector<FacePlan> crowd = {mother, child, stranger};
+  const std::string table = joined(table_text(crowd, names, kNoNeckColours, facts));
+  EXPECT_NE(table.find(",mixture,attachments,family_role,age,sex,tags,hair\r\n"), table.npos)
+      << table;
+  EXPECT_NE(table.find("mob_smith_mother,7,smith,"), table.npos) << table;
+  EXPECT_NE(table.find(",mother,0,female,female,bun\r\n"), table.npos) << table;
+  EXPECT_NE(table.find(",child,0.5,male,male;old,\r\n"), table.npos) << table;
+  EXPECT_TRUE(table.ends_with(",,0,female,female,\r\n")) << table;
+}
+
 TEST(PlanFile, TableSaysTheSame) {
   FacePlan by_hand = example();
   by_hand.id = "mine";

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/srgb.h"
@@ -80,6 +83,80 @@ void add_neck_colours(const std::vector<FacePlan>& crowd,
   }
   columns.push_back(
       {"neck_srgb", [=](const FacePlan& face) { return hex_of_light(colour(face)); }});
+}
+
+/// By id: the families that a face is a parent of, with its role.
+using Parenthood = std::map<std::string, std::map<std::string, std::string>>;
+
+Parenthood parenthood_in(const std::vector<FacePlan>& crowd) {
+  Parenthood parents;
+  for (const FacePlan& face : crowd) {
+    if (!face.family || face.parents.size() != 2) continue;
+    parents[face.parents[0]][*face.family] = "mother";
+    parents[face.parents[1]][*face.family] = "father";
+  }
+  return parents;
+}
+
+/// The face's own family; for a face without one, the families that it is a parent of.
+std::string family_of(const FacePlan& face, const Parenthood& parenthood) {
+  if (face.family) return *face.family;
+  std::vector<std::string> families;
+  const auto own = parenthood.find(face.id);
+  if (own == parenthood.end()) return {};
+  for (const auto& [family, role] : own->second) families.push_back(family);
+  return join(families, ";");
+}
+
+/// Such as "child;mother" for a child of one family that is the mother of another family.
+std::string family_role(const FacePlan& face, const Parenthood& parenthood) {
+  std::vector<std::string> roles;
+  if (face.family) roles.emplace_back(face.parents.empty() ? "member" : "child");
+  if (const auto own = parenthood.find(face.id); own != parenthood.end()) {
+    for (const auto& [family, role] : own->second) {
+      if (!contains(roles, role)) roles.push_back(role);
+    }
+  }
+  return join(roles, ";");
+}
+
+/// Columns that tell who a face is.
+void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names, const TableFacts& facts,
+             TableColumns& columns) {
+  using Face = const FacePlan&;
+  const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
+  const auto kinds = facts.kinds;
+  const auto tags = std::make_shared<const HeadTags>(facts.tags);
+  const auto family = std::ranges::find(columns, "family", &TableColumn::name);
+  family->value = [=](Face face) { return family_of(face, *parenthood); };
+  columns.push_back({"family_role", [=](Face face) { return family_role(face, *parenthood); },
+                     [](Face face) { return face.family.has_value(); }});
+  columns.push_back({"age", [](Face face) { return format_number(face.age.value_or(0)); },
+                     [](Face face) { return face.age.has_value(); }});
+  const auto tags_of = [=](Face face) -> const std::vector<std::string>& {
+    return (*tags)[static_cast<std::size_t>(typical_head(face.recipe, *tags))];
+  };
+  const auto has_tag = [](const HeadTags& all, const std::string& tag) {
+    return std::ranges::any_of(all, [&](const auto& own) { return contains(own, tag); });
+  };
+  if (has_tag(*tags, "female") || has_tag(*tags, "male")) {
+    columns.push_back({"sex", [=](Face face) -> std::string {
+                         if (contains(tags_of(face), std::string("female"))) return "female";
+                         return contains(tags_of(face), std::string("male")) ? "male" : "";
+                       }});
+  }
+  if (std::ranges::any_of(*tags, [](const auto& own) { return !own.empty(); })) {
+    columns.push_back({"tags", [=](Face face) { return join(tags_of(face), ";"); }});
+  }
+  if (contains(kinds, std::string("hair"))) {
+    columns.push_back({"hair", [=, &names](Face face) {
+                         for (std::size_t a = 0; a < kinds.size(); ++a) {
+                           const std::string& name = names.attachments[a];
+                           if (kinds[a] == "hair" && contains(face.attachments, name)) return name;
+                         }
+                         return std::string();
+                       }});
+  }
 }
 
 /// To add a column, add a row here.
@@ -157,8 +234,9 @@ std::string hex_of_light(const Eigen::Array3d& light) {
 }
 
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                      const std::vector<Eigen::Array3d>& neck_colours) {
+                      const std::vector<Eigen::Array3d>& neck_colours, const TableFacts& facts) {
   TableColumns columns = table_columns(names);
+  add_who(crowd, names, facts, columns);
   add_neck_colours(crowd, neck_colours, columns);
   std::erase_if(columns, [&](const TableColumn& column) {
     return column.applies && std::ranges::none_of(crowd, column.applies);

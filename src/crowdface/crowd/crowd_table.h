@@ -8,18 +8,26 @@
 
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/plan_names.h"
+#include "crowdface/cast/typical_head.h"
 #include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
 
 inline const std::vector<Eigen::Array3d> kNoNeckColours;
 
+/// What heads and attachments are, for the columns that tell who a face is.
+struct TableFacts {
+  HeadTags tags;                   ///< #heads, or empty
+  std::vector<std::string> kinds;  ///< #attachments, or empty
+};
+
 /// The text of crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line for each
 /// face. The table depends on plan and heads only, so every run over a whole crowd writes it. All
-/// arguments must outlive the text.
+/// arguments except `facts` must outlive the text.
 /// \param neck_colours  #crowd, linear light of the skin above the neck's ring; or empty
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                      const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours);
+                      const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours,
+                      const TableFacts& facts = {});
 
 /// A colour in linear light as sRGB, "#C89F8A".
 std::string hex_of_light(const Eigen::Array3d& light);

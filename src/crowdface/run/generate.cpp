@@ -205,7 +205,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   if (planned.planned()) {
     for (const LedgerEntry::File& file : planned.plan_files) ledger.keep(file);
     if (options.shard.whole()) {
-      write(directory.table(), table_text(crowd, job.names, neck_colours));
+      write(directory.table(), table_text(crowd, job.names, neck_colours, table_facts(job.config)));
     }
   } else {
     write_plan(job, directory, crowd_plan, planned.casting, neck_colours, write);

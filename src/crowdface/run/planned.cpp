@@ -64,6 +64,12 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPiec
 
 }  // namespace
 
+TableFacts table_facts(const Config& config) {
+  TableFacts facts{config.faces.tags, {}};
+  for (const Config::Attachment& item : config.attachments.items) facts.kinds.push_back(item.kind);
+  return facts;
+}
+
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                 const nlohmann::ordered_json& casting,
                 const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write) {
@@ -74,7 +80,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
     files.push_back(file_to_json({directory.relative(path), write(path, text)}));
   };
   write_and_mark(directory.plan(), plan);
-  write(directory.table(), table_text(crowd_plan.crowd, job.names, neck_colours));
+  write(directory.table(), table_text(crowd_plan.crowd, job.names, neck_colours, table_facts(job.config)));
   if (!crowd_plan.founders.empty()) {
     write_and_mark(directory.founders(), plan_text(crowd_plan.founders, job.names, job.settings));
   }

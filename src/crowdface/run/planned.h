@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/text_pieces.h"
+#include "crowdface/crowd/crowd_table.h"
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/run/casting.h"
@@ -18,6 +19,9 @@ namespace crowdface {
 
 /// Writes a file of the crowd's folder. \return the hash of its bytes.
 using WriteFile = std::function<FileDigest(const std::filesystem::path& path, const TextPieces&)>;
+
+/// What the table tells of heads and attachments.
+TableFacts table_facts(const Config& config);
 
 /// Writes the plan of a cast crowd, the table, and the files that go with them; then a marker file,
 /// which shows that the plan is complete and to which job it belongs.
