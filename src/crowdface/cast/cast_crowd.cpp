@@ -115,8 +115,8 @@ void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vect
     crowd->add(result.crowd[i], result.points[i]);
   }
   if (others == result.crowd.size()) crowd->begin_sampled();
-  cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd,
-                 population, joined, result);
+  cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd, population, joined,
+                 result);
   take_crowd(judge, *crowd, result);
 }
 

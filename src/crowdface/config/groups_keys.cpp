@@ -49,8 +49,8 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const bool had_some = !own.empty();
   std::erase_if(own, [&](const WeightedHead& target) { return !contains(bound, target.head); });
   if (had_some && own.empty()) {
-    draft.complaints.add_at(
-        targets->value, concat("no target has all of the group's tags, ", join(wanted)));
+    draft.complaints.add_at(targets->value,
+                            concat("no target has all of the group's tags, ", join(wanted)));
   }
 }
 

@@ -80,7 +80,8 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
     files.push_back(file_to_json({directory.relative(path), write(path, text)}));
   };
   write_and_mark(directory.plan(), plan);
-  write(directory.table(), table_text(crowd_plan.crowd, job.names, neck_colours, table_facts(job.config)));
+  write(directory.table(),
+        table_text(crowd_plan.crowd, job.names, neck_colours, table_facts(job.config)));
   if (!crowd_plan.founders.empty()) {
     write_and_mark(directory.founders(), plan_text(crowd_plan.founders, job.names, job.settings));
   }
