@@ -108,7 +108,7 @@ TEST_F(AttachmentsOfACrowd, LieBesideTheMeshesOfThoseWhoWearThem) {
   }
   EXPECT_GT(with, 0U);
   EXPECT_GT(without, 0U);
-  EXPECT_THAT(testing::read_text(folder_.out() / "crowd.csv"), HasSubstr(",attachments\r\n"));
+  EXPECT_THAT(testing::read_text(folder_.out() / "crowd.csv"), HasSubstr(",attachments,hair\r\n"));
 }
 
 TEST_F(AttachmentsOfACrowd, StandOnTheHeadTheyWereFittedToAsTheyWere) {
