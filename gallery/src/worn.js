@@ -22,7 +22,7 @@ export async function pictureAt(address, { colours, repeated }) {
 /// Where there is a picture of holes strands are drawn twice: what is there for the most part as if it were
 /// whole, its edges by shares of a pixel; then, over it, what is hardly there. Nothing need be sorted by depth.
 function materialsOf(look) {
-  const plain = { color: look.map ? new Color(1, 1, 1) : look.colour, map: look.map, roughness: 0.6, side: DoubleSide };
+  const plain = { color: look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour), map: look.map, roughness: 0.6, side: DoubleSide };
   if (!look.alphaMap) {
     const seen = look.share < 1 ? { transparent: true, depthWrite: false, opacity: look.share } : {};
     return [new MeshStandardMaterial({ ...plain, ...seen })];
@@ -41,6 +41,7 @@ async function preparePart(data) {
   const triangles = numbers(data.triangles);
   geometry.setIndex(new BufferAttribute(triangles, 1));
   const look = { colour: new Color(...data.colour), share: data.share };
+  if (data.tint) look.tint = new Color(...data.tint); // a factor on the picture's light
   if (data.uvs) {
     const uvs = new Float32Array(bytesOf(data.uvs).buffer);
     geometry.setAttribute('uv', new BufferAttribute(uvs, 2));

@@ -134,7 +134,11 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
                       materials, dress && !name.empty() ? concat(name, ".mtl") : std::string());
   };
   const auto ancestry = [&](std::uint64_t index) {
-    return dress ? prevailing_ancestry(draw_makehuman_person(wanted.seed, index)) : std::string();
+    if (!dress) return std::string();
+    const MakeHumanPerson person = draw_makehuman_person(wanted.seed, index);
+    const std::string ancestry = prevailing_ancestry(person);
+    return concat(ancestry, ancestry.empty() ? "" : ", ",
+                  makehuman_hair_colour(person, wanted.seed, index), "_hair");
   };
   std::vector<HeadFile> files;
   add_heads(model, "makehuman", wanted, encode, ancestry, files);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "crowdface/cast/hair_colour.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
@@ -95,12 +96,9 @@ Picture shrunk(Picture picture, int max_texels) {
   return small;
 }
 
-/// Recolours hair to grey or brown: keeps the relative brightness of the texels, with less
-/// contrast.
-void dye(Picture& picture, const std::string& colour) {
-  constexpr std::array<double, 3> kGrey = {0.28, 0.275, 0.27};  // linear light
-  constexpr std::array<double, 3> kBrown = {0.1, 0.058, 0.036};
-  const std::array<double, 3>& dyed = colour == "grey" ? kGrey : kBrown;
+/// Makes a texture of hair neutral, so that it can take any hair colour: grey of mean light
+/// kNeutralLight. Keeps the relative brightness of the texels, with less contrast.
+void make_neutral(Picture& picture) {
   const std::vector<float>& light = light_of_srgb8_values();
   const auto lightness = [&](const std::array<std::uint8_t, 4>& texel) {
     return 0.2126 * double{light[texel[0]]} + 0.7152 * double{light[texel[1]]} +
@@ -115,7 +113,7 @@ void dye(Picture& picture, const std::string& colour) {
   const double mean = sum / weight;
   for (auto& texel : picture.texels) {
     const double factor = std::min(2.0, 0.4 + 0.6 * lightness(texel) / mean);
-    for (std::size_t c = 0; c < 3; ++c) texel[c] = srgb8_of_light(dyed[c] * factor);
+    texel[0] = texel[1] = texel[2] = srgb8_of_light(kNeutralLight * factor);
   }
 }
 
@@ -177,7 +175,8 @@ std::string item_line(const MakeHumanAttachment& item) {
   return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: ", item.name, ".obj",
                 item.tags.empty() ? "" : ", tags: [", join(item.tags), item.tags.empty() ? "" : "]",
                 item.share == 1 ? "" : concat(", share: ", item.share),
-                item.colour.empty() ? "" : concat(", colour: ", item.colour), ", moves: bend}\n");
+                item.young ? ", without: [old]" : "",
+                ", tint: ", item.kind == "brow" ? "brows" : item.kind, "}\n");
 }
 
 }  // namespace
@@ -267,7 +266,7 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
     add_attachment(attachments, item, mesh, files);
     items += item_line(item);
     kinds.insert(item.kind);
-    if (!item.dyed) licences += licence_line(item.name, mesh.licence);
+    licences += licence_line(item.name, mesh.licence);
   }
   section += items.empty() ? "  items: []\n" : concat("  items:\n", items);
   if (kinds.contains("hair")) section += "  none: {hair: 0.04}\n";
@@ -292,10 +291,9 @@ void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttac
   files.push_back(text_file(
       folder / concat(item.name, ".mtl"),
       concat("newmtl ", item.name, "\nKd 1 1 1\nmap_Kd ", picture, "\nmap_d ", picture, '\n')));
-  files.push_back({folder / picture, [from = mesh.pictures[0].path,
-                                      colour = item.dyed ? item.colour : "", most = max_texels_] {
+  files.push_back({folder / picture, [from = mesh.pictures[0].path, most = max_texels_] {
                      Picture shown = read_picture(from);
-                     if (!colour.empty()) dye(shown, colour);
+                     make_neutral(shown);
                      return encoded(shrunk(std::move(shown), most));
                    }});
 }

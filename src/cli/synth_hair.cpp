@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <memory>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "head_models/synth/complexion.h"
+#include "head_models/synth/facial_hair.h"
 #include "head_models/synth/hair.h"
 #include "head_models/synth/hair_cards.h"
 #include "head_models/synth/hair_picture.h"
@@ -37,20 +40,48 @@ bool is_for(const synth::HairCut& cut, bool female, bool curly, bool bald) {
   return cut.female == female && cut.curly == curly && cut.crown_bald == bald;
 }
 
-std::string picture_name(const std::string& colour, bool curly) {
-  return concat(colour, curly ? "_curly.png" : "_straight.png");
+std::string picture_name(bool curly) {
+  return curly ? "curly.png" : "straight.png";
+}
+
+std::string material_file(const std::string& picture) {
+  return concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n');
+}
+
+std::string item_line(std::string_view name, std::string_view kind, const std::string& more) {
+  return concat("    - {name: ", name, ", kind: ", kind, ", file: ", name, ".obj, ", more, "}\n");
+}
+
+/// The skin of the average head.
+Mesh average_skin(const SyntheticHeads& heads) {
+  Mesh skin{{}, heads.average(), heads.uvs()};
+  Index end = heads.topology().face_count();
+  for (const SyntheticHeads::Piece& piece : heads.pieces()) {
+    if (piece.name != "skin") end = std::min(end, piece.first_face);
+  }
+  for (Index f = 0; f < end; ++f) {
+    skin.topology.add_face(heads.topology().face(f), heads.topology().face_uvs(f));
+  }
+  skin.topology.vertex_count = heads.topology().vertex_count;
+  return skin;
 }
 
 }  // namespace
+
+bool SynthHair::is_wished(const synth::HairCut& cut) const {
+  return std::ranges::any_of(
+      wishes_, [&](const Wish& wish) { return is_for(cut, wish.female, wish.curly, wish.bald); });
+}
 
 std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::draw_complexion(seed, index);
   const std::string skin = skin_tag(look.tone);
   const bool bald = look.receding > kBald;
   const Wish wish{synth::draw_person(seed, index).male < 0, !bald && synth::has_curls(seed, index),
-                  bald, std::string(synth::nearest_hair_colour(look.hair).name)};
+                  bald};
   wishes_.insert(wish);
-  return concat(skin, ", ", wish.colour, "_hair, ", form_tag(wish.curly, wish.bald));
+  return concat(skin, ", ", synth::nearest_hair_colour(look.young_hair).name, "_hair, ",
+                form_tag(wish.curly, wish.bald));
 }
 
 void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads,
@@ -67,45 +98,59 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
       "attachments:\n  fitted_to: base.obj\n  items:";
   if (wishes_.empty()) section += " []";
   section += '\n';
-  // All colours of a cut share one mesh.
   const std::span<const synth::HairCut> cuts = synth::hair_cuts();
-  std::vector<std::shared_ptr<const Mesh>> meshes(cuts.size());  // null: no head may wear the cut
+  std::vector<std::shared_ptr<const Mesh>> meshes(cuts.size());
   parallel_for_each(cuts.size(), [&](std::size_t c) {
-    const bool wished = std::ranges::any_of(wishes_, [&](const Wish& wish) {
-      return is_for(cuts[c], wish.female, wish.curly, wish.bald);
-    });
-    if (wished) meshes[c] = std::make_shared<const Mesh>(synth::head_of_hair(cuts[c]));
+    if (is_wished(cuts[c])) meshes[c] = std::make_shared<const Mesh>(synth::head_of_hair(cuts[c]));
   });
-  std::set<std::string> pictures;
-  for (const Wish& wish : wishes_) {
-    for (std::size_t c = 0; c < cuts.size(); ++c) {
-      const synth::HairCut& cut = cuts[c];
-      if (!is_for(cut, wish.female, wish.curly, wish.bald)) continue;
-      const std::string name = concat(cut.name, "_", wish.colour);
-      const std::string picture = picture_name(wish.colour, wish.curly);
-      pictures.insert(picture);
-      files.push_back({folder / concat(name, ".obj"), [mesh = meshes[c], name] {
-                         return encode_obj(
-                             *mesh, concat(name, " on base.obj, made by crowdface synth; cm"),
-                             {{"hair", 0}}, concat(name, ".mtl"));
-                       }});
-      files.push_back(text_file(folder / concat(name, ".mtl"),
-                                concat("newmtl hair\nKd 1 1 1\nmap_Kd textures/", picture, '\n')));
-      section += concat("    - {name: ", name, ", kind: hair, file: ", name, ".obj, tags: [",
-                        wish.female ? "female" : "male", ", ", wish.colour, "_hair, ",
-                        form_tag(wish.curly, wish.bald), "], colour: ", wish.colour, "}\n");
-    }
+  const auto add_mesh = [&](std::string_view name, std::shared_ptr<const Mesh> mesh,
+                            const std::string& picture) {
+    files.push_back({folder / concat(name, ".obj"), [mesh = std::move(mesh), name] {
+                       return encode_obj(*mesh,
+                                         concat(name, " on base.obj, made by crowdface synth; cm"),
+                                         {{"hair", 0}}, concat(name, ".mtl"));
+                     }});
+    files.push_back(text_file(folder / concat(name, ".mtl"), material_file(picture)));
+  };
+  std::set<bool> pictures;
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const synth::HairCut& cut = cuts[c];
+    if (meshes[c] == nullptr) continue;
+    pictures.insert(cut.curly);
+    add_mesh(cut.name, meshes[c], picture_name(cut.curly));
+    section += item_line(
+        cut.name, "hair",
+        concat("tags: [", cut.female ? "female" : "male", ", ", form_tag(cut.curly, cut.crown_bald),
+               "]", cut.young ? ", without: [old]" : "", ", tint: hair"));
   }
-  for (const synth::HairColour& colour : synth::hair_colours()) {
-    for (const bool curly : {false, true}) {
-      const std::string picture = picture_name(std::string(colour.name), curly);
-      if (!pictures.contains(picture)) continue;
-      files.push_back({folder / "textures" / picture, [&colour, curly] {
-                         return encode_png(kPictureSize, kPictureSize, 4,
-                                           synth::hair_picture(kPictureSize, colour.colour, curly));
-                       }});
-    }
+  for (const bool curly : pictures) {
+    files.push_back({folder / "textures" / picture_name(curly), [curly] {
+                       return encode_png(
+                           kPictureSize, kPictureSize, 4,
+                           synth::hair_picture(kPictureSize,
+                                               synth::ScreenColour::Constant(synth::kNeutralTone),
+                                               curly));
+                     }});
   }
+  const Mesh skin = average_skin(heads);
+  bool any_beard = false;
+  for (const synth::FacialHair& style : synth::facial_hairs()) {
+    const auto is_of_sex = [&](const Wish& wish) { return wish.female == style.female; };
+    if (std::ranges::none_of(wishes_, is_of_sex)) continue;
+    any_beard = any_beard || style.is_beard;
+    const auto layer =
+        std::make_shared<synth::FacialHairLayer>(synth::facial_hair_layer(style, skin));
+    const std::string picture = concat(style.name, ".png");
+    add_mesh(style.name, std::shared_ptr<const Mesh>(layer, &layer->mesh), picture);
+    files.push_back({folder / "textures" / picture, [layer] {
+                       return encode_png(layer->width, layer->height, 4, layer->pixels);
+                     }});
+    section += item_line(style.name, style.is_beard ? "beard" : "brows",
+                         concat("tags: [", style.female ? "female" : "male", "]",
+                                style.share == 1 ? "" : concat(", share: ", style.share),
+                                style.is_beard ? ", tint: beard" : ", tint: brows"));
+  }
+  if (any_beard) section += "  none: {beard: 0.5}\n";
   files.push_back(text_file(folder / "attachments.yaml", std::move(section)));
 }
 

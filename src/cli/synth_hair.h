@@ -9,18 +9,19 @@
 #include <vector>
 
 #include "crowdface/io/obj_writer.h"
+#include "head_models/synth/hair_cut.h"
 #include "head_models/synth/synthetic_head.h"
 
 #include "cli/head_files.h"
 
 namespace crowdface::cli {
 
-/// Hair-card attachments for synthetic heads: every haircut that a head may wear, in the hair
-/// colours of these heads.
+/// Attachments for synthetic heads: every haircut that a head may wear as hair cards, brows and
+/// beards, each once, with neutral textures.
 class SynthHair {
  public:
   /// Registers a head. \return its tags: skin, hair colour, and hair form, such as "light_skin,
-  /// brown_hair, straight_hair"; the form is "bald" if the crown is bald.
+  /// brown_hair, straight_hair"; the colour is that of young years, the form is "bald" if the crown is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
   /// Adds the files of the folder `attachments`, inside the folder of the heads: meshes, materials,
@@ -32,9 +33,9 @@ class SynthHair {
  private:
   struct Wish {
     bool female, curly, bald;
-    std::string colour;
     auto operator<=>(const Wish&) const = default;  // NOLINT(modernize-use-nullptr)
   };
+  bool is_wished(const synth::HairCut& cut) const;
   std::set<Wish> wishes_;
 };
 

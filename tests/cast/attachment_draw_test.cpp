@@ -374,5 +374,144 @@ TEST(AttachmentDraw, LetsColoursRunInFamilies) {
   EXPECT_GT(from["father"], 5);
 }
 
+AttachmentItem tinted_item(const std::string& name, const std::string& kind = "hair",
+                           std::vector<std::string> tags = {}) {
+  AttachmentItem item{name, kind, std::move(tags)};
+  item.tint = Tint::kHair;
+  return item;
+}
+
+/// Four heads: a brown-haired and a red-haired woman, and two old women.
+AttachmentDraw hair_draw() {
+  AttachmentDraw draw{7, {tinted_item("bob"), tinted_item("bun"), tinted_item("long")}, {}, {}};
+  draw.tags = {{"female", "young", "brown_hair"},
+               {"female", "young", "red_hair"},
+               {"female", "old", "brown_hair"},
+               {"female", "old", "red_hair"}};
+  draw.heads = {"ann", "bea", "cyd", "dot"};
+  return draw;
+}
+
+std::vector<FacePlan> hair_crowd(std::uint64_t faces) {
+  std::vector<FacePlan> crowd;
+  for (std::uint64_t i = 1; i <= faces; ++i) crowd.push_back(face_of(i, static_cast<Index>(i % 4)));
+  return crowd;
+}
+
+TEST(HairColour, IsOfFacesThatMayWearATint) {
+  std::vector<FacePlan> crowd = crowd_of(4);
+  draw_attachments(draw_of({{"bob", "hair", {}, 1, {}}}), {}, crowd);
+  EXPECT_FALSE(crowd[0].hair);
+  crowd = hair_crowd(40);
+  draw_attachments(hair_draw(), {}, crowd);
+  double young = 0, old = 0;
+  for (const FacePlan& face : crowd) {
+    ASSERT_TRUE(face.hair);
+    const bool red = face.recipe.target % 2 == 1;
+    EXPECT_NEAR(face.hair->pheomelanin, red ? 0.8 : 0, 0.11) << face.id;
+    (face.recipe.target < 2 ? young : old) += face.hair->grey / 20;
+  }
+  EXPECT_EQ(young, 0);
+  EXPECT_GT(old, 0.5);
+  std::vector<FacePlan> larger = hair_crowd(90);
+  draw_attachments(hair_draw(), {}, larger);
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    EXPECT_EQ(larger[i].hair, crowd[i].hair);
+    EXPECT_EQ(larger[i].attachments, crowd[i].attachments);
+  }
+}
+
+TEST(HairColour, FollowsSharesExactlyInEachGroup) {
+  AttachmentDraw draw = hair_draw();
+  draw.hair_colours = {{"", {{"blond", 0.3}}}, {"clan", {{"black", 1}}}};
+  std::vector<FacePlan> crowd = hair_crowd(100);
+  std::vector<int> groups;
+  for (FacePlan& face : crowd) {
+    const bool clan = *face.index % 2 == 0;
+    face.recipe.target = 0;
+    face.group = clan ? "clan" : "others";
+    groups.push_back(clan ? 1 : 0);
+  }
+  draw_attachments(draw, groups, crowd);
+  int blond = 0;
+  for (const FacePlan& face : crowd) {
+    if (*face.group == "clan") {
+      EXPECT_GE(face.hair->eumelanin, 0.9);
+    } else {
+      blond += face.hair->eumelanin < 0.35 ? 1 : 0;  // the others are brown
+    }
+  }
+  EXPECT_NEAR(blond, 15, 1);
+}
+
+TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {
+  for (int i = 0; i < 60; ++i) {
+    FacePlan child;
+    child.id = "clan_" + std::to_string(i);
+    child.family = "clan";
+    child.parents = {"ann", "dot"};  // brown, and red that age has made grey
+    child.recipe.target = 2;         // has the tag old, which makes the child's own hair grey
+    std::vector<FacePlan> crowd = {child};
+    draw_attachments(hair_draw(), {}, crowd);
+    const HairColour hair = *crowd[0].hair;
+    EXPECT_GE(hair.eumelanin, 0.2);
+    EXPECT_LE(hair.eumelanin, 0.55);
+    EXPECT_LE(hair.pheomelanin, 0.9);
+    // On the line from brown (0.5, 0) to red (0.25, 0.8).
+    EXPECT_NEAR(hair.pheomelanin, (0.5 - hair.eumelanin) / 0.25 * 0.8, 0.3);
+  }
+}
+
+TEST(HairColour, OfTwinsIsTheSame) {
+  AttachmentDraw draw = hair_draw();
+  draw.twins = {"clan"};
+  std::vector<FacePlan> crowd(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    crowd[i].id = "clan_" + std::to_string(i);
+    crowd[i].family = "clan";
+    crowd[i].parents = {"cyd", "dot"};
+    crowd[i].recipe.target = 3;
+  }
+  draw_attachments(draw, {}, crowd);
+  EXPECT_EQ(crowd[0].hair, crowd[1].hair);
+}
+
+TEST(AttachmentDraw, UsesAllThatFitBeforeItRepeatsOne) {
+  std::vector<FacePlan> crowd = hair_crowd(30);
+  draw_attachments(hair_draw(), {}, crowd);
+  for (std::size_t i = 0; i + 3 <= crowd.size(); i += 3) {
+    std::set<std::string> worn;
+    for (std::size_t k = i; k < i + 3; ++k) worn.insert(crowd[k].attachments.at(0));
+    EXPECT_GE(worn.size(), 2U) << i;
+  }
+  for (const char* name : {"bob", "bun", "long"}) EXPECT_NEAR(count(crowd, name), 10, 1) << name;
+}
+
+TEST(AttachmentDraw, NeighboursDoNotShareCutAndColour) {
+  AttachmentDraw draw = hair_draw();
+  draw.items[0].share = 50;  // nearly everybody would wear it
+  std::vector<FacePlan> crowd = hair_crowd(60);
+  for (FacePlan& face : crowd) face.recipe.target = 0;
+  draw_attachments(draw, {}, crowd);
+  for (std::size_t i = 1; i < crowd.size(); ++i) {
+    EXPECT_NE(crowd[i].attachments, crowd[i - 1].attachments) << crowd[i].id;
+  }
+  draw.items.resize(1);  // unless nothing else fits
+  draw_attachments(draw, {}, crowd);
+  EXPECT_EQ(count(crowd, "bob"), 60U);
+}
+
+TEST(AttachmentDraw, LeavesOutWhoseTagsAreExcluded) {
+  AttachmentDraw draw = hair_draw();
+  for (AttachmentItem& item : draw.items) {
+    if (item.name != "bun") item.without = {"old"};
+  }
+  std::vector<FacePlan> crowd = hair_crowd(12);
+  draw_attachments(draw, {}, crowd);
+  for (const FacePlan& face : crowd) {
+    if (face.recipe.target >= 2) EXPECT_THAT(face.attachments, ElementsAre("bun"));
+  }
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -210,6 +210,18 @@ TEST(PlanFile, TableHasTheFinerBandsLast) {
   EXPECT_TRUE(table.ends_with(",0.5,0.25,bob:1,0.1,2000,0.8,,,ann:0.5;cyd:0.5,0,0,1\r\n")) << table;
 }
 
+TEST(PlanFile, HairColoursReadBack) {
+  FacePlan face = example();
+  face.hair = HairColour{0.55, 0.1, 0.3};
+  const std::string line = format_recipe(face, kNames, kSettings);
+  EXPECT_EQ(parse_recipe(line, kNames, "plan").face.hair, face.hair);
+  EXPECT_FALSE(parse_recipe(format_recipe(example(), kNames, kSettings), kNames, "plan").face.hair);
+  std::string grey = line;
+  grey.replace(grey.find("\"grey\":0.3"), 10, "\"grey\":1.3");
+  testing::expect_error(ExitCode::kBadData, {"hair.grey"},
+                        [&] { parse_recipe(grey, kNames, "plan"); });
+}
+
 TEST(PlanFile, FileErrorsNameTheLine) {
   const testing::TemporaryFolder folder;
   const std::string good = format_recipe(example(), kNames, kSettings);

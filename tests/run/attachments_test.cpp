@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hair and glasses on the faces of a crowd.
+#include <cmath>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/cast/hair_colour.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
@@ -350,6 +354,45 @@ TEST_F(AttachmentsOfACrowd, AreCountedInTheReport) {
   EXPECT_EQ(counted.at("quotas").at("glasses").at("faces"), 3);
   EXPECT_EQ(counted.at("kinds").at("glasses").at("items").at("rod"), rods);
   EXPECT_EQ(counted.at("kinds").at("hair").at("faces"), 7);
+}
+
+// A cut exists once; every face has its own colour, and faces of equal colour share the files.
+TEST_F(AttachmentsOfACrowd, HaveTheHairColourOfEachFace) {
+  const std::vector<std::uint8_t> neutral(4 * 4 * 4, 170);
+  folder_.folder().write("wear/maps/hair.png", encode_png(4, 4, 4, neutral));
+  run({"attachments.items=[{name: cap, kind: hair, file: wear/cap.obj, tint: hair}]",
+       "attachments.none={}", "attachments.hair_colours={red: 0.5, black: 0.5}",
+       "output.meshes=[obj, glb, usd]"});
+  std::set<std::string> labels;
+  for (const auto& line : testing::plan_lines(folder_.out())) {
+    const std::string id = line.at("id");
+    const auto& hair = line.at("hair");
+    const HairColour colour{hair.at("eumelanin"), hair.at("pheomelanin"), hair.at("grey")};
+    const std::string label = label_of(colour);
+    labels.insert(label);
+    const std::string folder = concat("attachments/cap/", label, '/');
+    EXPECT_THAT(read_file(mesh(id + "+cap.obj")),
+                HasSubstr(concat("mtllib ", folder, "cap.mtl\n")));
+    EXPECT_THAT(read_file(mesh(id + ".usda")),
+                HasSubstr(concat('@', "./", folder, "maps/hair.png@")));
+    const Image image = read_image(mesh(folder + "maps/hair.png"));
+    const auto factors = tint_factors(colour);
+    const auto scene = testing::read_glb(mesh(id + ".glb")).scene;
+    const auto& factor =
+        scene.at("materials").back().at("pbrMetallicRoughness").at("baseColorFactor");
+    EXPECT_NEAR(factor.at(0).get<double>(), factors[0], 1e-4) << id;
+    for (int c = 0; c < 3; ++c) {
+      const float light = kNeutralLight * factors[static_cast<std::size_t>(c)];
+      const float srgb =
+          light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F;
+      EXPECT_NEAR(image.at(0, 0, c), srgb, 0.01) << id;
+    }
+    EXPECT_NEAR(image.at(0, 0, 3), 170 / 255.0, 1e-3);
+  }
+  EXPECT_GE(labels.size(), 2U);
+  EXPECT_TRUE(fs::exists(mesh("attachments/cap")));
+  EXPECT_FALSE(fs::exists(mesh("attachments/cap/cap.mtl"))) << "the neutral files are not copied";
+  EXPECT_TRUE(verify_crowd(folder_.out()).good());
 }
 
 TEST_F(AttachmentsOfACrowd, AreTheSameInALargerCrowdAndWithAnyThreads) {

@@ -75,8 +75,8 @@ TEST(SyntheticSkins, UnderHairInCardsTheCrownIsSkinWithRoots) {
     const std::vector<std::uint8_t> rooted = under_hair.albedo(1, i), haired = skins().albedo(1, i);
     const Colour skin = colour_near(haired, kForehead, 1);
     EXPECT_EQ(colour_near(rooted, kCheek, 1).matrix(), colour_near(haired, kCheek, 1).matrix());
-    EXPECT_LT((colour_near(rooted, kCrown, 3) - skin).matrix().norm(),
-              0.6 * (colour_near(haired, kCrown, 3) - skin).matrix().norm())
+    // The roots have no hair colour: the hair above may have any.
+    EXPECT_LT((colour_near(rooted, kCrown, 3) - skin).matrix().norm(), 0.25 * skin.matrix().norm())
         << i;
   }
 }

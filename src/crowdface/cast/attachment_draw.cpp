@@ -2,8 +2,11 @@
 #include "crowdface/cast/attachment_draw.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
+#include "crowdface/cast/hair_draw.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/cast/shares.h"
 #include "crowdface/core/contains.h"
@@ -58,6 +61,23 @@ void leave_due(const Turns& turns, Items& items) {
   });
 }
 
+/// Keeps the items with the fewest faces, relative to their shares.
+void leave_fewest(const Turns& turns, Items& items) {
+  const auto level = [&](const AttachmentItem* item) {
+    const auto found = turns.find(item->name);
+    return found == turns.end() ? 0.0 : found->second / item->share;
+  };
+  double least = HUGE_VAL;
+  for (const AttachmentItem* item : items) least = std::min(least, level(item));
+  std::erase_if(items, [&](const AttachmentItem* item) { return level(item) > least; });
+}
+
+/// The attachments of a face, and its hair colour if it may wear items with a tint.
+struct Drawn {
+  std::vector<std::string> names;
+  std::optional<HairColour> hair;
+};
+
 /// The quotas for items of one kind.
 struct KindQuotas {
   std::vector<std::string> words;
@@ -70,7 +90,10 @@ struct KindQuotas {
 
 class AttachmentDrawing {
  public:
-  AttachmentDrawing(const AttachmentDraw& draw, const std::vector<int>& groups) : draw_(draw) {
+  /// \param crowd  all faces, in the order of the plan.
+  AttachmentDrawing(const AttachmentDraw& draw, const std::vector<int>& groups,
+                    const std::vector<FacePlan>& crowd)
+      : draw_(draw) {
     for (const AttachmentItem& item : draw.items) {
       if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
     }
@@ -83,6 +106,17 @@ class AttachmentDrawing {
       quotas_[first->kind].words.push_back(word);
       quotas_[first->kind].shares.push_back(quota.second);
     }
+    if (std::ranges::any_of(draw.items,
+                            [](const auto& item) { return item.tint != Tint::kNone; })) {
+      hair_.emplace(HairOptions{draw.seed, draw.tags, draw.heads, draw.hair_colours, draw.twins},
+                    groups);
+      for (std::size_t i = 1; i < crowd.size(); ++i) {
+        if (is_beside(crowd[i - 1], crowd[i])) {
+          neighbours_[crowd[i].id].push_back(crowd[i - 1].id);
+          neighbours_[crowd[i - 1].id].push_back(crowd[i].id);
+        }
+      }
+    }
     for (auto& [kind, quotas] : quotas_) {
       for (const auto& [group, faces] : sizes_) {
         quotas.schedules[group] = scatter_shares(quotas.shares, faces, draw.seed,
@@ -91,8 +125,10 @@ class AttachmentDrawing {
     }
   }
 
-  std::vector<std::string> of(const FacePlan& face) {
+  Drawn of(const FacePlan& face) {
     heads_[face.id] = typical_head(face.recipe, draw_.tags);
+    std::optional<HairColour> hair;
+    if (hair_) hair = hairs_[face.id] = hair_->of(face, heads_[face.id]);
     Items placed;
     for (const std::string& kind : kinds_) {
       const AttachmentItem* one = draw_one(kind, face, placed);
@@ -108,7 +144,7 @@ class AttachmentDrawing {
         if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
       }
     }
-    return names;
+    return {std::move(names), hair};
   }
 
  private:
@@ -127,7 +163,9 @@ class AttachmentDrawing {
       const bool may = std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
         return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
       });
-      if (item.kind == kind && item.share > 0 && may) items.push_back(&item);
+      const bool must_not = std::ranges::any_of(
+          item.without, [&](const std::string& tag) { return contains(tags, tag); });
+      if (item.kind == kind && item.share > 0 && may && !must_not) items.push_back(&item);
     }
     return items;
   }
@@ -141,7 +179,33 @@ class AttachmentDrawing {
     const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
     if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, placed, items);
-    return next_of(items, face, drawn[1]);
+    if (items[0]->tint == Tint::kNone) return next_of(items, face, drawn[1]);
+    avoid_neighbours(face, items);
+    if (face.index) {
+      leave_fewest(all_turns_, items);
+    } else if (const auto own = turns_.find(alike(face)); own != turns_.end()) {
+      leave_fewest(own->second, items);
+    }
+    return weighted_choice(items, drawn[1], &AttachmentItem::share);
+  }
+
+  /// Returns whether the second face must not look like the first. A sampled face does not depend
+  /// on faces that are not sampled, because a larger crowd has more faces in between.
+  static bool is_beside(const FacePlan& first, const FacePlan& second) {
+    return first.index ? second.index.has_value() : !second.index && first.family == second.family;
+  }
+
+  /// Leaves out what the face's neighbours wear in a similar colour, unless nothing else fits.
+  void avoid_neighbours(const FacePlan& face, Items& items) const {
+    const auto beside = neighbours_.find(face.id);
+    if (beside == neighbours_.end()) return;
+    narrow(items, [&](const AttachmentItem& item) {
+      return std::ranges::none_of(beside->second, [&](const std::string& other) {
+        const auto placed = placed_.find(other);
+        return placed != placed_.end() && contains(placed->second, &item) &&
+               are_alike(hairs_.at(other), hairs_.at(face.id));
+      });
+    });
   }
 
   /// Returns the name of the set of similar faces among which items take turns.
@@ -294,7 +358,10 @@ class AttachmentDrawing {
   std::map<std::pair<std::string, std::string>, std::string> families_;
   /// the Turns of each set of similar faces, by the set's name
   std::map<std::string, Turns> turns_;
-  Turns all_turns_;  ///< the Turns of all sampled faces
+  Turns all_turns_;                                             ///< the Turns of all sampled faces
+  std::optional<HairDraw> hair_;                                ///< if an item has a tint
+  std::map<std::string, HairColour> hairs_;                     ///< by the face's id
+  std::map<std::string, std::vector<std::string>> neighbours_;  ///< by the face's id
 };
 
 }  // namespace
@@ -302,7 +369,11 @@ class AttachmentDrawing {
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
                       const std::vector<std::size_t>& rejected_from) {
-  AttachmentDrawing drawing(draw, groups);
+  AttachmentDrawing drawing(draw, groups, crowd);
+  const auto dress = [](FacePlan& face, Drawn drawn) {
+    face.attachments = std::move(drawn.names);
+    face.hair = drawn.hair;
+  };
   // all versions of a redrawn face, by id: the rejected ones in order, then the final one
   std::map<std::string, std::vector<const FacePlan*>> before;
   for (const FacePlan& face : rejected) {
@@ -321,7 +392,7 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
       if (!rejected_from.empty() && rejected_from[next] > size) return;
       const std::string& id = rejected[next].id;
       if (!redrawn.contains(id)) continue;
-      redrawn[id]->attachments = drawing.of(*before[id][++times[id]]);
+      dress(*redrawn[id], drawing.of(*before[id][++times[id]]));
     }
   };
   // Each face first gets attachments as it was before any review, so that a redrawn face changes
@@ -331,7 +402,7 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
     FacePlan& face = crowd[i];
     const auto found = before.find(face.id);
     if (found == before.end()) {
-      face.attachments = drawing.of(face);
+      dress(face, drawing.of(face));
       continue;
     }
     drawing.of(*found->second.front());

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct AttachmentDraw {
   /// has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
+  /// By group; "" holds those of faces without an entry: fractions of the faces with a named hair
+  /// colour. The other faces have the colour of their heads.
+  std::map<std::string, std::map<std::string, double>> hair_colours = {};
+  std::set<std::string> twins = {};  ///< families whose members are twins
 };
 
 /// Chooses the attachments of each face: names, in the order of the items, at most one per kind.
@@ -40,6 +45,16 @@ struct AttachmentDraw {
 /// - Turns: among the sampled faces on one head, and among the members of one family, an item is
 /// skipped once it has reached its share of the earlier faces. If several items are left, sampled
 /// faces also skip items that have reached their share of all sampled faces.
+///
+/// Items with a tint follow other rules:
+///
+/// - Each face has a hair colour: a child's is one of its parents' colours or lies between them;
+/// a family without parents shares one; otherwise it is drawn from `hair_colours` or is the colour
+/// that the head's tags name (`brown_hair`). Age makes it grey.
+/// - A sampled face gets an item that the fewest earlier sampled faces wear, a member of a family
+/// one that the fewest earlier members wear.
+/// - A face does not wear the item of the face before it in a similar colour, if it may wear
+/// another.
 ///
 /// Finally, each item in turn removes the items that it excludes.
 ///

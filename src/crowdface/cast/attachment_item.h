@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/hair_colour.h"
+
 namespace crowdface {
 
 /// An attachment that a face may wear.
@@ -14,6 +16,8 @@ struct AttachmentItem {
   std::vector<std::string> excludes;  ///< names and kinds that cannot be worn with this item
   /// colour that the face's other items share and that families inherit
   std::string colour = {};
+  std::vector<std::string> without = {};  ///< the typical_head must have none of these tags
+  Tint tint = Tint::kNone;
 };
 
 /// Returns whether `word` is the item's kind, name or colour.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -145,6 +146,7 @@ struct Group {
   std::optional<std::uint64_t> count;
   double share = 0;  ///< used if `count` is empty: fraction of the remaining faces, 0 … 1
   SamplingOptions sampling;
+  std::map<std::string, double> hair_colours = {};  ///< replace those of the crowd
 };
 
 /// A hand-written face. Values that it does not specify are drawn as for a sampled face.

@@ -65,15 +65,24 @@ const Keys<Attachment>& item_keys() {
     return item.tags.empty() ? "" : flow_names(item.tags);
   };
   const auto has_colour = [](const Attachment& item, const auto&) { return !item.colour.empty(); };
+  const auto has_tint = [](const Attachment& item, const auto&) {
+    return item.tint != Tint::kNone;
+  };
+  const auto has_without = [](const Attachment& item, const auto&) {
+    return !item.without.empty();
+  };
   const auto excludes = [](const Attachment& item, const auto&) { return !item.excludes.empty(); };
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
       key("file", &Attachment::file, obj_file(), "an OBJ file").after_casting(),
       Key<Attachment>{"tags", read_item_tags, write_tags}.taking("list of tags"),
+      of_item("without", &AttachmentItem::without, list(name(), "a list of tags, [old]"))
+          .written_if(has_without),
       word_key("moves", &Attachment::moves).after_casting(),
       of_item("share", &AttachmentItem::share, number(0, kMaxShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
+      of_item("tint", &AttachmentItem::tint, word<Tint>()).written_if(has_tint),
       of_item("excludes", &AttachmentItem::excludes,
               list(name(), "a list of kinds and names, [hair]"))
           .written_if(excludes)};
@@ -219,7 +228,8 @@ const Keys<Attachments>& wardrobe_keys() {
       Key<Attachments>{"none", read_none, write_shares(&Attachments::none)}.taking(
           "`{kind: share}`, shares 0 … 1"),
       Key<Attachments>{"quotas", read_item_quotas, write_shares(&Attachments::quotas)}.taking(
-          "`{kind, name or colour: share}`, shares 0 … 1")};
+          "`{kind, name or colour: share}`, shares 0 … 1"),
+      hair_colours_key(&Attachments::hair_colours)};
   return keys;
 }
 
@@ -238,10 +248,19 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
   }
 }
 
+/// Returns whether some head may wear an item.
+bool is_wearable(const Attachment& item, const Config::Faces& faces) {
+  return std::ranges::any_of(faces.tags, [&](const std::vector<std::string>& tags) {
+    return has_tags(tags, item.tags) &&
+           std::ranges::none_of(item.without,
+                                [&](const std::string& tag) { return contains(tags, tag); });
+  });
+}
+
 /// Removes the items that no head may wear, and what refers to them.
 void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
   std::erase_if(attachments.items,
-                [&](const Attachment& item) { return heads_with(item.tags, faces).empty(); });
+                [&](const Attachment& item) { return !is_wearable(item, faces); });
   const auto is_unknown = [&](const std::string& word) {
     return first_called(attachments, word) == nullptr;
   };
@@ -258,6 +277,7 @@ void read_from(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   if (!folder) return;
   const std::filesystem::path file = *folder / "attachments.yaml";
   if (!expect_file(node, file, draft)) return;
+  draft.config.lists.push_back(file);
   const auto root = read_yaml(file.string(), draft.complaints);
   if (!root) return;
   const YamlEntry* section = root->find("attachments");

@@ -327,6 +327,37 @@ Codec<PlanePoint> point() {
           "`[x, y]`"};
 }
 
+Codec<std::map<std::string, double>> hair_colours() {
+  return {[](const YamlNode& node, ConfigDraft& draft) {
+            constexpr double kRounding = 1e-9;
+            std::map<std::string, double> shares;
+            std::vector<std::string> names;
+            for (const NamedHairColour& known : named_hair_colours())
+              names.emplace_back(known.name);
+            draft.complaints.expect_map(node, "a mapping from hair colours to shares, {red: 0.3}");
+            double sum = 0;
+            for (const YamlEntry& entry : node.entries) {
+              const auto share = number(0, 1).read(entry.value, draft);
+              if (!contains(names, entry.key)) {
+                draft.complaints.add_at(
+                    entry.value, concat("no hair colour is called ", quoted(entry.key),
+                                        suggestion(entry.key, names), "; expected ", join(names)));
+              } else if (share && (sum += *share) > 1 + kRounding) {
+                draft.complaints.add_at(entry.value, "the shares add up to more than 1");
+              } else if (share) {
+                shares[entry.key] = *share;
+              }
+            }
+            return std::optional(shares);
+          },
+          [](const std::map<std::string, double>& shares, const WriteContext&) {
+            return flow_map(texts_of(shares, [](const auto& share) {
+              return entry(share.first, format_number(share.second));
+            }));
+          },
+          "`{hair colour: share}`, shares 0 … 1"};
+}
+
 Codec<std::filesystem::path> path(const std::string& expected) {
   return {[=](const YamlNode& node, ConfigDraft& draft) -> std::optional<std::filesystem::path> {
             const auto text = read_text(node, expected, draft.complaints);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,8 @@ Codec<std::vector<WeightedHead>> weighted_heads();
 Codec<PlanePoint> point();
 /// Writes weights as "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context);
+/// A mapping from names of hair colours to fractions whose sum is at most 1: {red: 0.3}.
+Codec<std::map<std::string, double>> hair_colours();
 /// A path relative to the config's folder. An empty path is not written.
 /// \param expected  for messages, such as "a folder".
 Codec<std::filesystem::path> path(const std::string& expected);

@@ -153,6 +153,8 @@ struct Config {
         of_head;  ///< #heads by #names; an empty path: the head lacks that shape
   } shapes;
 
+  /// files from which tags and attachments were read
+  std::vector<std::filesystem::path> lists;
   std::filesystem::path points;  ///< file of points that follow the face; empty: none
   /// file of landmarks that replace those found on the heads; empty: none
   std::filesystem::path landmarks;
@@ -183,6 +185,7 @@ struct Config {
     std::map<std::string, double> none;  ///< by kind: share of faces without an item of that kind
     std::map<std::string, double>
         quotas;  ///< by kind, name or colour: share of the sampled faces that wear it
+    std::map<std::string, double> hair_colours;  ///< by name: share of the faces with this colour
   } attachments;
 
   struct Textures {

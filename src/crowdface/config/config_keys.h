@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -266,6 +267,12 @@ Key<Config> groups_key();
 Key<Config> families_key();
 /// Returns the ids of a family's members and of its sampled parents.
 std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
+/// The key `hair_colours` of a section: fractions of the faces by the name of their hair colour.
+template <class Section>
+Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
+  const auto some = [=](const Section& section, const auto&) { return !(section.*shares).empty(); };
+  return key("hair_colours", shares, hair_colours()).written_if(some);
+}
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_review(const Config& config, const WriteContext& context);
 

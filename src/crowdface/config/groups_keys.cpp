@@ -120,6 +120,7 @@ const Keys<Group>& group_keys() {
         [=](const Group& group, const WriteContext& context) {
           return limits.write(group.sampling.traits, context);
         }}.taking(limits.takes));
+    own.push_back(hair_colours_key(&Group::hair_colours));
     // `without` must follow all keys that name heads.
     own.push_back(Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.taking(
         "list of tags"));

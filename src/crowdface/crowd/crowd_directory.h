@@ -139,8 +139,11 @@ inline bool is_gallery_page_file(const std::filesystem::path& path) {
 
 /// Folder with the material files of an attachment and the textures that they name, relative to the
 /// folder of the meshes that all faces share.
-inline std::filesystem::path attachment_folder(const std::string& name) {
-  return std::filesystem::path("attachments") / name;
+/// \param colour  text from label_of, or empty.
+inline std::filesystem::path attachment_folder(const std::string& name,
+                                               const std::string& colour = {}) {
+  const std::filesystem::path folder = std::filesystem::path("attachments") / name;
+  return colour.empty() ? folder : folder / colour;
 }
 
 /// Ledger item of the contact sheets and of all files that are made with them.

@@ -79,6 +79,11 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
   for (std::size_t t = 0; t < face.traits.size(); ++t) {
     json["traits"][names.traits[t]] = rounded(face.traits[t]);
   }
+  if (face.hair) {
+    json["hair"] = {{"eumelanin", face.hair->eumelanin},
+                    {"pheomelanin", face.hair->pheomelanin},
+                    {"grey", face.hair->grey}};
+  }
   if (face.notes.review) json["note"] = *face.notes.review;
   json["regions"] = Json::object();
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {

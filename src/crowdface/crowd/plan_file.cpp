@@ -77,6 +77,11 @@ class LineReader {
     }
     if (const Json* placed = found(json, "attachments")) face.attachments = attachments(*placed);
     if (const Json* measured = found(json, "traits")) face.traits = traits(*measured);
+    if (const Json* hair = found(json, "hair")) {
+      face.hair = HairColour{number(member(*hair, "eumelanin"), "hair.eumelanin", 0, 1),
+                             number(member(*hair, "pheomelanin"), "hair.pheomelanin", 0, 1),
+                             number(member(*hair, "grey"), "hair.grey", 0, 1)};
+    }
     if (json.contains("note")) face.notes.review = text(json, "note");
     if (const Json* near = found(json, "nearest")) face.notes.nearest = nearest(*near);
     result.settings = text(json, "settings");

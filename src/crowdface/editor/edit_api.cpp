@@ -202,8 +202,9 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.head["worn"] = Json::array();
   for (const PlacedAttachment& one : placed_.attachments_of(face, opened, chosen, positions)) {
     const std::vector<float> places = placed_.points(one);
-    answer.head["worn"].push_back(one.item->name);
-    answer.add(concat("worn ", one.item->name), std::span(places));
+    const std::string name = one.look().name();
+    answer.head["worn"].push_back(name);
+    answer.add(concat("worn ", name), std::span(places));
   }
   answer.head["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

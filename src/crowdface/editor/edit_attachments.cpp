@@ -36,21 +36,24 @@ Json EditAttachments::kinds() const {
 }
 
 std::optional<std::string> EditAttachments::look(const std::string& name) const {
+  const std::size_t plus = std::min(name.find('+'), name.size());
   for (const Attachment& item : job_.inputs.attachments.items) {
-    if (item.name == name) return shown_.look(item, surfaces_.at(item));
+    if (item.name != name.substr(0, plus)) continue;
+    AttachmentLook look{&item};
+    if (plus < name.size()) look.colour = parse_hair_label(std::string_view(name).substr(plus + 1));
+    return shown_.look(look, surfaces_.at(item));
   }
   return std::nullopt;
 }
 
-std::vector<std::string> EditAttachments::drawn_for(const FacePlan& face,
-                                                    const std::string& opened) const {
+FacePlan EditAttachments::drawn_for(const FacePlan& face, const std::string& opened) const {
   if (crowd_ != nullptr) {
     const auto found = std::ranges::find(*crowd_, opened, &FacePlan::id);
-    if (found != crowd_->end()) return found->attachments;
+    if (found != crowd_->end()) return *found;
   }
   std::vector<FacePlan> alone = {face};
   draw_attachments(attachment_draw(job_.config), {}, alone);
-  return alone[0].attachments;
+  return alone[0];
 }
 
 std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& face,
@@ -59,7 +62,8 @@ std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& fa
                                                               const Positions& positions) const {
   const std::vector<Attachment>& items = job_.inputs.attachments.items;
   if (items.empty()) return {};
-  const std::vector<std::string> drawn = drawn_for(face, opened);
+  const FacePlan plan = drawn_for(face, opened);
+  const std::vector<std::string>& drawn = plan.attachments;
   const Json known = kinds();
   for (const auto& [kind, choice] : chosen.items()) {
     const std::string name = choice.is_string() ? choice.get<std::string>() : "";
@@ -74,6 +78,7 @@ std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& fa
   }
   FacePlan dressed = face;
   dressed.attachments.clear();
+  dressed.hair = plan.hair;
   for (const Attachment& item : items) {
     const std::string choice = chosen.value(item.kind, std::string("draw"));
     const bool wears =

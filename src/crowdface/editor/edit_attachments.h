@@ -26,6 +26,7 @@ class EditAttachments {
   /// The names of the attachments of each kind.
   nlohmann::ordered_json kinds() const;
   /// Appearance of an attachment as JSON; nothing if no attachment has this name.
+  /// \param name  see AttachmentLook::name.
   std::optional<std::string> look(const std::string& name) const;
 
   /// The attachments of a face.
@@ -41,7 +42,7 @@ class EditAttachments {
   std::vector<float> points(const PlacedAttachment& placed) const { return shown_.points(placed); }
 
  private:
-  std::vector<std::string> drawn_for(const FacePlan& face, const std::string& opened) const;
+  FacePlan drawn_for(const FacePlan& face, const std::string& opened) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;

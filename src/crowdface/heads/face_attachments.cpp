@@ -68,10 +68,9 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   std::vector<PlacedAttachment> placed;
   if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
-  for (const std::string& name : face.attachments) {
-    const std::size_t i = inputs_.attachments.index(name);
-    const Bound& bound = bound_[of_item_[i]];
-    placed.push_back({&inputs_.attachments.items[i], bound.carrier->carry(positions, normals)});
+  for (const AttachmentLook& look : inputs_.attachments.looks(face)) {
+    const Bound& bound = bound_[of_item_[inputs_.attachments.index(look.item->name)]];
+    placed.push_back({look.item, look.colour, bound.carrier->carry(positions, normals)});
     PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {
       one.moves.push_back(bound.bend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,12 @@ namespace crowdface {
 /// An attachment placed on a face.
 struct PlacedAttachment {
   const Attachment* item;
-  Positions positions;  ///< the attachment's vertices on the face
+  std::optional<HairColour> colour;  ///< see AttachmentLook
+  Positions positions;               ///< the attachment's vertices on the face
   /// one per face shape: displacements of the attachment's vertices
   std::vector<Displacements> moves = {};
+
+  AttachmentLook look() const { return {item, colour}; }
 };
 
 /// Places attachments on faces. Each mesh is bound to the fitted head once, even if several

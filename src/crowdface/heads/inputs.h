@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "crowdface/attach/attachment_move.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/io/glb_skin.h"
@@ -34,6 +37,22 @@ struct Attachment {
   ObjFile file;
   Digest text;  ///< hash of the file's bytes
   MaterialFiles materials;
+  Tint tint = Tint::kNone;
+};
+
+/// An attachment in the colour in which a face wears it.
+struct AttachmentLook {
+  const Attachment* item;
+  std::optional<HairColour> colour = {};  ///< if the attachment has a tint
+
+  /// Text from label_of, or empty.
+  std::string label() const { return colour ? label_of(*colour) : std::string(); }
+  /// The attachment's name, in a colour "NAME+LABEL".
+  std::string name() const;
+  /// The factors on the light of its textures.
+  std::array<float, 3> tint() const {
+    return colour ? tint_factors(*colour) : std::array<float, 3>{1, 1, 1};
+  }
 };
 
 /// All attachments of a crowd.
@@ -47,6 +66,11 @@ struct AttachmentSet {
   /// The attachment with this name, which must exist.
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
   std::size_t index(const std::string& name) const;
+  /// The attachments that a face wears.
+  std::vector<AttachmentLook> looks(const FacePlan& face) const;
+  AttachmentLook look(const std::string& name, const std::optional<HairColour>& hair) const;
+  /// The attachments that some of these faces wear, each look once, by name.
+  std::vector<AttachmentLook> looks(std::span<const FacePlan> faces) const;
 };
 
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -33,6 +34,7 @@ Attachment item_of(const Config::Attachment& asked, HeadFile read) {
   Attachment item{asked.name, asked.kind, asked.moves, std::move(read.file), read.text, {}};
   item.file.topology = read.mesh->topology;
   item.file.uvs = read.mesh->uvs;
+  item.tint = asked.tint;
   item.file.corner_normals = read.mesh->corner_normals;
   item.materials = find_material_files(item.file.material_path(), item.file.material_libraries);
   return item;
@@ -61,6 +63,7 @@ Digest digest_of_attachments(const AttachmentSet& set) {
   hasher.add_array(numbers_of(set.fitted_to));
   for (const Attachment& item : set.items) {
     hasher.add(item.name).add(static_cast<int>(item.moves)).add(item.text);
+    if (item.tint != Tint::kNone) hasher.add(static_cast<int>(item.tint));
     for (const MaterialFile& file : item.materials.files) {
       throw_if_interrupted();
       hasher.add(file.relative.generic_string()).add(hash_file(file.from).digest);
@@ -75,6 +78,33 @@ std::size_t AttachmentSet::index(const std::string& name) const {
   const auto found = std::ranges::find(items, name, &Attachment::name);
   require(found != items.end(), "attachments: none is called ", name);
   return static_cast<std::size_t>(found - items.begin());
+}
+
+std::string AttachmentLook::name() const {
+  return colour ? concat(item->name, '+', label()) : item->name;
+}
+
+AttachmentLook AttachmentSet::look(const std::string& name,
+                                   const std::optional<HairColour>& hair) const {
+  const Attachment& item = at(name);
+  if (item.tint == Tint::kNone || !hair) return {&item};
+  return {&item, tinted(*hair, item.tint)};
+}
+
+std::vector<AttachmentLook> AttachmentSet::looks(const FacePlan& face) const {
+  std::vector<AttachmentLook> looks;
+  for (const std::string& name : face.attachments) looks.push_back(look(name, face.hair));
+  return looks;
+}
+
+std::vector<AttachmentLook> AttachmentSet::looks(std::span<const FacePlan> faces) const {
+  std::map<std::string, AttachmentLook> known;
+  for (const FacePlan& face : faces) {
+    for (const AttachmentLook& look : looks(face)) known.emplace(look.name(), look);
+  }
+  std::vector<AttachmentLook> all;
+  for (const auto& [name, look] : known) all.push_back(look);
+  return all;
 }
 
 void load_attachments(const Config& config, const CacheFolder& cache, Inputs& inputs,

@@ -83,7 +83,8 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
 }
 
 std::size_t GlbPart::describe(Json& scene, const Positions& positions,
-                              std::span<const Displacements> moves, std::size_t size) const {
+                              std::span<const Displacements> moves, const PartLook& look,
+                              std::size_t size) const {
   require(moves.size() == targets_.size(), "GlbPart: displacements of each target");
   const std::size_t vertices = split_.size();
   GlbBuffer buffer(scene, size);
@@ -109,7 +110,9 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
   std::size_t offset = 0;
   for (const Primitive& primitive : primitives_) {
     const std::size_t material = scene["materials"].size();
-    scene["materials"].push_back(material_json_of(materials_[primitive.material], first_texture));
+    GlbPartMaterial own = materials_[primitive.material];
+    for (std::size_t c = 0; c < look.tint.size(); ++c) own.colour[c] *= look.tint[c];
+    scene["materials"].push_back(material_json_of(own, first_texture));
     primitives.push_back(
         {{"attributes", attributes},
          {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", primitive.indices, offset)},

@@ -12,6 +12,7 @@
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/glb_skin.h"
+#include "crowdface/io/part_look.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
@@ -58,7 +59,8 @@ class GlbPart {
   /// \param moves  #targets, indexed by vertices of this mesh.
   /// \return the buffer size afterwards, a multiple of four.
   std::size_t describe(nlohmann::ordered_json& scene, const Positions& positions,
-                       std::span<const Displacements> moves, std::size_t size) const;
+                       std::span<const Displacements> moves, const PartLook& look,
+                       std::size_t size) const;
   /// Appends the data that `describe` declares. The file references memory of this object.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   void append(EncodedFile& file, const Positions& positions,
@@ -93,6 +95,7 @@ struct PlacedGlbPart {
   const GlbPart* part;
   const Positions* positions;
   std::span<const Displacements> moves = {};
+  PartLook look = {};
 };
 
 }  // namespace crowdface

@@ -286,7 +286,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
       images.empty() ? arrays_size : place_images(scene, arrays_size, images);
   std::size_t binary_size = own_size;
   for (const PlacedGlbPart& one : parts) {
-    binary_size = one.part->describe(scene, *one.positions, one.moves, binary_size);
+    binary_size = one.part->describe(scene, *one.positions, one.moves, one.look, binary_size);
   }
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');

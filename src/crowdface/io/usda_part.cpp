@@ -39,8 +39,17 @@ void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positi
             vertex_normals(fans_, topology_, positions), moves, what);
 }
 
-void UsdaPart::add_materials(EncodedFile& file, const std::string& root) const {
-  file.add(usda_materials(root, name_ + "_materials", mesh_.materials(), surfaces_));
+void UsdaPart::add_materials(EncodedFile& file, const std::string& root,
+                             const PartLook& look) const {
+  std::vector<UsdaSurface> surfaces = surfaces_;
+  for (UsdaSurface& surface : surfaces) {
+    for (std::size_t c = 0; c < look.tint.size(); ++c) surface.colour[c] *= look.tint[c];
+    for (std::string* name : {&surface.picture, &surface.holes}) {
+      const std::size_t at = name->find(kLookFolder);
+      if (at != std::string::npos) name->replace(at, kLookFolder.size(), look.folder);
+    }
+  }
+  file.add(usda_materials(root, name_ + "_materials", mesh_.materials(), surfaces));
 }
 
 }  // namespace crowdface

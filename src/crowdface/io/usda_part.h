@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "crowdface/io/part_look.h"
 #include "crowdface/io/usda_material.h"
 #include "crowdface/io/usda_mesh.h"
 #include "crowdface/mesh/normals.h"
@@ -17,6 +19,9 @@ namespace crowdface {
 /// is built once.
 class UsdaPart {
  public:
+  /// Part of a file's name that stands for the folder of a PartLook.
+  static constexpr std::string_view kLookFolder = "<COLOUR>";
+
   struct Material {
     std::string name;
     UsdaSurface surface;
@@ -39,7 +44,8 @@ class UsdaPart {
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                 std::span<const Displacements> moves, const std::string& what) const;
   /// Adds the part's materials below the root prim.
-  void add_materials(EncodedFile& file, const std::string& root) const;
+  /// \param look  replaces kLookFolder in the names of files.
+  void add_materials(EncodedFile& file, const std::string& root, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }
   std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
@@ -57,6 +63,7 @@ struct PlacedUsdaPart {
   const UsdaPart* part;
   const Positions* positions;
   std::span<const Displacements> moves = {};
+  PartLook look = {};
 };
 
 }  // namespace crowdface

@@ -144,7 +144,7 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
   std::vector<UsdaSurface> surfaces;
   for (const GlbMaterial& one : surfaces_) surfaces.push_back(surface_of(one, images, shared_));
   file.add(usda_materials(root, "materials", mesh_.materials(), surfaces));
-  for (const PlacedUsdaPart& part : parts) part.part->add_materials(file, root);
+  for (const PlacedUsdaPart& part : parts) part.part->add_materials(file, root, part.look);
   file.add("}\n");
   return file;
 }

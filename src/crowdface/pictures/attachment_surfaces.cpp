@@ -135,7 +135,8 @@ std::vector<AttachmentMesh> AttachmentSurfaces::meshes(
     const std::vector<PlacedAttachment>& placed) const {
   std::vector<AttachmentMesh> meshes;
   for (const PlacedAttachment& one : placed) {
-    meshes.push_back({&at(*one.item), &one.positions});
+    const std::array<float, 3> tint = one.look().tint();
+    meshes.push_back({&at(*one.item), &one.positions, Light(tint[0], tint[1], tint[2])});
   }
   return meshes;
 }

@@ -318,8 +318,8 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   if (!placed.empty()) {
     std::vector<std::string> packed;
     for (const PlacedAttachment& one : placed) {
-      packed.push_back(
-          concat(Json(one.item->name).dump(), ':', attachments_.packed(one, frame_, min_move())));
+      packed.push_back(concat(Json(one.look().name()).dump(), ':',
+                              attachments_.packed(one, frame_, min_move())));
     }
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
@@ -331,11 +331,10 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   return concat("crowdface.setFace(", Json(name).dump(), ",{", join(parts, ","), "});\n");
 }
 
-std::string GalleryMeshes::attachment_script(const std::string& name,
+std::string GalleryMeshes::attachment_script(const AttachmentLook& look,
                                              const AttachmentSurfaces& surfaces) const {
-  const Attachment& item = inputs_.attachments.at(name);
-  return concat("crowdface.setAttachment(", Json(name).dump(), ',',
-                attachments_.look(item, surfaces.at(item)), ");\n");
+  return concat("crowdface.setAttachment(", Json(look.name()).dump(), ',',
+                attachments_.look(look, surfaces.at(*look.item)), ");\n");
 }
 
 }  // namespace crowdface

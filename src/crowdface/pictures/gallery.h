@@ -40,7 +40,8 @@ class GalleryMeshes {
                           const VertexColours* colours,
                           const std::vector<PlacedAttachment>& placed = {}) const;
   /// The file data/attachments/NAME.js.
-  std::string attachment_script(const std::string& name, const AttachmentSurfaces& surfaces) const;
+  std::string attachment_script(const AttachmentLook& look,
+                                const AttachmentSurfaces& surfaces) const;
 
  private:
   /// Three bytes (sRGB) per vertex, darkened where the vertex sees little of the sky.

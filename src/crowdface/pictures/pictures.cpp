@@ -77,20 +77,18 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
                                   const CrowdLikeness& likeness) const {
   make_directories(directory_.gallery_head("").parent_path());
   std::set<std::string> ids, placed;
-  for (const FacePlan& face : crowd) {
-    ids.insert(face.id);
-    placed.insert(face.attachments.begin(), face.attachments.end());
-  }
+  for (const FacePlan& face : crowd) ids.insert(face.id);
+  const std::vector<AttachmentLook> looks = inputs_.attachments.looks(crowd);
+  for (const AttachmentLook& look : looks) placed.insert(look.name());
   for (const fs::path& folder : with_numbered_folders(directory_.gallery_faces())) {
     remove_others(folder, ids);
   }
   const fs::path attachments = directory_.gallery_attachment("").parent_path();
   remove_others(attachments, placed);
   if (!placed.empty()) make_directories(attachments);
-  const std::vector<std::string> items(placed.begin(), placed.end());
-  parallel_for_each(items.size(), [&](std::size_t i) {
-    write_file(directory_.gallery_attachment(items[i]),
-               gallery_->attachment_script(items[i], renders_.attachment_surfaces()));
+  parallel_for_each(looks.size(), [&](std::size_t i) {
+    write_file(directory_.gallery_attachment(looks[i].name()),
+               gallery_->attachment_script(looks[i], renders_.attachment_surfaces()));
   });
   parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
     const auto& [name, positions] = inputs_.faces.heads[h];

@@ -72,11 +72,13 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
   });
 }
 
-std::string ShownAttachments::look(const Attachment& item, const AttachmentSurface& surface) const {
-  const Parts& meshes = parts(item);
+std::string ShownAttachments::look(const AttachmentLook& look,
+                                   const AttachmentSurface& surface) const {
+  const Parts& meshes = parts(*look.item);
   Json json = Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     json.push_back(part_to_json(meshes[m], surface.materials()[m]));
+    if (look.colour) json.back()["tint"] = look.tint();
   }
   return json.dump();
 }

@@ -18,7 +18,7 @@ class ShownAttachments {
  public:
   /// The part of an attachment that does not depend on the face, as JSON: triangles and appearance
   /// for each material.
-  std::string look(const Attachment& item, const AttachmentSurface& surface) const;
+  std::string look(const AttachmentLook& look, const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
   /// of the face the vertices that move and their displacements.
   /// \param least  shortest displacement to store, in the unit of the positions

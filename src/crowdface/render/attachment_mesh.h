@@ -56,6 +56,7 @@ class AttachmentSurface {
 struct AttachmentMesh {
   const AttachmentSurface* surface;
   const Positions* positions;
+  Light tint = Light::Constant(1);  ///< factors on the colour
 };
 
 /// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.

@@ -19,7 +19,7 @@ AttachmentStage::AttachmentStage(const RayDevice& device,
             "render: ", mesh.positions->rows(), " positions of what is worn, ",
             surface.topology().vertex_count, " vertices");
     const auto first = static_cast<std::uint32_t>(points.size() / 3);
-    parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size())});
+    parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size()), mesh.tint});
     const std::vector<float> own = to_camera(*mesh.positions, camera);
     const auto normals = camera_normals(surface.topology(), surface.fans(), own, 1);
     points.insert(points.end(), own.begin(), own.end());
@@ -48,7 +48,7 @@ AttachmentStage::Place AttachmentStage::at(const RayHit& hit) const {
   const Eigen::Vector4f shares = bilinear_weights(quad, hit.u, hit.v);
   const Part& part = part_of(hit.primitive);
   Place place{Eigen::Vector3f::Zero(),
-              part.surface->colour(hit.primitive - part.first_quad, shares)};
+              part.surface->colour(hit.primitive - part.first_quad, shares) * part.tint};
   for (int c = 0; c < 4; ++c) {
     place.normal += shares[c] * normals_[quad[static_cast<std::size_t>(c)]];
   }

@@ -33,6 +33,7 @@ class AttachmentStage {
   struct Part {
     const AttachmentSurface* surface;
     std::uint32_t first_quad;
+    Light tint;
   };
   const Part& part_of(std::uint32_t quad) const;
 

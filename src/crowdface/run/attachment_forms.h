@@ -36,7 +36,9 @@ class AttachmentForms {
   std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;
     for (const PlacedAttachment& one : attachments) {
-      placed.push_back({&forms_.at(one.item), &one.positions, one.moves});
+      const AttachmentLook look = one.look();
+      placed.push_back(
+          {&forms_.at(one.item), &one.positions, one.moves, {look.tint(), look.label()}});
     }
     return placed;
   }

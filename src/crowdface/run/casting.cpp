@@ -153,9 +153,17 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
 
 AttachmentDraw attachment_draw(const Config& config) {
   const Config::Attachments& placed = config.attachments;
-  return {config.crowd.seed, {placed.items.begin(), placed.items.end()},
-          placed.none,       config.faces.tags,
-          placed.quotas,     config.faces.names};
+  AttachmentDraw draw{config.crowd.seed, {placed.items.begin(), placed.items.end()},
+                      placed.none,       config.faces.tags,
+                      placed.quotas,     config.faces.names};
+  draw.hair_colours[""] = placed.hair_colours;
+  for (const Group& group : config.groups) {
+    if (!group.hair_colours.empty()) draw.hair_colours[group.name] = group.hair_colours;
+  }
+  for (const FamilyOptions& family : config.families) {
+    if (family.twins) draw.twins.insert(family.name);
+  }
+  return draw;
 }
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,

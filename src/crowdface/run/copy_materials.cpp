@@ -6,10 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/coloured_textures.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/io/material_files.h"
 
@@ -20,6 +23,13 @@ namespace fs = std::filesystem;
 
 /// Copies each file once: heads in one folder mostly share their files.
 class MaterialCopies {
+  /// A neutral texture in a colour, and the files with this content.
+  struct Dyed {
+    fs::path neutral;
+    HairColour colour;
+    std::vector<fs::path> copies;
+  };
+
  public:
   /// \param own  kinds of textures that faces have of their own; if not empty, faces have their own
   ///             material files, too
@@ -41,10 +51,41 @@ class MaterialCopies {
     }
   }
 
-  /// Copies an attachment's material files and textures into a separate folder.
-  void add(const Attachment& item) {
-    for (const MaterialFile& material : item.materials.files) {
-      copy({material.from, attachment_folder(item.name) / material.relative}, item.name);
+  /// Copies the material files and textures of attachments into a folder for each look. Colour
+  /// textures get the colour of the look.
+  void add(const std::vector<AttachmentLook>& looks) {
+    std::map<std::pair<fs::path, std::string>, Dyed> all;
+    for (const AttachmentLook& look : looks) {
+      for (const LookFile& file : files_of(look)) {
+        const fs::path to = attachment_folder(look.item->name, look.label()) / file.file.relative;
+        if (file.is_coloured) {
+          Dyed& dyed = all[{file.file.from, look.label()}];
+          dyed.neutral = file.file.from;
+          dyed.colour = *look.colour;
+          dyed.copies.push_back(to);
+        } else {
+          copy({file.file.from, to}, look.item->name);
+        }
+      }
+    }
+    std::vector<Dyed> textures;
+    for (auto& [key, dyed] : all) textures.push_back(std::move(dyed));
+    constexpr std::size_t kAtOnce = 32;  // textures in memory
+    for (std::size_t first = 0; first < textures.size(); first += kAtOnce) {
+      throw_if_interrupted();
+      const std::size_t count = std::min(kAtOnce, textures.size() - first);
+      std::vector<std::string> encoded(count);
+      parallel_for_each(count, [&](std::size_t t) {
+        const Dyed& dyed = textures[first + t];
+        try {
+          encoded[t] = coloured_texture(dyed.neutral, dyed.colour);
+        } catch (const InvalidInput&) {  // pictures and layers warn
+          encoded[t] = read_file(dyed.neutral);
+        }
+      });
+      for (std::size_t t = 0; t < count; ++t) {
+        for (const fs::path& copy : textures[first + t].copies) write(copy, encoded[t]);
+      }
     }
   }
 
@@ -67,15 +108,19 @@ class MaterialCopies {
     if (is_unread) digest->second = hash_file(material.from).digest;
     const auto [first, is_new] = copied_.emplace(material.relative, digest->second);
     if (is_new) {
-      const fs::path to = directory_.meshes() / material.relative;
-      refuse_folder_elsewhere(directory_, to.parent_path());
-      make_directories(to.parent_path());
-      ledger_.write(directory_.relative(to), MappedFile(material.from).bytes());
+      write(material.relative, MappedFile(material.from).bytes());
     } else if (first->second != digest->second) {
       heads_of_warning_[concat(material.relative.string(),
                                " differs between heads; the first head's file is used")]
           .push_back(head);
     }
+  }
+
+  void write(const fs::path& relative, std::string_view bytes) {
+    const fs::path to = directory_.meshes() / relative;
+    refuse_folder_elsewhere(directory_, to.parent_path());
+    make_directories(to.parent_path());
+    ledger_.write(directory_.relative(to), bytes);
   }
 
   const CrowdDirectory& directory_;
@@ -105,12 +150,7 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
-  std::set<std::string> placed;
-  const bool attachment_named = any_format(formats, names_attachment_textures);
-  for (const FacePlan& face : crowd) {
-    if (attachment_named) placed.insert(face.attachments.begin(), face.attachments.end());
-  }
-  for (const std::string& name : placed) copies.add(inputs.attachments.at(name));
+  if (any_format(formats, names_attachment_textures)) copies.add(inputs.attachments.looks(crowd));
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);
   return warnings;

@@ -175,7 +175,8 @@ EncodedFile FaceEncoders::attachment(const FinishedFace& face, const std::string
       std::ranges::find(placed, name, [](const auto& item) { return item.item->name; });
   FaceMesh mesh{.id = concat(face.face.id, '_', name, suffix_of(level, "_")),
                 .what = {},
-                .positions = &one->positions};
+                .positions = &one->positions,
+                .colour = one->look().label()};
   mesh.what = in_shape(mesh.id, inputs_, shape);
   Positions acting;
   if (shape) {

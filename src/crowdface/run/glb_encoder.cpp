@@ -110,15 +110,15 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
 }
 
 /// The materials and images of an attachment.
-struct AttachmentLook {
+struct GlbLook {
   std::vector<GlbPartMaterial> materials;
   std::vector<std::uint32_t> of_face;
   std::vector<GlbImage> images;
 };
 
-AttachmentLook look_of(const Attachment& item) {
+GlbLook look_of(const Attachment& item) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  AttachmentLook look;
+  GlbLook look;
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.emplace_back();
     look.materials.back().name = material.name;
@@ -132,7 +132,7 @@ AttachmentLook look_of(const Attachment& item) {
   return look;
 }
 
-GlbPart part_of(const Attachment& item, const AttachmentLook& look, const Inputs& inputs,
+GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& inputs,
                 const DetailLevel* level) {
   const CompressedRows<Influence> influences = influences_of(item, inputs);
   std::vector<std::string> targets;
@@ -155,7 +155,7 @@ GlbPart part_of(const Attachment& item, const AttachmentLook& look, const Inputs
 
 MeshEncoders glb_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
-  std::map<const Attachment*, AttachmentLook> looks;
+  std::map<const Attachment*, GlbLook> looks;
   for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     return part_of(item, looks.at(&item), inputs, here);

@@ -42,7 +42,7 @@ std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> pl
   std::vector<PlacedAttachment> reduced;
   for (const PlacedAttachment& one : placed) {
     const DetailLevel& level = attachments.at(one.item);
-    reduced.push_back({one.item, level.of(one.positions)});
+    reduced.push_back({one.item, one.colour, level.of(one.positions)});
     for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
   }
   return reduced;

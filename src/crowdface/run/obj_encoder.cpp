@@ -154,12 +154,16 @@ MeshEncoders obj_encoders(const MeshSource& source) {
 
 MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
                            const std::string& shared) {
-  const std::string libraries = library_line(
-      item.materials.files, std::filesystem::path(shared) / attachment_folder(item.name));
+  const auto libraries_of = [&files = item.materials.files, name = item.name,
+                             shared](const FaceMesh& mesh) {
+    return library_line(files,
+                        std::filesystem::path(shared) / attachment_folder(name, mesh.colour));
+  };
   if (level == nullptr) {
     return make_encoder(std::make_shared<const ObjTemplate>(item.file, item.file.topology),
-                        [libraries](const ObjTemplate& obj, const FaceMesh& mesh) {
+                        [libraries_of](const ObjTemplate& obj, const FaceMesh& mesh) {
                           EncodedFile file = obj.encode(*mesh.positions, mesh.what);
+                          const std::string libraries = libraries_of(mesh);
                           if (!libraries.empty()) file.replace_line("mtllib", libraries);
                           return file;
                         });
@@ -174,6 +178,7 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
                       [=](const PlainObjTemplate& obj, const FaceMesh& mesh) {
                         Positions normals;
                         if (fans) normals = vertex_normals(*fans, level->topology, *mesh.positions);
+                        const std::string libraries = libraries_of(mesh);
                         return obj.encode(
                             concat(libraries, libraries.empty() ? "" : "\n", "o ", mesh.id, '\n'),
                             *mesh.positions, normals, mesh.what);

@@ -50,7 +50,9 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const std::strin
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   const auto file_of = [&](const fs::path& from) {
     const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::from);
-    return (fs::path(shared) / attachment_folder(item.name) / file->relative).generic_string();
+    fs::path folder = fs::path(shared) / attachment_folder(item.name);
+    if (item.tint != Tint::kNone) folder /= UsdaPart::kLookFolder;
+    return (folder / file->relative).generic_string();
   };
   PrimLook look{std::move(prim), {}, std::move(named.of_face)};
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {

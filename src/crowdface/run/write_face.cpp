@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "crowdface/core/file.h"
+#include "crowdface/heads/coloured_textures.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
 #include "crowdface/run/face_encoders.h"
@@ -19,11 +20,16 @@ namespace fs = std::filesystem;
 
 /// Copies the material files that the face's attachments refer to.
 void write_attachment_materials(const Job& job, const FacePlan& face, const fs::path& folder) {
-  for (const std::string& name : face.attachments) {
-    for (const MaterialFile& material : job.inputs.attachments.at(name).materials.files) {
-      const fs::path to = folder / attachment_folder(name) / material.relative;
+  for (const AttachmentLook& look : job.inputs.attachments.looks(face)) {
+    for (const LookFile& file : files_of(look)) {
+      const fs::path to =
+          folder / attachment_folder(look.item->name, look.label()) / file.file.relative;
       make_directories(to.parent_path());
-      write_file(to, MappedFile(material.from).bytes());
+      if (file.is_coloured) {
+        write_file(to, coloured_texture(file.file.from, *look.colour));
+      } else {
+        write_file(to, MappedFile(file.file.from).bytes());
+      }
     }
   }
 }

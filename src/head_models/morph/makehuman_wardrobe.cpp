@@ -108,38 +108,47 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 }
 
 struct Wearable {
-  std::string_view folder, kind, tags, colour;
+  std::string_view folder, kind, tags;
   double share = 1;
-  bool greys = false;   ///< add a grey variant for old people
-  bool browns = false;  ///< add a brown variant
+  bool young = false;  ///< old people do not wear it
 };
 // The sex tags of hair are the package's; those of brows are assigned by thickness.
-constexpr auto kWearables =
-    std::to_array<Wearable>({{"eyebrow001", "brow", "male", ""},
-                             {"eyebrow002", "brow", "female", ""},
-                             {"eyebrow003", "brow", "male", ""},
-                             {"eyebrow004", "brow", "male", ""},
-                             {"eyebrow005", "brow", "female", ""},
-                             {"eyebrow006", "brow", "female", ""},
-                             {"eyebrow007", "brow", "female", ""},
-                             {"eyebrow008", "brow", "male", ""},
-                             {"eyebrow009", "brow", "male", "", 0.4},
-                             {"eyebrow010", "brow", "female", ""},
-                             {"eyebrow011", "brow", "", ""},
-                             {"eyebrow012", "brow", "male", "", 0.4},
-                             {"afro01", "hair", "african", "black", 3},
-                             {"bob01", "hair", "female", "black", 0.5},
-                             {"bob02", "hair", "female caucasian", "blond", 0.5},
-                             {"Braid01", "hair", "female", "black"},
-                             {"long01", "hair", "female", "brown"},
-                             {"ponytail01", "hair", "female", "brown", 1, true},
-                             {"short01", "hair", "male", "black", 1, true},
-                             {"short02", "hair", "male", "brown", 1, true},
-                             {"short03", "hair", "female", "brown", 0.5, true},
-                             {"short04", "hair", "male", "black", 1, true},
-                             {"Full_beard", "beard", "male", "black", 1, true, true},
-                             {"Moustache", "beard", "male", "black", 1, true, true}});
-constexpr double kGreyShare = 4;
+constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
+                                                     {"eyebrow002", "brow", "female"},
+                                                     {"eyebrow003", "brow", "male"},
+                                                     {"eyebrow004", "brow", "male"},
+                                                     {"eyebrow005", "brow", "female"},
+                                                     {"eyebrow006", "brow", "female"},
+                                                     {"eyebrow007", "brow", "female"},
+                                                     {"eyebrow008", "brow", "male"},
+                                                     {"eyebrow009", "brow", "male", 0.4},
+                                                     {"eyebrow010", "brow", "female"},
+                                                     {"eyebrow011", "brow", ""},
+                                                     {"eyebrow012", "brow", "male", 0.4},
+                                                     {"afro01", "hair", "african", 3},
+                                                     {"bob01", "hair", "female"},
+                                                     {"bob02", "hair", "female"},
+                                                     {"Braid01", "hair", "female"},
+                                                     {"long01", "hair", "female", 1, true},
+                                                     {"ponytail01", "hair", "female"},
+                                                     {"short01", "hair", "male"},
+                                                     {"short02", "hair", "male"},
+                                                     {"short03", "hair", "female"},
+                                                     {"short04", "hair", "male"},
+                                                     {"Full_beard", "beard", "male"},
+                                                     {"Moustache", "beard", "male"}});
+
+struct HairShare {
+  std::string_view name;
+  std::array<double, 3> share;  ///< probability for African, Asian, Caucasian ancestry
+};
+constexpr auto kHairShares = std::to_array<HairShare>({{"black", {0.9, 0.8, 0.06}},
+                                                       {"dark_brown", {0.1, 0.2, 0.3}},
+                                                       {"brown", {0, 0, 0.28}},
+                                                       {"light_brown", {0, 0, 0.18}},
+                                                       {"blond", {0, 0, 0.12}},
+                                                       {"red", {0, 0, 0.04}},
+                                                       {"auburn", {0, 0, 0.02}}});
 
 }  // namespace
 
@@ -147,28 +156,21 @@ std::vector<MakeHumanAttachment> makehuman_attachments(const fs::path& package) 
   std::vector<MakeHumanAttachment> out;
   for (const Wearable& wearable : kWearables) {
     const bool brow = wearable.kind == "brow";
-    MakeHumanAttachment item{lower_case(wearable.folder),
-                             std::string(wearable.kind),
-                             proxy(package, brow ? "eyebrows" : "hair", wearable.folder),
-                             words_of(std::string(wearable.tags)),
-                             std::string(wearable.colour),
-                             false,
-                             wearable.share};
-    out.push_back(item);
-    const auto add_dyed = [&](const std::string& colour) {
-      MakeHumanAttachment dyed = item;
-      dyed.name += concat("_", colour);
-      dyed.colour = colour;
-      dyed.dyed = true;
-      out.push_back(std::move(dyed));
-    };
-    if (wearable.browns) add_dyed("brown");
-    if (!wearable.greys) continue;
-    add_dyed("grey");
-    out.back().tags.emplace_back("old");
-    out.back().share *= kGreyShare;
+    out.push_back({lower_case(wearable.folder), std::string(wearable.kind),
+                   proxy(package, brow ? "eyebrows" : "hair", wearable.folder),
+                   words_of(std::string(wearable.tags)), wearable.young, wearable.share});
   }
   return out;
+}
+
+std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
+                                  std::uint64_t index) {
+  double left = random_unit({seed, index, "makehuman/hair"});
+  for (const HairShare& colour : kHairShares) {
+    for (std::size_t a = 0; a < 3; ++a) left -= person.ancestry[a] * colour.share[a];
+    if (left < 0) return std::string(colour.name);
+  }
+  return std::string(kHairShares[0].name);
 }
 
 std::string prevailing_ancestry(const MakeHumanPerson& person) {

@@ -31,6 +31,11 @@ double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index);
 
+/// Draws a person's hair colour in young years, a name of named_hair_colours. Light and red hair
+/// have a probability above zero for Caucasian ancestry only.
+std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
+                                  std::uint64_t index);
+
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
   std::vector<ClothingPart> clothing;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
@@ -52,8 +57,7 @@ struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;     ///< path in the package
   std::vector<std::string> tags;  ///< tags that a head must have to wear it
-  std::string colour;             ///< colour of hair or beard; empty for brows
-  bool dyed = false;              ///< whether the texture must be recoloured to `colour`
+  bool young = false;             ///< old people do not wear it
   double share = 1;               ///< relative frequency within its kind
 };
 

@@ -72,7 +72,7 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   const double darkest = smooth_step(0.15, 0.65, look.tone);
   const double hair = darkest + (1 - darkest) * unit("synth/hair");
   const double grey = smooth_step(38, 74, person.age + 12 * (unit("synth/grey") - 0.5));
-  look.hair = along(natural_hair(), hair);
+  look.hair = look.young_hair = along(natural_hair(), hair);
   look.brow_hair = 0.85 * (look.hair + 0.45 * grey * (from_bytes(150, 143, 137) - look.hair));
   look.hair += grey * (from_bytes(168, 166, 164) - look.hair);
   look.ruddy = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.tone);

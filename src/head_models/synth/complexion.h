@@ -22,14 +22,15 @@ inline std::uint8_t to_byte(double part) {
 
 /// Colours and hair growth of a synthetic person.
 struct Complexion {
-  double tone = 0;         ///< 0 (lightest skin) … 1 (darkest)
-  ScreenColour skin;       ///< base colour of the skin
-  ScreenColour hair;       ///< colour of the scalp hair, including grey
-  ScreenColour brow_hair;  ///< colour of brows and beard, which turn grey later
-  double ruddy = 0;        ///< 0 … 1: redness of cheeks, nose and ears
-  double freckles = 0;     ///< 0 … 1
-  double age_spots = 0;    ///< 0 … 1
-  double brows = 1;        ///< density of the brows
+  double tone = 0;          ///< 0 (lightest skin) … 1 (darkest)
+  ScreenColour skin;        ///< base colour of the skin
+  ScreenColour young_hair;  ///< colour of the scalp hair in young years
+  ScreenColour hair;        ///< colour of the scalp hair, including grey
+  ScreenColour brow_hair;   ///< colour of brows and beard, which turn grey later
+  double ruddy = 0;         ///< 0 … 1: redness of cheeks, nose and ears
+  double freckles = 0;      ///< 0 … 1
+  double age_spots = 0;     ///< 0 … 1
+  double brows = 1;         ///< density of the brows
   double brow_width = 1;
   double brow_arch = 0;   ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;       ///< on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard

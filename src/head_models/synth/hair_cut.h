@@ -25,7 +25,8 @@ struct HairCut {
   double wave = 0;          ///< amplitude of waves in the locks
   /// 1: combed locks; more than 1: that many layers of curls in random directions
   int layers = 1;
-  bool tied = false;  ///< tied at the back: lies on the head until behind the ears
+  bool tied = false;   ///< tied at the back: lies on the head until behind the ears
+  bool young = false;  ///< old people do not wear it
 
   bool has_fringe() const { return fringe < 99; }
 };
@@ -36,6 +37,7 @@ struct HairColour {
   std::string_view name;
   ScreenColour colour;
 };
+/// Natural colours, without grey.
 std::span<const HairColour> hair_colours();
 const HairColour& nearest_hair_colour(const ScreenColour& colour);
 

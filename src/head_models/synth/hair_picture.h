@@ -12,6 +12,9 @@ namespace crowdface::synth {
 /// below.
 inline constexpr int kCardStrips = 4, kHairStrips = 5;
 
+/// sRGB value of hair in textures that take the colour of each face, see Tint.
+inline constexpr double kNeutralTone = 0.67;
+
 /// Paints a hair texture: vertical strips of strands from roots (v = 1) to separate tips (v = 0).
 /// The last strip is opaque except at the tips.
 /// \return size × size × 4 bytes (sRGB and alpha), row by row, first row at v = 1.

@@ -60,9 +60,10 @@ double on_lips(const Vector3d& p) {
 
 }  // namespace
 
-SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
+SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
+                     const Complexion& look)
     : person_(draw_person(seed, index)),
-      look_(draw_complexion(seed, index)),
+      look_(look),
       relief_(Identity(seed, index), kFinest),
       mottle_(mix(seed, index, 101), 1.1),
       blotch_(mix(seed, index, 102), 0.35),
@@ -72,6 +73,7 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
       hairs_(mix(seed, index, 106), 0.045),
       tufts_(mix(seed, index, 107), 0.3),
       hairline_(mix(seed, index, 108), 0.5),
+      grain_(mix(seed, index, 110), 0.03),
       hair_(seed, index),
       scalp_hair_(scalp_hair) {}
 
@@ -133,7 +135,8 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
   const double lashes =
       smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
-  const ScreenColour dark = (0.45 - 0.25 * look_.made_up) * look_.hair + 0.02;
+  const ScreenColour hair = has_own_hair() ? look_.hair : from_bytes(70, 54, 44);
+  const ScreenColour dark = (0.45 - 0.25 * look_.made_up) * hair + 0.02;
   cover(colour, dark, lashes * (upper ? 0.75 + 0.25 * look_.made_up : 0.3 + 0.4 * look_.made_up));
   cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * look_.tone),
         0.8 * smooth_step(1.05, 1.15, place.eye));
@@ -189,6 +192,18 @@ double SkinPaint::beard_length(const Vector& p) const {
   return length + chin * (look_.chin_beard - length);
 }
 
+double SkinPaint::beard_cover(const Vector& p) const {
+  if (p.z() < -0.5 || p.y() > 0) return 0;
+  const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
+  const double dense = beard_cover(p, strand) * beard_length(p);
+  if (dense <= 0) return 0;
+  // Single hairs: the part of the noise above a threshold. Stubble is finer than a long beard.
+  const double stubble = smooth_step(0.9, 0.5, dense);
+  const double hairs = 0.5 + 0.5 * (strand + stubble * (grain_.at(p) - strand));
+  const double grown = 0.75 * dense + 0.4 * smooth_step(0.7, 1, dense);
+  return smooth_step(0.05, 0.4, dense) * smooth_step(-0.1, 0.15, hairs - 1 + grown);
+}
+
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   if (look_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
   // Short hair: noise stretched along y.
@@ -232,21 +247,22 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   paint_around_eyes(place, colour);
   paint_lips(place, colour);
   paint_openings(place, colour);
-  paint_beard(p, colour);
+  if (has_own_hair()) paint_beard(p, colour);
   const bool ear = place.skin.relief < 0.5;
   if (!ear && hair_.reaches(p)) {
     const double lock = hair_.strand(p);
-    cover(colour, look_.hair * (1 + (0.24 - 0.16 * look_.hair.mean()) * lock),
+    const ScreenColour hair = has_own_hair() ? look_.hair : 0.45 * colour;
+    cover(colour, hair * (1 + (0.24 - 0.16 * hair.mean()) * lock),
           scalp_hair_ * hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
-  cover(colour, look_.brow_hair, brow_cover(p));
+  if (has_own_hair()) cover(colour, look_.brow_hair, brow_cover(p));
   return colour.max(0.0).min(1.0);
 }
 
 double SkinPaint::roughness_at(const SkinPlace& place) const {
   const Vector& p = place.skin.position;
-  double hair = brow_cover(p);
-  if (look_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
+  double hair = has_own_hair() ? brow_cover(p) : 0;
+  if (has_own_hair() && look_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
     hair = std::max(hair, beard_length(p) * beard_cover(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
   }
   if (place.skin.relief >= 0.5 && hair_.reaches(p)) {

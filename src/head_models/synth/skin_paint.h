@@ -12,17 +12,24 @@ namespace crowdface::synth {
 /// Computes the skin colour and roughness of one person.
 class SkinPaint {
  public:
-  /// \param scalp_hair  opacity of hair painted on the scalp, 0 … 1; 1 if there is no other hair.
-  SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair);
+  /// \param scalp_hair  1: all hair is painted; below 1: opacity of the roots on the scalp, below hair
+  ///                    that is separate meshes, as are brows and beards. The roots have no hair
+  ///                    colour.
+  SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
+      : SkinPaint(seed, index, scalp_hair, draw_complexion(seed, index)) {}
+  SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair, const Complexion& look);
 
   /// Returns the colour at a place, sRGB.
   ScreenColour at(const SkinPlace& place) const;
   /// Returns the roughness at a place, 0 … 1.
   double roughness_at(const SkinPlace& place) const;
 
- private:
   using Vector = Eigen::Vector3d;
+  /// The fraction of the skin that the brows and the beard hide at a point of the average head.
+  double brow_cover(const Vector& p) const;
+  double beard_cover(const Vector& p) const;
 
+ private:
   ScreenColour eyeball(const Vector& ball) const;
   ScreenColour bare_skin(const Vector& p) const;
   void paint_spots(const Vector& p, ScreenColour& colour) const;
@@ -30,14 +37,14 @@ class SkinPaint {
   void paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const;
   void paint_openings(const SkinPlace& place, ScreenColour& colour) const;
   void paint_beard(const Vector& p, ScreenColour& colour) const;
-  double brow_cover(const Vector& p) const;
+  bool has_own_hair() const { return scalp_hair_ == 1; }
   double beard_cover(const Vector& p, double strand) const;
   double beard_length(const Vector& p) const;
 
   Person person_;
   Complexion look_;
   Relief relief_;
-  SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_;
+  SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_, grain_;
   Hair hair_;
   double scalp_hair_;
 };

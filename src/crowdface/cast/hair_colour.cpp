@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/hair_colour.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+double to_step(double value, double steps) {
+  return std::floor(std::clamp(value, 0.0, 1.0) * steps + 0.5) / steps;
+}
+
+int percent(double value) {
+  return static_cast<int>(std::lround(100 * value));
+}
+
+}  // namespace
+
+std::span<const NamedHairColour> named_hair_colours() {
+  static constexpr auto kColours = std::to_array<NamedHairColour>({
+      {"blond", {0.2, 0, 0}},
+      {"strawberry_blond", {0.15, 0.4, 0}},
+      {"red", {0.25, 0.8, 0}},
+      {"auburn", {0.5, 0.6, 0}},
+      {"light_brown", {0.35, 0, 0}},
+      {"brown", {0.5, 0, 0}},
+      {"dark_brown", {0.7, 0, 0}},
+      {"black", {1, 0, 0}},
+      {"grey", {0.6, 0, 0.6}},
+      {"white", {0.4, 0, 1}},
+  });
+  return kColours;
+}
+
+std::optional<HairColour> hair_colour_named(std::string_view name) {
+  const auto colours = named_hair_colours();
+  const auto found = std::ranges::find(colours, name, &NamedHairColour::name);
+  return found == colours.end() ? std::nullopt : std::optional(found->colour);
+}
+
+HairColour tinted(const HairColour& hair, Tint tint) {
+  HairColour own = hair;
+  if (tint == Tint::kBrows) {
+    own.eumelanin += 0.1;
+    own.grey = 0.8 * hair.grey * hair.grey;
+  } else if (tint == Tint::kBeard) {
+    own.eumelanin -= 0.05;
+    own.pheomelanin += 0.15 * (1 - hair.eumelanin);
+    own.grey = 0.9 * hair.grey;
+  } else if (tint == Tint::kLashes) {
+    own.eumelanin += 0.3;
+    own.grey = 0.2 * hair.grey;
+  }
+  return rounded_colour(own);
+}
+
+HairColour rounded_colour(const HairColour& colour) {
+  return {to_step(colour.eumelanin, 20), to_step(colour.pheomelanin, 10), to_step(colour.grey, 10)};
+}
+
+bool are_alike(const HairColour& a, const HairColour& b) {
+  constexpr double kRounding = 1e-9;
+  return std::abs(a.eumelanin - b.eumelanin) < 0.1 + kRounding &&
+         std::abs(a.pheomelanin - b.pheomelanin) < 0.2 + kRounding &&
+         std::abs(a.grey - b.grey) < 0.2 + kRounding;
+}
+
+std::string label_of(const HairColour& colour) {
+  return concat('e', percent(colour.eumelanin), 'p', percent(colour.pheomelanin), 'g',
+                percent(colour.grey));
+}
+
+std::optional<HairColour> parse_hair_label(std::string_view label) {
+  HairColour colour;
+  for (const auto& [letter, value] :
+       {std::pair{'e', &colour.eumelanin}, {'p', &colour.pheomelanin}, {'g', &colour.grey}}) {
+    const std::size_t end = std::min(label.find_first_not_of("0123456789", 1), label.size());
+    if (label.empty() || label[0] != letter) return std::nullopt;
+    const auto number = parse_unsigned(label.substr(1, end - 1));
+    if (!number || *number > 100) return std::nullopt;
+    *value = static_cast<double>(*number) / 100;
+    label.remove_prefix(end);
+  }
+  return label.empty() ? std::optional(colour) : std::nullopt;
+}
+
+std::array<float, 3> light_of(const HairColour& colour) {
+  // Fitted to the albedo of blond, brown, black, copper and white hair.
+  constexpr std::array<double, 3> kWithoutPigment = {1.1, 0.78, 0.33};
+  constexpr std::array<double, 3> kEumelanin = {5.3, 5.7, 5.2}, kPheomelanin = {0.5, 1.6, 2.8};
+  constexpr std::array<double, 3> kWhite = {0.375, 0.352, 0.322};
+  constexpr double kSurface = 0.009;
+  std::array<float, 3> light{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double absorbed = kEumelanin[c] * colour.eumelanin + kPheomelanin[c] * colour.pheomelanin;
+    const double pigmented = kSurface + kWithoutPigment[c] * std::exp(-absorbed);
+    light[c] = static_cast<float>(
+        std::min(double{kNeutralLight}, pigmented + colour.grey * (kWhite[c] - pigmented)));
+  }
+  return light;
+}
+
+std::array<float, 3> tint_factors(const HairColour& colour) {
+  std::array<float, 3> factors = light_of(colour);
+  for (float& factor : factors) factor /= kNeutralLight;
+  return factors;
+}
+
+}  // namespace crowdface

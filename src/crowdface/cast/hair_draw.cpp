@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/hair_draw.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "crowdface/cast/shares.h"
+#include "crowdface/core/contains.h"
+#include "crowdface/core/random.h"
+#include "crowdface/core/smooth_step.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+HairColour mix(const HairColour& a, const HairColour& b, double share) {
+  return {a.eumelanin + share * (b.eumelanin - a.eumelanin),
+          a.pheomelanin + share * (b.pheomelanin - a.pheomelanin),
+          a.grey + share * (b.grey - a.grey)};
+}
+
+/// Returns the index of the share that contains `drawn`, or −1.
+int share_at(const std::vector<double>& shares, double drawn) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (drawn < shares[i]) return static_cast<int>(i);
+    drawn -= shares[i];
+  }
+  return -1;
+}
+
+}  // namespace
+
+HairDraw::HairDraw(HairOptions options, const std::vector<int>& groups)
+    : draw_(std::move(options)) {
+  for (const int group : groups) places_.emplace_back(group, sizes_[group]++);
+}
+
+HairColour HairDraw::of(const FacePlan& face, Index head) {
+  const bool is_twin = face.family && draw_.twins.contains(*face.family);
+  const std::string person = is_twin ? *face.family : face.index ? std::string() : face.id;
+  const auto key = [&](const char* what) {
+    return person.empty() ? std::string(what) : concat(what, '/', person);
+  };
+  std::optional<HairColour> colour = inherited(face, person);
+  if (!colour) colour = asked(face);
+  if (!colour) colour = colour_of_tags(head, key("hair/tone"));
+  if (face.family && face.parents.empty()) families_.try_emplace(*face.family, *colour);
+  // A little scatter, so that not all brown hair is the same brown.
+  const std::string purpose = key("hair/scatter");
+  const auto scatter = random_pair({draw_.seed, is_twin ? 0 : face.index.value_or(0), purpose});
+  constexpr double kScatter = 0.1;
+  HairColour own = *colour;
+  own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
+  own.pheomelanin += kScatter * (scatter[1] - 0.5);
+  known_[face.id] = own;
+  own.grey = std::max(own.grey, grey_of(face, head, key("hair/grey")));
+  return rounded_colour(own);
+}
+
+/// Returns the fractions of hair colours for the face's group.
+const std::map<std::string, double>& HairDraw::shares_of(const FacePlan& face) const {
+  static const std::map<std::string, double> kNone;
+  auto found = draw_.hair_colours.find(face.group.value_or(""));
+  if (found == draw_.hair_colours.end()) found = draw_.hair_colours.find("");
+  return found == draw_.hair_colours.end() ? kNone : found->second;
+}
+
+/// Returns the colour that `hair_colours` gives the face. Among the sampled faces of a group, the
+/// fractions are exact.
+std::optional<HairColour> HairDraw::asked(const FacePlan& face) {
+  const std::map<std::string, double>& shares = shares_of(face);
+  if (shares.empty()) return std::nullopt;
+  std::vector<double> parts;
+  std::vector<HairColour> colours;
+  for (const auto& [name, share] : shares) {
+    parts.push_back(share);
+    colours.push_back(*hair_colour_named(name));
+  }
+  int chosen = -1;
+  if (face.index && *face.index <= places_.size()) {
+    const auto& [group, place] = places_[*face.index - 1];
+    const auto [schedule, is_new] = schedules_.try_emplace(group);
+    if (is_new) {
+      schedule->second =
+          scatter_shares(parts, sizes_[group], draw_.seed, concat("hair colours/", group));
+    }
+    chosen = schedule->second[place];
+  } else {
+    const std::string purpose = concat("hair/colour/", face.id);
+    chosen = share_at(parts, random_unit({draw_.seed, face.index.value_or(0), purpose}));
+  }
+  return chosen < 0 ? std::nullopt : std::optional(colours[static_cast<std::size_t>(chosen)]);
+}
+
+/// Returns the colour that a face has from its family.
+std::optional<HairColour> HairDraw::inherited(const FacePlan& face,
+                                              const std::string& person) const {
+  if (face.parents.empty()) {
+    const auto found = face.family ? families_.find(*face.family) : families_.end();
+    return found == families_.end() ? std::nullopt : std::optional(found->second);
+  }
+  std::vector<HairColour> known;
+  for (const std::string& parent : face.parents) {
+    if (const auto colour = colour_of_parent(parent)) known.push_back(*colour);
+  }
+  if (known.empty()) return std::nullopt;
+  if (known.size() == 1) return known[0];
+  // One of the parents' colours, or a colour between them.
+  const std::string purpose = concat("hair/parent/", person);
+  const auto drawn = random_pair({draw_.seed, 0, purpose});
+  const double share = drawn[0] < 0.35 ? 0.0 : drawn[0] < 0.7 ? 1.0 : 0.3 + 0.4 * drawn[1];
+  return mix(known[0], known[1], share);
+}
+
+/// Returns a parent's colour in young years; nothing if the parent is unknown.
+std::optional<HairColour> HairDraw::colour_of_parent(const std::string& parent) const {
+  if (const auto face = known_.find(parent); face != known_.end()) return face->second;
+  const auto head = std::ranges::find(draw_.heads, parent);
+  if (head == draw_.heads.end()) return std::nullopt;
+  return colour_of_tags(head - draw_.heads.begin(), concat("hair/tone/", parent));
+}
+
+/// Returns the colour that the head's tags name. If they name none, draws a colour that is frequent
+/// in the world.
+HairColour HairDraw::colour_of_tags(Index head, const std::string& purpose) const {
+  constexpr std::string_view kEnding = "_hair";
+  for (const std::string& tag : draw_.tags[static_cast<std::size_t>(head)]) {
+    if (!tag.ends_with(kEnding)) continue;
+    const auto colour =
+        hair_colour_named(std::string_view(tag).substr(0, tag.size() - kEnding.size()));
+    if (colour) return *colour;
+  }
+  const double drawn = random_unit({draw_.seed, static_cast<std::uint64_t>(head), purpose});
+  return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
+}
+
+/// Returns the fraction of grey hair at the face's age.
+double HairDraw::grey_of(const FacePlan& face, Index head, const std::string& purpose) const {
+  const std::vector<std::string>& tags = draw_.tags[static_cast<std::size_t>(head)];
+  const double of_head = contains(tags, "old")     ? 0.85
+                         : contains(tags, "adult") ? 0.45
+                         : contains(tags, "young") ? 0.15
+                                                   : 0.3;
+  // Grey begins at different ages.
+  const double begin = random_unit({draw_.seed, face.index.value_or(0), purpose}) - 0.5;
+  return smooth_step(0.5, 1.0, of_head + 0.4 * face.age.value_or(0) + 0.35 * begin);
+}
+
+}  // namespace crowdface

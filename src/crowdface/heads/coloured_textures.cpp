@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/coloured_textures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "crowdface/io/image.h"
+#include "crowdface/io/surface_materials.h"
+#include "crowdface/texture/optical_density.h"
+
+namespace crowdface {
+
+std::vector<LookFile> files_of(const AttachmentLook& look) {
+  std::set<std::filesystem::path> colours;
+  if (look.colour) {
+    for (const SurfaceMaterial& material : read_surface_materials(look.item->materials)) {
+      colours.insert(material.colour_map);
+    }
+  }
+  std::vector<LookFile> files;
+  for (const MaterialFile& file : look.item->materials.files) {
+    files.push_back({file, colours.contains(file.from)});
+  }
+  return files;
+}
+
+std::string coloured_texture(const std::filesystem::path& neutral, const HairColour& colour) {
+  const Image image = read_image(neutral, {.jpeg = true});
+  const std::array<float, 3> factors = tint_factors(colour);
+  // The sRGB value of each channel, by the sRGB value in the neutral texture.
+  std::array<std::array<std::uint8_t, 256>, 3> dyed{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t v = 0; v < 256; ++v) {
+      const float light = light_of_density(static_cast<float>(densities_of_srgb8()[v]));
+      dyed[c][v] = srgb8_of_densities()[density_of_light(factors[c] * light)];
+    }
+  }
+  const bool is_grey = image.channels < 3, has_alpha = image.alpha_channel >= 0;
+  const auto byte_at = [&](int x, int y, int channel) {
+    return static_cast<std::size_t>(
+        std::lround(255 * std::clamp(image.at(x, y, channel), 0.0F, 1.0F)));
+  };
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                 4);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        pixels.push_back(dyed[static_cast<std::size_t>(c)][byte_at(x, y, is_grey ? 0 : c)]);
+      }
+      if (has_alpha) {
+        pixels.push_back(static_cast<std::uint8_t>(byte_at(x, y, image.alpha_channel)));
+      }
+    }
+  }
+  return encode_png(image.width, image.height, has_alpha ? 4 : 3, pixels);
+}
+
+}  // namespace crowdface
