@@ -42,7 +42,7 @@ struct FacePlan {
   std::vector<std::string> attachments;  ///< names
   /// values of the measurements that the plan records (PlanNames::traits); empty: not measured
   std::vector<double> traits = {};
-  std::optional<HairColour> hair;        ///< of faces whose attachments may have a tint
+  std::optional<HairColour> hair;  ///< of faces whose attachments may have a tint
   CastingNotes notes;
 };
 

@@ -37,9 +37,11 @@ bool has_attachments(const std::filesystem::path& folder, const StarterFacts& fa
   draft.config.faces.names = facts.names;
   draft.config.faces.tags = facts.tags;
   draft.heads_known = true;
-  YamlNode from{.kind = YamlNode::Kind::kScalar, .place = {}, .path = "attachments.from"};
+  YamlNode from, section;
+  from.kind = YamlNode::Kind::kScalar;
+  from.path = "attachments.from";
   from.text = folder.string();
-  YamlNode section{.kind = YamlNode::Kind::kMap};
+  section.kind = YamlNode::Kind::kMap;
   section.entries.push_back({"from", {}, std::move(from)});
   attachments_key().read(section, draft.config, draft);
   return complaints.empty() && !draft.config.attachments.items.empty();

@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/sample_cells.h"
+#include "crowdface/cast/skin_draw.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/heads/cached_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
+#include "crowdface/heads/skin_tones.h"
 #include "crowdface/run/shortfall.h"
 
 namespace crowdface {
@@ -98,6 +101,31 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
   return reports;
 }
 
+std::set<std::string> twin_families(const Config& config) {
+  std::set<std::string> names;
+  for (const FamilyOptions& family : config.families) {
+    if (family.twins) names.insert(family.name);
+  }
+  return names;
+}
+
+/// Gives children skin between that of their parents. Only crowds whose attachments have a tint: other
+/// crowds stay as they are.
+void draw_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>& crowd) {
+  const bool has_children =
+      std::ranges::any_of(crowd, [](const FacePlan& face) { return !face.parents.empty(); });
+  const bool has_tint = std::ranges::any_of(
+      config.attachments.items, [](const auto& item) { return item.tint != Tint::kNone; });
+  if (!has_children || !has_tint) return;
+  std::vector<double> tones = skin_tones(inputs);
+  if (tones.empty()) return;
+  const ColourShares shares(config, inputs);
+  draw_skin_of_children(
+      {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
+       [&](const Recipe& recipe) { return shares.of(recipe); }, twin_families(config)},
+      crowd);
+}
+
 /// Rounds values to the four decimals that plans store, so that runs that read the plan report the
 /// same values.
 void round_as_planned(std::vector<FacePlan>& crowd) {
@@ -160,9 +188,7 @@ AttachmentDraw attachment_draw(const Config& config) {
   for (const Group& group : config.groups) {
     if (!group.hair_colours.empty()) draw.hair_colours[group.name] = group.hair_colours;
   }
-  for (const FamilyOptions& family : config.families) {
-    if (family.twins) draw.twins.insert(family.name);
-  }
+  draw.twins = twin_families(config);
   return draw;
 }
 
@@ -218,6 +244,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected,
                      crowd.rejected_from);
   }
+  draw_skin(config, inputs, result.crowd);
   for (FamilyPlan& family : crowd.families) {
     const auto member = std::ranges::find(result.crowd, family.name, &FacePlan::family);
     if (member != result.crowd.end()) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+
+namespace crowdface {
+
+/// The mean optical density of each head's colour textures, #heads; empty if faces have no blended
+/// colour textures. Samples one texel in each block of 16 by 16.
+std::vector<double> skin_tones(const Inputs& inputs);
+
+/// Weights of the heads in the colours of a face, by the regions' shares of the face.
+class ColourShares {
+ public:
+  ColourShares(const Config& config, const Inputs& inputs);
+  std::vector<double> of(const Recipe& recipe) const;
+
+ private:
+  std::size_t heads_;
+  std::vector<double> region_shares_;
+};
+
+}  // namespace crowdface
