@@ -368,12 +368,12 @@ ConfigOverrides with_reviews(ConfigOverrides overrides, const GenerateOptions& o
   return overrides;
 }
 
-Job load_job(const fs::path& config_file, const ConfigOverrides& overrides,
-             const GenerateOptions& options) {
+Job job_for(const fs::path& config_file, const ConfigOverrides& overrides,
+            const GenerateOptions& options) {
   return load_job(config_file, with_reviews(overrides, options), options.cache);
 }
 
-Job load_job(const Config& config, const GenerateOptions& options) {
+Job job_for(const Config& config, const GenerateOptions& options) {
   return load_job(config, options.cache, with_reviews({}, options));
 }
 
@@ -397,11 +397,11 @@ void plan_job(const Job& job, const GenerateOptions& options) {
 
 void generate(const fs::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options) {
-  generate_loaded([&] { return load_job(config_file, overrides, options); }, options);
+  generate_loaded([&] { return job_for(config_file, overrides, options); }, options);
 }
 
 void generate(const Config& config, const GenerateOptions& options) {
-  generate_loaded([&] { return load_job(config, options); }, options);
+  generate_loaded([&] { return job_for(config, options); }, options);
 }
 
 void gather(const fs::path& crowd_directory, const fs::path& cache) {
@@ -416,11 +416,11 @@ void gather(const fs::path& crowd_directory, const fs::path& cache) {
 
 void plan(const fs::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options) {
-  plan_job(load_job(config_file, overrides, options), options);
+  plan_job(job_for(config_file, overrides, options), options);
 }
 
 void plan(const Config& config, const GenerateOptions& options) {
-  plan_job(load_job(config, options), options);
+  plan_job(job_for(config, options), options);
 }
 
 }  // namespace crowdface
