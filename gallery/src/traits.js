@@ -30,7 +30,7 @@ export class TraitPanel {
     this.ends = [end(0, 'from'), end(1, 'to')];
     this.chart = el('svg', { class: 'histogram', viewBox: `0 0 ${size.width} ${size.height}` });
     this.text = el('small', { class: 'muted' });
-    this.node = el('section', { class: 'traits' }, el('label', {}, 'Measurement', this.choice), this.chart,
+    this.node = el('section', { class: 'traits' }, el('label', {}, 'Trait', this.choice), this.chart,
       this.text, el('div', { class: 'ends' }, this.ends));
     this.draw();
   }
@@ -44,6 +44,7 @@ export class TraitPanel {
     this.ranges[name] = range;
     if (range.every((value) => value === null)) delete this.ranges[name];
     this.change({ traits: this.ranges });
+    this.draw();
   }
 
   draw() {
@@ -68,7 +69,10 @@ export class TraitPanel {
         class: 'heads', x1: place(value), x2: place(value), y1: base + 1, y2: size.height,
       }, el('title', {}, `${this.crowd.heads[at].name}: ${traitText(this.trait, value)}`))));
     this.text.textContent = `${traitText(this.trait, low)} to ${traitText(this.trait, high)}; lines: heads`;
+    for (const option of this.choice.options) { // a dot where a filter is set
+      option.textContent = `${this.ranges[option.value] ? '• ' : ''}${wordsOf(option.value)}`;
+    }
     const range = this.ranges[name] ?? [null, null];
-    this.ends.forEach((end, at) => { end.value = range[at] ?? ''; });
+    this.ends.forEach((end, at) => { if (document.activeElement !== end) end.value = range[at] ?? ''; });
   }
 }

@@ -65,6 +65,18 @@ assert.deepEqual(await ids(), all.filter((id) => id.includes(drawn[2])));
 await page.fill('input[type=search]', 'nobody is called this');
 assert.equal(await count('.cell'), 0);
 await page.fill('input[type=search]', '');
+// By a measurement: order, filter, histogram with the heads.
+const widths = await page.evaluate(() => Object.fromEntries(window.crowdface.page.crowd.faces.map((face) =>
+  [face.id, face.traits.nose_width])));
+const byWidth = Object.keys(widths).sort((a, b) => widths[a] - widths[b]);
+await page.selectOption('select[name=sort]', '+nose_width');
+assert.deepEqual(await ids(), byWidth);
+await page.fill('input[data-end=from]', String(widths[byWidth[3]]));
+assert.deepEqual(await ids(), byWidth.slice(3));
+await page.fill('input[data-end=from]', '');
+assert.deepEqual(await ids(), byWidth);
+assert.equal(await count('.histogram .heads'), await page.evaluate(() => window.crowdface.page.crowd.heads.length));
+await page.selectOption('select[name=sort]', 'plan');
 for (const order of ['distance', 'likeness', 'id']) {
   await page.selectOption('select[name=sort]', order);
   assert.deepEqual((await ids()).sort(), [...all].sort(), `order ${order} loses faces`);

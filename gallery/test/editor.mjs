@@ -51,6 +51,8 @@ console.log(`opened in ${Date.now() - began} ms, blends on the ${await editor('e
 const job = await editor('({regions: editor.job.regions.map((r) => r.name), heads: editor.job.heads.map((h) => h.name), mm: editor.job.mm_per_unit, faces: editor.job.crowd?.faces.length ?? 0, textures: editor.job.heads.some((h) => h.texture)})');
 const [region] = job.regions;
 assert.match(await page.locator('.measures').innerText(), /nearest head \d/);
+await page.waitForSelector('.traits summary');
+assert.match(await page.locator('.traits').textContent(), /nose width[\d.]+ mm[+−][\d.]+/);
 await take('opened');
 
 // What the face wears stands on it once the program has told where, and can be chosen.

@@ -20,6 +20,7 @@ schema: 1
 crowd: {name: mob, count: 7}
 faces: {directory: heads, units: cm, tags: {synth_01: [old], synth_02: [young]}}
 regions: {names: [top, middle, bottom], mask: $root/masks/synth_bands.png}
+traits: {nose_width: {}, facial_index: {}}
 recipes: [{id: by_hand, target: synth_01, regions: {all: {weights: {synth_02: 1}}}}]
 families: [{name: smith, members: 2, target: synth_03, max_distance: 4 mm}]
 attachments: {items: [{name: card, kind: hat, file: card.obj, moves: rigid}, {name: tuft, kind: brows, file: tuft.obj}]}

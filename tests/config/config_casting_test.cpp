@@ -347,5 +347,67 @@ TEST_F(ConfigTest, ReviewsAreReadAtTheirPlaces) {
   EXPECT_THAT(told(), HasSubstr("no region is called \"tpo\""));
 }
 
+TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
+  touch("census.csv",
+        "trait,mean,standard deviation\r\nnose_width, 36, 2.5\r\n\"facial_index\",0.85,0.04\n");
+  const auto config =
+      read(kBands +
+           "traits: {nose_width: {at_least: 3.6 cm}, eye_slope: [-2, 70 %], face_height: {}}\n"
+           "population: census.csv\n"
+           "groups: [{name: g, share: 0.5, traits: {nose_width: [10 %, 30 %], nasal_index: [0.5, "
+           "0.8]}}]\n"
+           "recipes: [{id: lead, target: ann, traits: {mouth_width: {at_most: 50 mm}}}]\n"
+           "families: [{name: kin, members: 2, traits: {intercanthal: {at_most: 30 %}}}]\n");
+  ASSERT_TRUE(config) << told();
+  const auto trait = [](const char* name) { return *find_measurement(name); };
+  const TraitLimits crowd = {{trait("face_height")},
+                             {trait("nose_width"), TraitEnd{36, false}},
+                             {trait("eye_slope"), TraitEnd{-2, false}, TraitEnd{0.7, true}}};
+  EXPECT_EQ(config->sampling.traits, crowd);
+  const TraitLimits group = {{trait("face_height")},
+                             {trait("nose_width"), TraitEnd{0.1, true}, TraitEnd{0.3, true}},
+                             {trait("eye_slope"), TraitEnd{-2, false}, TraitEnd{0.7, true}},
+                             {trait("nasal_index"), TraitEnd{0.5, false}, TraitEnd{0.8, false}}};
+  EXPECT_EQ(config->groups.at(0).sampling.traits, group);
+  EXPECT_EQ(config->recipes.at(0).traits.at(0).at_most, (TraitEnd{50, false}));
+  EXPECT_EQ(config->families.at(0).traits.at(0).at_most, (TraitEnd{0.3, true}));
+  const std::vector<TraitTarget> census = {{trait("nose_width"), 36, 2.5},
+                                           {trait("facial_index"), 0.85, 0.04}};
+  EXPECT_EQ(config->population.targets, census);
+  EXPECT_THAT(config->plan_names().traits,
+              ElementsAre("face_height", "nose_width", "mouth_width", "intercanthal", "eye_slope",
+                          "facial_index", "nasal_index"));
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told();
+  EXPECT_EQ(effective_config(*again, folder_), written);
+}
+
+TEST_F(ConfigTest, WrongLimitsOnMeasurementsAreRefused) {
+  const auto refusal = [&](const std::string& more) {
+    problems_ = Problems();
+    EXPECT_FALSE(read(kBands + more)) << more;
+    return told();
+  };
+  EXPECT_THAT(refusal("traits: {nose_widht: {}}\n"),
+              HasSubstr("no measurement is called \"nose_widht\"; did you mean \"nose_width\"?"));
+  EXPECT_THAT(refusal("traits: {nose_width: {at_least: 38}}\n"),
+              HasSubstr("a length with its unit, such as \"38 mm\""));
+  EXPECT_THAT(refusal("traits: {nose_width: [20 %, 101 %]}\n"),
+              HasSubstr("a quantile from 0 % to 100 %"));
+  EXPECT_THAT(refusal("traits: {eye_slope: {at_least: 3 mm}}\n"), HasSubstr("an angle in degrees"));
+  EXPECT_THAT(refusal("traits: {nose_width: [40 mm, 30 mm]}\n"),
+              HasSubstr("a least value that is at most the greatest"));
+  EXPECT_THAT(refusal("traits: {nose_width: 38 mm}\n"), HasSubstr("{at_least: …, at_most: …}"));
+  touch("census.csv", "nose_width,36,0\nnose,1,1\nmouth_width,50\n");
+  const std::string told_of_census = refusal("population: census.csv\n");
+  EXPECT_THAT(told_of_census, HasSubstr("census.csv:1: expected numbers"));
+  EXPECT_THAT(told_of_census, HasSubstr("census.csv:2: no measurement is called \"nose\""));
+  EXPECT_THAT(told_of_census, HasSubstr("census.csv:3: expected a measurement, its mean"));
+  touch("census.csv", "nose_width,36,2\n");
+  EXPECT_THAT(refusal("diversity: {mode: spread}\npopulation: census.csv\n"),
+              HasSubstr("requires diversity.mode: first_fit"));
+}
+
 }  // namespace
 }  // namespace crowdface

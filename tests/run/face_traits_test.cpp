@@ -280,5 +280,16 @@ TEST(FaceTraits, APopulationHasTheAskedDistributions) {
   }
 }
 
+TEST(FaceTraits, TheReportTellsWhereTheHeadsDoNotReachThePopulation) {
+  TraitFolder folder;
+  folder.write("census.csv", "mouth_width,80,3\n");
+  folder.plan_of(30, "population: census.csv\n");
+  const auto casting = nlohmann::json::parse(testing::read_text(folder / "out/casting.json"));
+  const auto& of_mouth = casting.at("traits").at("mouth_width").at("population");
+  EXPECT_GT(of_mouth.at("largest_difference"), 0.9);
+  EXPECT_GT(of_mouth.at("asked_above_reach"), 0.9);
+  EXPECT_EQ(of_mouth.at("asked_below_reach"), 0);
+}
+
 }  // namespace
 }  // namespace crowdface

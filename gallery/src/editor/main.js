@@ -93,12 +93,13 @@ class Editor extends ProgramPage {
     this.tools = toolbar(this);
     this.viewTools = viewBar(this);
     this.status = el('div', { class: 'measures', role: 'status', 'aria-live': 'polite' });
+    this.traitBox = el('div', { class: 'traits' });
     this.message = el('div', { class: 'message', role: 'alert', hidden: true });
     this.node = el('div', { class: 'editor' }, this.tools.node,
       el('main', {},
         el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.viewTools.node, this.status),
         el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
-        el('aside', { 'aria-label': 'Regions' }, this.panel.node)),
+        el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.traitBox)),
       this.message);
   }
 
@@ -218,29 +219,28 @@ class Editor extends ProgramPage {
     const distance = (title, near, name, limit) => (near ? el('span', { class: near.mm < limit ? 'bad' : null },
       `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`) : null);
     const { asymmetry = 1, mirrored = false } = this.document.recipe;
+    this.traits(face.traits ?? []);
     this.status.replaceChildren(...[
       asymmetry === 1 ? null : el('span', { class: 'asymmetry' }, `asymmetry ${short(asymmetry)}`),
       mirrored ? el('span', { class: 'mirrored' }, 'mirrored') : null,
       distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
       distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
       face.ms === undefined ? null : el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
-      this.traits(face.traits ?? []),
       ...(face.warnings ?? []).map((text) => el('p', { class: 'warning' }, text)),
     ].filter(Boolean));
   }
 
   /// The measurements of the face, and how they differ from the heads' mean.
   traits(all) {
-    if (all.length === 0) return null;
     const digits = ({ unit }) => (unit ? 1 : 3);
     const signed = (trait) => `${trait.more < 0 ? '−' : '+'}${Math.abs(trait.more).toFixed(digits(trait))}`;
-    return el('details', {
-      class: 'traits', open: this.showsTraits, ontoggle: (event) => { this.showsTraits = event.target.open; },
+    this.traitBox.replaceChildren(...(all.length === 0 ? [] : [el('details', {
+      open: this.showsTraits, ontoggle: (event) => { this.showsTraits = event.target.open; },
     }, el('summary', {}, 'Measurements'), el('table', {},
       el('tr', {}, el('th', {}, ''), el('th', {}, ''), el('th', { title: "difference to the heads' mean" }, 'to mean')),
       all.map((trait) => el('tr', { title: trait.symbol }, el('td', {}, trait.name.replaceAll('_', ' ')),
         el('td', {}, `${trait.value.toFixed(digits(trait))}${trait.unit === ' degrees' ? '°' : trait.unit}`),
-        el('td', {}, signed(trait))))));
+        el('td', {}, signed(trait))))))]));
   }
 
   // -- regions --

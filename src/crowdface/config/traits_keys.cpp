@@ -120,6 +120,7 @@ std::vector<TraitTarget> read_population(const YamlNode& node, const std::filesy
   for (std::string_view line : split_lines(text)) {
     ++number;
     if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);  // a byte order mark
+    if (line.ends_with('\r')) line.remove_suffix(1);
     std::vector<std::string> fields;
     for (std::string_view field : split(line, ',')) {
       while (!field.empty() && (is_blank(field.front()) || field.front() == '"')) {
