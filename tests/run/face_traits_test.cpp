@@ -118,7 +118,9 @@ TEST(FaceTraits, AgreeWithTheWrittenMeshes) {
       {"exact", "smoothing: {levels: exact}\n"},
       {"cubic", "smoothing: {levels: cubic}\n"},
       {"mirrored", "sampling: {asymmetry: [0.3, 1.4], mirror: drawn, extrapolation: [0.7, 1.4]}\n"},
-      {"no contacts", "blending: {contacts: none}\n"}};
+      {"no contacts", "blending: {contacts: none}\n"},
+      {"neck", "neck: {like: mean}\n"},
+      {"mirrored on a neck", "neck: {like: mean}\nsampling: {mirror: drawn}\n"}};
   TraitFolder folder;
   for (const auto& [kind, more] : kinds) {
     SCOPED_TRACE(kind);
