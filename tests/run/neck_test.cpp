@@ -541,6 +541,125 @@ TEST_F(Neck, TheTableTellsTheMeanOfTheTextureAboveTheRing) {
   EXPECT_EQ(of_target, table_row(folder_ / "plain", "c").at("neck_linear_g"));
 }
 
+/// Gives the body texture coordinates around its axis and a grey texture.
+void paint_body(testing::TemporaryFolder& folder, Mesh body) {
+  body.uvs.resize(body.positions.rows(), 2);
+  const Eigen::RowVector3d middle = body.positions.colwise().mean();
+  const double low = body.positions.col(1).minCoeff(), high = body.positions.col(1).maxCoeff();
+  for (Index v = 0; v < body.positions.rows(); ++v) {
+    // Seen from above: the ring is the inner circle.
+    const Eigen::RowVector3d out = body.positions.row(v) - middle;
+    const double radius = 0.2 + 0.25 * (high - body.positions(v, 1)) / (high - low);
+    const double angle = std::atan2(out.z(), out.x());
+    body.uvs.row(v) << 0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle);
+  }
+  body.topology.corner_uvs = body.topology.corner_vertices;
+  encode_obj(body, "").write(folder / "body.obj");
+  folder.write("body.png",
+               encode_png(256, 256, 1, std::vector<std::uint8_t>(std::size_t{256} * 256, 90)));
+}
+
+/// The value of an image at texture coordinates.
+double value_at(const Image& image, const Eigen::RowVector2d& uv) {
+  return image.at(static_cast<int>(uv.x() * image.width),
+                  static_cast<int>((1 - uv.y()) * image.height), 0);
+}
+
+TEST_F(Neck, TheBodysTextureAgreesWithTheFaceAtTheRing) {
+  paint_heads();
+  paint_body(folder_, body_);
+  const auto out = run("{body: body.obj, body_texture: body.png}", kThreeRecipes);
+  const ObjFile body = read_obj(folder_ / "body.obj");
+  const auto far = [&](const std::string& id) {
+    const Image image = read_image(out / "meshes/blended" / concat(id, ".body.png"));
+    EXPECT_EQ(image.width, 256);
+    const Image face = read_image(out / "meshes/blended" / concat(id, ".png"));
+    // The face's texture depends on the height only; the ring has a few polygons of height.
+    for (Index i = 0; i < seam_.rows(); i += 5) {
+      const std::uint32_t v = rim_[static_cast<std::size_t>(i)];
+      double above = 0, count = 0;
+      for (Index f = 0; f < heads_.topology().face_count(); ++f) {
+        const auto corners = heads_.topology().face(f), uvs = heads_.topology().face_uvs(f);
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+          if (corners[c] != v) continue;
+          above += value_at(face, heads_.uvs().row(uvs[c]));
+          count += 1;
+        }
+      }
+      Index at = 0;
+      (body.positions.rowwise() - seam_.row(i)).rowwise().norm().minCoeff(&at);
+      EXPECT_NEAR(value_at(image, body.uvs.row(at)), above / count, 0.05) << id << ' ' << i;
+    }
+    return value_at(image, Eigen::RowVector2d(0.94, 0.5));
+  };
+  EXPECT_NE(far("a"), far("b")) << "each face its own";
+  EXPECT_TRUE(verify_crowd(out).good());
+}
+
+TEST_F(Neck, GlbAndUsdFilesContainTheBody) {
+  const auto out =
+      run("{body: body.obj, write_body: true}", "", ", meshes: [obj, ply, glb, usd], lods: [40 %]");
+  const auto has_body = [&](const char* file) {
+    return testing::read_text(out / "meshes" / file).find("body") != std::string::npos;
+  };
+  EXPECT_TRUE(has_body("mob_0001.glb"));
+  EXPECT_TRUE(has_body("mob_0001.usda"));
+  EXPECT_FALSE(has_body("mob_0001+LOD1.glb"));
+  EXPECT_FALSE(has_body("mob_0001.obj"));
+  const Job job = load_job(folder_ / "out.yaml", {});
+  const Singles normals = normals_at_seam(job.inputs);
+  std::map<Single, Single> found;
+  for (const char* file : {"mob_0001.glb", "mob_0002.usda", "mob_0003+LOD1.glb"}) {
+    expect_seam(out / "meshes" / file, seam_, normals, found);
+  }
+  EXPECT_TRUE(verify_crowd(out).good());
+  // Faces are those of a crowd without the body.
+  const auto plain = run("{body: body.obj}", "", ", meshes: [obj]", "plain");
+  EXPECT_EQ(testing::read_text(out / "meshes/mob_0004.obj"),
+            testing::read_text(plain / "meshes/mob_0004.obj"));
+}
+
+TEST_F(Neck, PicturesShowTheBodyInTheFacesColour) {
+  paint_heads();
+  const auto pictures = [&](const std::string& neck, const std::string& name) {
+    const fs::path config = folder_.write(
+        concat(name, ".yaml"),
+        concat("schema: 1\ncrowd: {name: mob, count: 2, seed: 3}\n",
+               "faces: {directory: heads, units: cm}\nneck: ", neck, "\noutput: {directory: ", name,
+               ", meshes: [obj], contact_sheet: {cell: 96}}\n"));
+    generate(config, {}, {folder_ / "cache", Replace::kRefuse, false});
+    return read_image(folder_ / name / "renders/mob_0001.png");
+  };
+  // Heads alone are larger: their necks may be cut off, but shoulders must be seen.
+  const Image alone = pictures("{body: body.obj}", "alone");
+  const Image shown = pictures("{body: body.obj, show_body: true}", "shown");
+  const auto skin_rows = [](const Image& image) {  // rows that differ from the background
+    int rows = 0;
+    for (int y = 0; y < image.height; ++y) {
+      const float grey = image.at(0, y, 0) - image.at(image.width / 2, y, 0);
+      rows += std::abs(grey) > 0.05F ? 1 : 0;
+    }
+    return rows;
+  };
+  EXPECT_NE(skin_rows(shown), skin_rows(alone));
+  EXPECT_TRUE(verify_crowd(folder_ / "shown").good());
+  EXPECT_EQ(testing::read_text(folder_ / "alone/meshes/mob_0002.obj"),
+            testing::read_text(folder_ / "shown/meshes/mob_0002.obj"));
+}
+
+TEST_F(Neck, OnlyABodyCanBeShown) {
+  const Mesh head{heads_.topology(), read_obj(folder_ / "heads/head_2.obj").positions, {}};
+  encode_obj(head, "").write(folder_ / "body.obj");
+  expect_error(ExitCode::kBadData, {"body.obj", "found a head"},
+               [&] { load_job(configure("{body: body.obj, show_body: true}", ""), {}); });
+  expect_error(ExitCode::kUsage, {"show_body", "need body"},
+               [&] { load_job(configure("{like: mean, show_body: true}", ""), {}); });
+  write_body(body_below(seam_));
+  folder_.write("body.png", encode_png(4, 4, 1, std::vector<std::uint8_t>(16, 90)));
+  expect_error(ExitCode::kUsage, {"body_texture", "neither textures"},
+               [&] { load_job(configure("{body: body.obj, body_texture: body.png}", ""), {}); });
+}
+
 TEST_F(Neck, TheTableTellsTheColoursOfVertices) {
   const auto plain = run("{body: body.obj}", kThreeRecipes, "", "plain");
   EXPECT_FALSE(table_row(plain, "a").contains("neck_srgb")) << "there are no colours";

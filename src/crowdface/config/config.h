@@ -162,13 +162,17 @@ struct Config {
 
   /// The ring of vertices at the neck in which all faces end.
   struct Neck {
-    std::filesystem::path body;        ///< the mesh that the faces end on; empty: none
-    std::optional<Eigen::Index> like;  ///< the head whose neck all faces get
-    bool mean = false;                 ///< all faces get the mean of the heads' necks
-    std::filesystem::path rim;         ///< file of the ring's vertices; empty: the open rim
-    double falloff_mm = 60;            ///< how far up from the ring faces are bent
+    std::filesystem::path body;          ///< the mesh that the faces end on; empty: none
+    std::optional<Eigen::Index> like;    ///< the head whose neck all faces get
+    bool mean = false;                   ///< all faces get the mean of the heads' necks
+    std::filesystem::path rim;           ///< file of the ring's vertices; empty: the open rim
+    double falloff_mm = 60;              ///< how far up from the ring faces are bent
+    std::filesystem::path body_texture;  ///< the body's colours, tinted for each face; empty: none
+    bool show_body = false;              ///< whether pictures show the body
+    bool write_body = false;             ///< whether GLB and USD files contain the body
 
     bool is_set() const { return !body.empty() || like || mean; }
+    bool needs_body_mesh() const { return !body_texture.empty() || show_body || write_body; }
   } neck;
 
   /// An attachment that a head may wear, such as hair or glasses: a separate mesh.

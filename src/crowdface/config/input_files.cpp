@@ -189,6 +189,7 @@ std::vector<fs::path> input_files(const Config& config) {
   add(config.rig);
   add(config.neck.body);
   add(config.neck.rim);
+  add(config.neck.body_texture);
   std::ranges::for_each(config.lists, add);
   add(config.attachments.file);
   for (const Config::Attachment& item : config.attachments.items) add(item.file);

@@ -23,6 +23,13 @@ constexpr double kStrengthMm = 48;
 
 }  // namespace
 
+Recipe recipe_of_head(Index head) {
+  Recipe recipe;
+  recipe.target = head;
+  recipe.colours = {{head, 1}};
+  return recipe;
+}
+
 std::vector<PictureName> own_pictures(const Inputs& inputs) {
   std::vector<PictureName> pictures = inputs.textures.names;
   for (const HeadTextures& maps : inputs.maps) {
@@ -36,7 +43,11 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
   blend_textures(config);
   if (!inputs.neck) return;
   SeamColours seam(inputs, inputs.textures.blend() ? blenders_.front().get() : nullptr);
-  if (seam.any()) seam_.emplace(std::move(seam));
+  if (!seam.any()) return;
+  seam_.emplace(std::move(seam));
+  if (!config.neck.show_body && config.neck.body_texture.empty()) return;
+  body_ = std::make_unique<const BodyPainter>(*inputs.neck, config.neck.falloff_mm,
+                                              config.neck.body_texture);
 }
 
 void FaceTextures::blend_textures(const Config& config) {
@@ -100,6 +111,10 @@ std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {
   std::vector<double> shares(heads, 0.0);
   shares[static_cast<std::size_t>(recipe.target)] = 1;
   return shares;
+}
+
+BlendedPicture FaceTextures::paint_body(const Recipe& recipe) const {
+  return body_->paint(seam_->at_ring(colour_shares(recipe)));
 }
 
 std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) const {

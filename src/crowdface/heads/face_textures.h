@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "crowdface/config/config.h"
+#include "crowdface/heads/body_painter.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/heads/seam_colours.h"
 #include "crowdface/texture/texture_blender.h"
@@ -18,6 +19,9 @@ std::vector<PictureName> own_pictures(const Inputs& inputs);
 inline bool has_own_textures(const Inputs& inputs) {
   return inputs.textures.blend() || !inputs.maps.empty();
 }
+
+/// A recipe with the colours of an unchanged head.
+Recipe recipe_of_head(Index head);
 
 class FaceTextures {
  public:
@@ -36,6 +40,11 @@ class FaceTextures {
   /// Mean colour of the skin in a band above the neck's ring, in linear light; nothing without
   /// `neck` or without colours. Thread-safe.
   std::optional<Eigen::Array3d> seam_colour(const Recipe& recipe) const;
+  /// Paints the body's texture for each face. Null if faces have no colours or nothing shows the
+  /// body.
+  const BodyPainter* body() const { return body_.get(); }
+  /// The body's texture for a face. Requires body(). Thread-safe.
+  BlendedPicture paint_body(const Recipe& recipe) const;
 
   /// Memory of this object, and the memory needed to blend the largest image, in bytes.
   std::uint64_t memory_bytes() const;
@@ -58,6 +67,7 @@ class FaceTextures {
   std::vector<double> region_shares_;  ///< share of each region in the face
   std::vector<bool> of_target_;        ///< #V, see blend_vertex_colours
   std::optional<SeamColours> seam_;    ///< empty without colours at the neck's ring
+  std::unique_ptr<const BodyPainter> body_;
 };
 
 /// Memory of the heads' texture maps that lie in memory, in bytes.

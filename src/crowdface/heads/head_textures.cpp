@@ -90,6 +90,10 @@ TextureLayer& layer_of(TextureKind kind, TextureSet& texture_set) {
 
 }  // namespace
 
+Texture texture_of(const BlendedPicture& colours, int max_px) {
+  return texture_of(colours.width, colours.height, colours.srgb, max_px);
+}
+
 int shown_texels(const Config::ContactSheet& sheet) {
   constexpr int kMin = 1024;
   return std::max(kMin, 2 * sheet.cell);
@@ -127,7 +131,7 @@ void FaceTextureSet::add(std::size_t picture, const BlendedPicture& blended) {
   const bool is_colour = kind == TextureKind::kColour;
   if (!is_colour && !is_shown(kind)) return;
   layer_of(kind, texture_set_).textures[number] = std::make_shared<const Texture>(
-      is_colour ? texture_of(blended.width, blended.height, blended.srgb, max_px_)
+      is_colour ? texture_of(blended, max_px_)
                 : finish_of(blended, kind == TextureKind::kNormal, finish_texels(max_px_)));
 }
 

@@ -49,6 +49,9 @@ int shown_texels(const Config::ContactSheet& sheet);
 /// Whether renders show any of these kinds.
 bool any_is_shown(const std::vector<HeadTextures>& maps);
 
+/// Colours as a texture for renders. \param max_px  maximum side length
+Texture texture_of(const BlendedPicture& colours, int max_px);
+
 /// A face's own textures for renders: colours in linear light, and normals and roughness for
 /// shading.
 class FaceTextureSet {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/inputs.h"
 #include "crowdface/neck/seam.h"
 #include "crowdface/parts/rigid_motion.h"
 
@@ -22,7 +24,10 @@ struct HeadsOnBody {
   std::vector<Head> heads;
   Positions unplaced_mean;  ///< mean of the heads before they were placed
   double mm_per_unit = 1;
-  Digest digest;  ///< hash of the seam and of `falloff`
+  /// The body, if pictures or files show it or faces get a texture for it; else null.
+  std::shared_ptr<const Attachment> body;
+  Rim body_rim;   ///< the body's vertex for each vertex of the ring; empty without `body`
+  Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
 };
 
 }  // namespace crowdface

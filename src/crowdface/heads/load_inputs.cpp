@@ -309,6 +309,11 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : odd_masks(config, inputs)) inputs.warn(std::move(text));
   inputs.mask_digest = Hasher().add_array(numbers_of(inputs.regions.alpha)).digest();
   read_textures(config, cache, inputs, problems);
+  if (!config.neck.body_texture.empty() && inputs.colours.empty() && !inputs.textures.any()) {
+    problems.add(ExitCode::kUsage, concat(config.file.string(),
+                                          ": neck.body_texture: the heads have neither textures "
+                                          "nor vertex colours to which the body can be tinted"));
+  }
   load_shapes(config, cache, inputs, problems);
   load_points(config, inputs, problems);
   load_rig(config, inputs, problems);

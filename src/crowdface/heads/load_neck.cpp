@@ -72,10 +72,26 @@ Positions areas_around(const Topology& topology, const Positions& positions, con
 /// The goal for the heads' rim, and the area vectors of the body's polygons around it.
 struct Body {
   Positions rim, areas;  ///< #rim by 3
+  std::shared_ptr<const Attachment> mesh = {};
+  Rim mesh_rim = {};
 };
 
+/// \throws InvalidInput if the body is a head.
+void keep_body(ObjFile mesh, const Rim& rim, bool is_head, Body& body) {
+  if (is_head) {
+    throw InvalidInput("body_texture, show_body and write_body need a body, found a head");
+  }
+  auto kept = std::make_shared<Attachment>();
+  kept->name = kept->kind = "body";
+  kept->materials = find_material_files(mesh.material_path(), mesh.material_libraries);
+  kept->text = Hasher().add(mesh.file.bytes()).digest();
+  kept->file = std::move(mesh);
+  body.mesh = std::move(kept);
+  body.mesh_rim = rim;
+}
+
 Body read_body(const Config& config, const Inputs& inputs, const Rim& rim) {
-  const ObjFile mesh = read_mesh_as_obj(config.neck.body);
+  ObjFile mesh = read_mesh_as_obj(config.neck.body);
   const double mm = mm_per(config.faces.units);
   const Positions head = mm * mean_head(inputs.faces)(rim, kAllColumns);
   const bool is_head = first_difference(inputs.faces.topology, mesh.topology).empty();
@@ -83,7 +99,10 @@ Body read_body(const Config& config, const Inputs& inputs, const Rim& rim) {
   if (!is_head) rims = open_rims(mesh.topology, build_adjacency(mesh.topology));
   try {
     const Rim found = matching_rim(head, rims, mm * mesh.positions, config.neck.falloff_mm);
-    return {mesh.positions(found, kAllColumns), areas_around(mesh.topology, mesh.positions, found)};
+    Body body{mesh.positions(found, kAllColumns),
+              areas_around(mesh.topology, mesh.positions, found)};
+    if (config.neck.needs_body_mesh()) keep_body(std::move(mesh), found, is_head, body);
+    return body;
   } catch (const InvalidInput& error) {
     refuse_file(config.neck.body, error.what());
   }
@@ -194,15 +213,23 @@ void place_heads(const Config& config, Inputs& inputs) {
             NeckBend(faces.topology, inputs.adjacency, mean, rim, config.neck.falloff_mm / mm)};
   seam.fit(mean);
   seam.normals = normals_of(areas_around(faces.topology, mean, rim), body.areas);
-  const Digest digest = Hasher()
-                            .add_array(std::span(std::as_const(seam.rim)))
-                            .add_array(numbers_of(std::as_const(seam.positions)))
-                            .add_array(numbers_of(std::as_const(seam.normals)))
-                            .add(config.neck.falloff_mm)
-                            .digest();
+  Hasher hasher;
+  hasher.add_array(std::span(std::as_const(seam.rim)))
+      .add_array(numbers_of(std::as_const(seam.positions)))
+      .add_array(numbers_of(std::as_const(seam.normals)))
+      .add(config.neck.falloff_mm);
+  if (body.mesh) {
+    hasher.add(body.mesh->text).add(int{config.neck.show_body}).add(int{config.neck.write_body});
+    for (const MaterialFile& file : body.mesh->materials.files) {
+      hasher.add(hash_file(file.from).digest);
+    }
+  }
+  if (!config.neck.body_texture.empty()) hasher.add(hash_file(config.neck.body_texture).digest);
+  const Digest digest = hasher.digest();
   warn_of_bent(config, heads, inputs);
-  inputs.neck = std::make_shared<const HeadsOnBody>(
-      HeadsOnBody{std::move(seam), std::move(heads), std::move(unplaced_mean), mm, digest});
+  inputs.neck = std::make_shared<const HeadsOnBody>(HeadsOnBody{std::move(seam), std::move(heads),
+                                                                std::move(unplaced_mean), mm,
+                                                                body.mesh, body.mesh_rim, digest});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/render/contact_sheet.h"
@@ -73,7 +74,7 @@ std::optional<VertexColours> shown_colours(const ColourRows& colours,
 }
 
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
-                                 const Inputs& inputs) {
+                                 const Inputs& inputs, bool with_body) {
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
   std::vector<Positions> acting;
@@ -82,19 +83,21 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
     for (const Head& head : inputs.faces.heads) acting.emplace_back(head.positions + moves);
   }
   for (const Positions& head : acting) heads.push_back(&head);
-  return fit_cameras(
-      heads, {config.faces.up, config.faces.front}, sheet.views,
-      {.cut_below = kCutBelow, .beside = reach_of(inputs.attachments, inputs.faces)});
+  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views,
+                     {.cut_below = with_body ? 0 : kCutBelow,
+                      .beside = reach_of(inputs.attachments, inputs.faces)});
 }
 
 }  // namespace
 
 CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& sheet,
-                           const Inputs& inputs)
-    : cameras_(fit_to_heads(config, sheet, inputs)),
-      renderer_(inputs.faces.topology,
-                RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
-                surfaces_of(config, inputs), &inputs.faces.heads.front().positions),
+                           const Inputs& inputs, const FaceTextures* textures)
+    : mesh_(config, inputs, textures),
+      textures_(textures),
+      cameras_(fit_to_heads(config, sheet, inputs, mesh_.has_body())),
+      renderer_(mesh_.topology(), RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
+                mesh_.surfaces(),
+                &PicturedFace(mesh_, inputs.faces.heads.front().positions).positions()),
       inputs_(inputs),
       textured_(sheet.texture != SheetTexture::kNo),
       max_texels_(shown_texels(sheet)),
@@ -103,20 +106,36 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
 FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
                                 std::span<const Displacements> moves, const FaceTextureSet* own,
                                 const std::vector<PlacedAttachment>& placed,
-                                const ColourRows& colours) const {
+                                const ColourRows& colours, const BlendedPicture* body) const {
   std::optional<TextureSet> of_target;
   if (own == nullptr) of_target = texture_set_of(target);
   const TextureSet* painted = own != nullptr ? &own->texture_set()
                               : of_target    ? &*of_target
                                              : nullptr;
   const std::optional<VertexColours> shown = shown_colours(colours, painted);
-  FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, placed),
+  FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, placed, body),
                         std::nullopt};
   if (gallery_ != nullptr) {
-    pictures.preview =
-        gallery_->face_script(id, positions, moves, painted, shown ? &*shown : nullptr, placed);
+    pictures.preview = gallery_->face_script(id, positions, moves, painted,
+                                             shown ? &*shown : nullptr, placed, body);
   }
   return pictures;
+}
+
+std::string CrowdRenders::head_script(Index head, std::span<const Displacements> moves) const {
+  const auto& [name, positions] = inputs_.faces.heads[static_cast<std::size_t>(head)];
+  const std::optional<TextureSet> texture_set = texture_set_of(head);
+  const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
+  const auto body = body_of(recipe_of_head(head));
+  // The prefix avoids a clash with a face of the same name.
+  return gallery_->face_script(concat("head ", name), positions, moves,
+                               texture_set ? &*texture_set : nullptr, colours ? &*colours : nullptr,
+                               {}, body ? &*body : nullptr);
+}
+
+std::optional<BlendedPicture> CrowdRenders::body_of(const Recipe& recipe) const {
+  if (!mesh_.has_body() || textures_->body() == nullptr) return std::nullopt;
+  return textures_->paint_body(recipe);
 }
 
 std::optional<VertexColours> CrowdRenders::colours_of(Index head,
@@ -127,7 +146,8 @@ std::optional<VertexColours> CrowdRenders::colours_of(Index head,
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,
                                      const VertexColours* colours) const {
-  return renderer_.render(positions, cameras_.front(), colours);
+  const PicturedFace shown(mesh_, positions, nullptr, colours);
+  return renderer_.render(shown.positions(), cameras_.front(), shown.colours());
 }
 
 std::optional<FaceTextureSet> CrowdRenders::face_texture_set(Index target) const {
@@ -157,11 +177,14 @@ std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
 
 std::string CrowdRenders::render_png(const Positions& positions, const VertexColours* colours,
                                      const TextureSet* texture_set,
-                                     const std::vector<PlacedAttachment>& placed) const {
+                                     const std::vector<PlacedAttachment>& placed,
+                                     const BlendedPicture* body) const {
+  const PicturedFace shown(mesh_, positions, texture_set, colours, body, max_texels_);
   std::vector<Rgb8Image> views;
   const std::vector<AttachmentMesh> meshes = attachment_surfaces_.meshes(placed);
   for (const Camera& camera : cameras_) {
-    views.push_back(renderer_.render(positions, camera, colours, texture_set, meshes));
+    views.push_back(
+        renderer_.render(shown.positions(), camera, shown.colours(), shown.textures(), meshes));
   }
   const Rgb8Image image = side_by_side(views);
   return encode_png(image.width, image.height, 3, image.pixels);
@@ -170,16 +193,20 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
   const std::optional<FaceTextureSet> own = face_texture_set(textures, recipe);
-  if (own) return render_png(positions, nullptr, &own->texture_set());
+  const auto body = body_of(recipe);
+  const BlendedPicture* const shown_body = body ? &*body : nullptr;
+  if (own) return render_png(positions, nullptr, &own->texture_set(), {}, shown_body);
   const auto colours = shown_colours(textures.vertex_colours(recipe), nullptr);
-  return colours ? render_png(positions, &*colours) : render_png(positions, recipe.target);
+  return colours ? render_png(positions, &*colours, nullptr, {}, shown_body)
+                 : render_png(positions, recipe.target);
 }
 
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
-  return render_png(positions, colours ? &*colours : nullptr,
-                    texture_set ? &*texture_set : nullptr);
+  const auto body = body_of(recipe_of_head(head));
+  return render_png(positions, colours ? &*colours : nullptr, texture_set ? &*texture_set : nullptr,
+                    {}, body ? &*body : nullptr);
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {

@@ -15,6 +15,7 @@
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/attachment_surfaces.h"
 #include "crowdface/pictures/gallery.h"
+#include "crowdface/pictures/pictured_mesh.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 
@@ -43,14 +44,17 @@ struct FacePictures {
 /// sizes are comparable. Thread-safe, except add_gallery.
 class CrowdRenders {
  public:
-  /// \param inputs  must outlive this object.
-  CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs);
+  /// \param inputs    must outlive this object.
+  /// \param textures  paint the body; null: pictures do not show it. Must outlive this object.
+  CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
+               const FaceTextures* textures = nullptr);
 
   /// After this call, `draw` also makes gallery meshes. \param meshes  must outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
   /// Whether `draw` needs the shapes of a face.
   bool show_shapes() const { return gallery_ != nullptr; }
 
+  const PicturedMesh& mesh() const { return mesh_; }
   const AttachmentSurfaces& attachment_surfaces() const { return attachment_surfaces_; }
 
   /// Renders a face and makes its gallery script.
@@ -60,10 +64,13 @@ class CrowdRenders {
   /// \param own        the face's blended textures, from face_texture_set, or null.
   /// \param placed     the attachments that the face wears.
   /// \param colours    vertex colours, shown if there are no textures; may have no rows.
+  /// \param body       texture of the body, or null.
   FacePictures draw(const std::string& id, Index target, const Positions& positions,
                     std::span<const Displacements> moves, const FaceTextureSet* own,
                     const std::vector<PlacedAttachment>& placed = {},
-                    const ColourRows& colours = {}) const;
+                    const ColourRows& colours = {}, const BlendedPicture* body = nullptr) const;
+  /// The script of a head for the gallery.
+  std::string head_script(Index head, std::span<const Displacements> moves) const;
 
   /// Textures of a head; nothing if it has none or if textures are not shown.
   std::optional<TextureSet> texture_set_of(Index head) const;
@@ -83,9 +90,11 @@ class CrowdRenders {
   std::string render_png(const Positions& positions, Index head) const;
   /// \param colours  vertex colours; if null, each surface has its own colour.
   /// \param texture_set  textures, or null.
+  /// \param body         texture of the body, or null.
   std::string render_png(const Positions& positions, const VertexColours* colours,
                          const TextureSet* texture_set = nullptr,
-                         const std::vector<PlacedAttachment>& placed = {}) const;
+                         const std::vector<PlacedAttachment>& placed = {},
+                         const BlendedPicture* body = nullptr) const;
   const std::vector<Camera>& cameras() const { return cameras_; }
   /// Renders one view. \param camera  one of cameras().
   Rgb8Image render(const Positions& positions, const Camera& camera) const {
@@ -95,6 +104,11 @@ class CrowdRenders {
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
+  /// The body's texture for a recipe; nothing if pictures do not show it.
+  std::optional<BlendedPicture> body_of(const Recipe& recipe) const;
+
+  PicturedMesh mesh_;
+  const FaceTextures* textures_;
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
   const Inputs& inputs_;

@@ -55,12 +55,19 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
 /// Groups faces by look: faces with the same look share the same texture, or have none, on every
 /// head.
 /// \return #F numbers of looks; kNoIndex for faces that are not drawn.
+/// \param faces  number of polygons of the face; the others are the body's
 std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
-                                    const std::vector<SurfaceKind>& kinds) {
+                                    const std::vector<SurfaceKind>& kinds, std::size_t faces) {
+  constexpr std::uint32_t kBody = kNoIndex - 1;
   std::map<std::vector<std::uint32_t>, std::uint32_t> known;
   std::vector<std::uint32_t> looks;
   for (std::size_t f = 0; f < kinds.size(); ++f) {
     std::vector<std::uint32_t> pictures;
+    if (f >= faces) {  // the body
+      looks.push_back(
+          known.try_emplace({kBody}, static_cast<std::uint32_t>(known.size())).first->second);
+      continue;
+    }
     if (textures.blend()) pictures.push_back(textures.blended.layout.of_face[f]);
     for (const TextureSet& texture_set : textures.texture_sets) {
       pictures.push_back(texture_set.of_face.empty() ? TextureSet::kNone : texture_set.of_face[f]);
@@ -81,8 +88,9 @@ std::vector<const Positions*> positions_of(const HeadSet& faces) {
 
 /// The coordinate frame for packing positions: the box around all heads and attachments, because
 /// long hair reaches outside the heads' box.
-PackingFrame frame_of(const Inputs& inputs) {
+PackingFrame frame_of(const Inputs& inputs, const Positions& body) {
   std::vector<const Positions*> all = positions_of(inputs.faces);
+  if (body.rows() > 0) all.push_back(&body);
   for (const Attachment& item : inputs.attachments.items) all.push_back(&item.file.positions);
   return PackingFrame::around(all);
 }
@@ -103,9 +111,11 @@ std::string call(const char* function, const Json& value) {
 }
 
 /// Adds eye coordinates, from which the page paints irises more finely than vertex colours could.
-void add_eyes(const Config& config, const Inputs& inputs, const PreviewMesh& mesh, Json& json) {
-  const auto eyes = eye_coordinates(inputs.faces.topology, surfaces_of(config, inputs),
-                                    mean_head(inputs.faces), config.faces.front);
+void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& whole,
+              const PreviewMesh& mesh, Json& json) {
+  const PicturedFace mean(whole, inputs.mean);
+  const auto eyes =
+      eye_coordinates(whole.topology(), whole.surfaces(), mean.positions(), config.faces.front);
   if (!eyes) return;
   constexpr float kSteps = 65536;  // per radius
   std::vector<std::uint32_t> values;
@@ -140,19 +150,26 @@ std::array<std::uint8_t, 3> bytes_of(const Light& light) {
 
 }  // namespace
 
-GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
-    : config_(config), inputs_(inputs), around_(inputs.faces.topology), frame_(frame_of(inputs)) {
+GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& shown)
+    : config_(config),
+      inputs_(inputs),
+      whole_(shown),
+      around_(shown.topology()),
+      frame_(frame_of(inputs, shown.body_points())) {
   const HeadSet& faces = inputs.faces;
-  const Surfaces surfaces = surfaces_of(config, inputs);
-  const Positions mean = mean_head(faces);
-  const std::vector<std::uint32_t> looks = looks_of(inputs.textures, surfaces.kinds);
-  const SplitMesh split = split_mesh(faces.topology, surfaces.uvs, looks);
+  const Topology& topology = shown.topology();
+  const Surfaces surfaces = shown.surfaces();
+  const PicturedFace shown_mean(shown, inputs.mean);
+  const Positions& mean = shown_mean.positions();
+  const std::vector<std::uint32_t> looks =
+      looks_of(inputs.textures, surfaces.kinds,
+               static_cast<std::size_t>(inputs.faces.topology.face_count()));
+  const SplitMesh split = split_mesh(topology, surfaces.uvs, looks);
   const Positions split_mean = split.of(mean);
   // Reduce to twice the limit, and find which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
       reduce_triangles(split.triangles, split_mean, 2 * kMaxTriangles);
-  const std::vector<float> open =
-      openness_at(faces.topology, surfaces.kinds, mean, split, triangles);
+  const std::vector<float> open = openness_at(topology, surfaces.kinds, mean, split, triangles);
   std::vector<bool> hidden;
   for (const Triangle& triangle : triangles) {
     hidden.push_back(std::ranges::none_of(triangle, [&](std::uint32_t corner) {
@@ -163,8 +180,8 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs)
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
   for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
-  colours_ = surface_colours(faces.topology, surfaces, mean, config.faces.front)(mesh_.vertices,
-                                                                                 kAllColumns);
+  colours_ =
+      surface_colours(topology, surfaces, mean, config.faces.front)(mesh_.vertices, kAllColumns);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
     places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
@@ -208,8 +225,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shapes.begin());
   Positions acting = mean;
   shapes[widest_].moves.add_to(acting);
-  open_in_widest_ =
-      vertex_visibility(inputs_.faces.topology, surfaces.kinds, acting, mesh_.vertices);
+  open_in_widest_ = vertex_visibility(whole_.topology(), surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
   for (float& open : open_) open = std::max(open, kMinLight);
 }
@@ -284,7 +300,7 @@ std::string GalleryMeshes::shared_script() const {
     json["looks"] = mesh_.looks;
   }
   json["colours"] = base64(shades(colours_));
-  add_eyes(config_, inputs_, mesh_, json);
+  add_eyes(config_, inputs_, whole_, mesh_, json);
   const auto light = [](const std::vector<float>& open) {
     std::string bytes;
     for (const float share : open) {
@@ -300,18 +316,25 @@ std::string GalleryMeshes::shared_script() const {
   return call("setMesh", json);
 }
 
-std::string GalleryMeshes::face_script(const std::string& name, const Positions& positions,
+std::string GalleryMeshes::face_script(const std::string& name, const Positions& face,
                                        std::span<const Displacements> moves,
-                                       const TextureSet* texture_set, const VertexColours* colours,
-                                       const std::vector<PlacedAttachment>& placed) const {
+                                       const TextureSet* face_textures,
+                                       const VertexColours* face_colours,
+                                       const std::vector<PlacedAttachment>& placed,
+                                       const BlendedPicture* body) const {
+  const PicturedFace shown(whole_, face, face_textures, face_colours, body, kMaxTexels);
+  const Positions& positions = shown.positions();
+  const TextureSet* const texture_set = shown.textures();
+  const VertexColours* const colours = shown.colours();
   std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
   if (texture_set != nullptr && !places_.empty()) {
     lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
-      return leaning_normal(*texture_set, inputs_.faces, places_[v], positions, normal);
+      return leaning_normal(*texture_set, whole_.topology(), whole_.uvs(), places_[v], positions,
+                            normal);
     };
   }
   std::string bytes =
-      pack_face(inputs_.faces.topology, mesh_.vertices, around_, frame_, positions, lean);
+      pack_face(whole_.topology(), mesh_.vertices, around_, frame_, positions, lean);
   if (texture_set != nullptr) bytes += roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
   if (!shown_.empty()) parts.push_back(concat("\"moves\":\"", base64(packed_shapes(moves)), '"'));

@@ -9,6 +9,7 @@
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/pictures/attachment_surfaces.h"
+#include "crowdface/pictures/pictured_mesh.h"
 #include "crowdface/pictures/shown_attachments.h"
 #include "crowdface/pictures/vertex_finish.h"
 #include "crowdface/preview/packed_face.h"
@@ -23,8 +24,8 @@ namespace crowdface {
 /// scripts but no other files. The data that all faces share is computed once.
 class GalleryMeshes {
  public:
-  /// \param inputs  must outlive this object.
-  GalleryMeshes(const Config& config, const Inputs& inputs);
+  /// \param inputs, shown  must outlive this object.
+  GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& shown);
 
   /// The file data/mesh.js: triangles, colours, texture coordinates and the coordinate frame of
   /// packed positions.
@@ -35,10 +36,12 @@ class GalleryMeshes {
   ///                     shared by all faces.
   /// \param colours  vertex colours of the face, or null.
   /// \param placed   the attachments that the face wears.
+  /// \param body     texture of the body, or null.
   std::string face_script(const std::string& name, const Positions& positions,
                           std::span<const Displacements> moves, const TextureSet* texture_set,
                           const VertexColours* colours,
-                          const std::vector<PlacedAttachment>& placed = {}) const;
+                          const std::vector<PlacedAttachment>& placed = {},
+                          const BlendedPicture* body = nullptr) const;
   /// The file data/attachments/NAME.js.
   std::string attachment_script(const AttachmentLook& look,
                                 const AttachmentSurfaces& surfaces) const;
@@ -56,6 +59,7 @@ class GalleryMeshes {
 
   const Config& config_;
   const Inputs& inputs_;
+  const PicturedMesh& whole_;  ///< the mesh before reduction
   PreviewMesh mesh_;
   VertexFaces around_;
   PackingFrame frame_;

@@ -47,10 +47,10 @@ CrowdPictures::CrowdPictures(const Config& config, const Inputs& inputs, const D
       directory_(directory),
       textures_(textures),
       shapes_(shapes),
-      renders_(config, *config.output.contact_sheet, inputs),
+      renders_(config, *config.output.contact_sheet, inputs, &textures),
       page_(page_for(config)) {
   if (!page_) return;
-  gallery_ = std::make_unique<GalleryMeshes>(config, inputs);
+  gallery_ = std::make_unique<GalleryMeshes>(config, inputs, renders_.mesh());
   renders_.add_gallery(*gallery_);
 }
 
@@ -91,15 +91,9 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
                gallery_->attachment_script(looks[i], renders_.attachment_surfaces()));
   });
   parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
-    const auto& [name, positions] = inputs_.faces.heads[h];
     const auto head = static_cast<Index>(h);
-    const std::optional<TextureSet> texture_set = renders_.texture_set_of(head);
-    const TextureSet* const attachment_textures = texture_set ? &*texture_set : nullptr;
-    const auto colours = renders_.colours_of(head, attachment_textures);
-    // The prefix avoids a clash with a face of the same name.
-    write_file(directory_.gallery_head(name),
-               gallery_->face_script(concat("head ", name), positions, shapes_.of_head(head),
-                                     attachment_textures, colours ? &*colours : nullptr));
+    write_file(directory_.gallery_head(inputs_.faces.heads[h].name),
+               renders_.head_script(head, shapes_.of_head(head)));
   });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);

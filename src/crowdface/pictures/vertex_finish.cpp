@@ -33,21 +33,22 @@ Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
 
 }  // namespace
 
-Vector3d leaning_normal(const TextureSet& texture_set, const HeadSet& faces,
-                        const TexturePlace& place, const Positions& positions,
-                        const Vector3d& normal) {
+Vector3d leaning_normal(const TextureSet& texture_set, const Topology& topology,
+                        const TextureCoordinates& coordinates, const TexturePlace& place,
+                        const Positions& positions, const Vector3d& normal) {
   const Texture* slopes = picture_at(texture_set.slopes, place);
   if (slopes == nullptr) return normal;
   // Derive the texture axes from the triangle at the face's first corner.
-  const auto vertices = faces.topology.face(place.face);
-  const auto uvs = faces.topology.face_uvs(place.face);
+  const auto vertices = topology.face(place.face);
+  const auto uvs = topology.face_uvs(place.face);
   const std::size_t last = vertices.size() - 1;
   if (std::ranges::find(uvs, kNoIndex) != uvs.end()) return normal;
   const Vector3d origin = row3(positions, vertices[0]);
   const Vector3d one = row3(positions, vertices[1]) - origin;
   const Vector3d other = row3(positions, vertices[last]) - origin;
-  const Eigen::Vector2d uv_one = (faces.uvs.row(uvs[1]) - faces.uvs.row(uvs[0])).transpose();
-  const Eigen::Vector2d uv_other = (faces.uvs.row(uvs[last]) - faces.uvs.row(uvs[0])).transpose();
+  const Eigen::Vector2d uv_one = (coordinates.row(uvs[1]) - coordinates.row(uvs[0])).transpose();
+  const Eigen::Vector2d uv_other =
+      (coordinates.row(uvs[last]) - coordinates.row(uvs[0])).transpose();
   const double area = uv_one.x() * uv_other.y() - uv_other.x() * uv_one.y();
   if (area == 0) return normal;
   const double sign = area > 0 ? 1 : -1;

@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/coloured_textures.h"
 #include "crowdface/heads/face_textures.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/io/material_files.h"
 
 namespace crowdface {
@@ -150,7 +151,11 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.files[head], inputs.faces.heads[head].name);
   }
-  if (any_format(formats, names_attachment_textures)) copies.add(inputs.attachments.looks(crowd));
+  if (any_format(formats, names_attachment_textures)) {
+    std::vector<AttachmentLook> looks = inputs.attachments.looks(crowd);
+    if (config.neck.write_body) looks.push_back({inputs.neck->body.get()});
+    copies.add(looks);
+  }
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);
   return warnings;

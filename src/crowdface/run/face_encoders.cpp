@@ -49,7 +49,7 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
     : config_(config),
       inputs_(inputs),
       formats_(std::move(formats)),
-      levels_(mesh_levels(inputs, crowd)) {
+      levels_(mesh_levels(inputs, crowd, config.neck.write_body)) {
   const std::vector<Index> targets = targets_of(crowd);
   const MeshSource source{config, inputs, levels_, targets, shared};
   bool need_normals = false;
@@ -93,6 +93,12 @@ bool FaceEncoders::needs_normals(MeshFormat format, std::size_t level, Index tar
       break;
   }
   return true;
+}
+
+PlacedAttachment FaceEncoders::placed_body() const {
+  const Attachment& body = *inputs_.neck->body;
+  return {&body, std::nullopt, body.file.positions,
+          std::vector<Displacements>(inputs_.shapes.shapes.size(), {{}, Positions(0, 3)})};
 }
 
 void FaceEncoders::prepare(FinishedFace& face) const {

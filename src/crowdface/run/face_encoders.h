@@ -40,8 +40,10 @@ struct FinishedFace {
   std::vector<Index> crossing;       ///< intersecting triangles, see FaceShapes::of_face
   std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
-  /// The face's own textures, encoded as image files; empty if no output file uses them.
+  /// The face's own textures, encoded as image files; empty if no output file uses them. With
+  /// `neck.body_texture`, the last one is the body's.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
+  std::optional<BlendedPicture> body;    ///< texture of the body; empty if nothing shows it
   std::optional<FacePictures> pictures;  ///< empty if the face is not rendered
 
   const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
@@ -79,6 +81,10 @@ class FaceEncoders {
   bool holds_shapes() const;
   bool holds_textures() const { return own_ && !formats_.empty(); }
   const OwnTextures& textures() const { return *own_; }
+
+  /// Whether GLB and USD files contain the body, as an attachment of each face.
+  bool hold_body() const { return config_.neck.write_body; }
+  PlacedAttachment placed_body() const;
 
   /// Computes what all files of a face share, such as the face at each level of detail. The results
   /// refer to `face`, which must not move in memory afterwards.

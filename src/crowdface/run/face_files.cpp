@@ -35,6 +35,16 @@ class MeshFileList {
       for (std::size_t level = 0; level <= levels; ++level) add_attachments(level);
     }
     if (has_own_textures(inputs_)) add_textures();
+    if (options_.all && !config_.neck.body_texture.empty()) {
+      files_.push_back({options_.folder / kBlendedFolder / concat(face_.id, ".body.png"),
+                        {},
+                        {},
+                        [](const FinishedFace& face) {
+                          EncodedFile bytes;
+                          bytes.refer_to(face.textures->back().front());
+                          return bytes;
+                        }});
+    }
     return std::move(files_);
   }
 

@@ -2,6 +2,7 @@
 #include "crowdface/run/face_finisher.h"
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/single_precision.h"
 
 namespace crowdface {
@@ -33,9 +34,20 @@ std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe, OwnTextu
   return texture_set;
 }
 
+void FaceFinisher::paint_body(FinishedFace& face, StageTimes& busy) const {
+  {
+    const StageTimer timer(busy.blend);
+    face.body = textures.paint_body(face.face.recipe);
+  }
+  if (encoders == nullptr) return;
+  const StageTimer timer(busy.encode);
+  face.textures->push_back({encode_png(face.body->width, face.body->height, 3, face.body->srgb)});
+}
+
 void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   const Recipe& recipe = face.face.recipe;
   const std::optional<FaceTextureSet> texture_set = paint(recipe, *face.textures, busy);
+  if (textures.body() != nullptr) paint_body(face, busy);
   face.colours = textures.vertex_colours(recipe);
   const bool with_shapes = (encoders != nullptr && encoders->holds_shapes()) ||
                            (renders != nullptr && renders->show_shapes());
@@ -55,12 +67,13 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   }
   if (renders != nullptr) {
     const StageTimer timer(busy.render);
-    face.pictures =
-        renders->draw(face.face.id, recipe.target, single, face.moves,
-                      texture_set ? &*texture_set : nullptr, face.placed_attachments, face.colours);
+    face.pictures = renders->draw(face.face.id, recipe.target, single, face.moves,
+                                  texture_set ? &*texture_set : nullptr, face.placed_attachments,
+                                  face.colours, face.body ? &*face.body : nullptr);
   }
   if (encoders != nullptr) {
     const StageTimer timer(busy.encode);
+    if (encoders->hold_body()) face.placed_attachments.push_back(encoders->placed_body());
     encoders->prepare(face);
   }
 }

@@ -9,6 +9,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/io/glb_part.h"
 #include "crowdface/io/glb_template.h"
@@ -97,7 +98,8 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
   CompressedRows<Influence> influences;
   if (inputs.rig.empty()) return influences;
   const Positions& points = item.file.positions;
-  const PointGrid grid(inputs.attachments.fitted_to, skin_vertices(inputs));
+  const bool is_body = inputs.neck && inputs.neck->body.get() == &item;
+  const PointGrid grid(is_body ? inputs.mean : inputs.attachments.fitted_to, skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
     return inputs.rig.skin.influences.of(grid.nearest(point).vertex);
   };
@@ -156,7 +158,9 @@ GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& input
 MeshEncoders glb_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
   std::map<const Attachment*, GlbLook> looks;
-  for (const Attachment& item : inputs.attachments.items) looks.emplace(&item, look_of(item));
+  for (const Attachment* item : source.levels.front().items(inputs.attachments)) {
+    looks.emplace(item, look_of(*item));
+  }
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     return part_of(item, looks.at(&item), inputs, here);
   };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/io/material_files.h"
 
 namespace crowdface {
@@ -30,6 +31,7 @@ std::vector<const Attachment*> MeshLevel::items(const AttachmentSet& set) const 
   for (const Attachment& item : set.items) {
     if (whole() || find(item) != nullptr) items.push_back(&item);
   }
+  if (body != nullptr) items.push_back(body);
   return items;
 }
 
@@ -41,6 +43,7 @@ const DetailLevel* MeshLevel::find(const Attachment& item) const {
 std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> placed) const {
   std::vector<PlacedAttachment> reduced;
   for (const PlacedAttachment& one : placed) {
+    if (!attachments.contains(one.item)) continue;  // the body
     const DetailLevel& level = attachments.at(one.item);
     reduced.push_back({one.item, one.colour, level.of(one.positions)});
     for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
@@ -48,8 +51,10 @@ std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> pl
   return reduced;
 }
 
-std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd) {
+std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
+                                   bool with_body) {
   std::vector<MeshLevel> levels(1 + inputs.levels.size());
+  if (with_body) levels[0].body = inputs.neck->body.get();
   if (inputs.levels.empty()) return levels;
   for (std::size_t l = 1; l < levels.size(); ++l) {
     levels[l].number = l;

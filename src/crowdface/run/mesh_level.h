@@ -26,6 +26,8 @@ struct MeshLevel {
   /// reduced attachments that a face wears; empty for the whole mesh
   std::map<const Attachment*, DetailLevel> attachments;
 
+  const Attachment* body = nullptr;  ///< the body in the files; null: none. Whole mesh only
+
   bool whole() const { return face == nullptr; }
   const Topology& topology(const Inputs& inputs) const {
     return whole() ? inputs.faces.topology : face->topology;
@@ -33,8 +35,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return whole() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files at this level may contain: all attachments for the whole mesh,
-  /// otherwise only those that some face wears.
+  /// The attachments that files at this level may contain: all attachments and the body for the
+  /// whole mesh, otherwise only those that some face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
@@ -67,6 +69,8 @@ CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::u
 /// The whole mesh, then the levels of detail of the inputs.
 /// \param inputs  must outlive the result.
 /// \param crowd   faces, whose attachments the levels include
-std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd);
+/// \param with_body  whether the whole mesh includes the body
+std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
+                                   bool with_body = false);
 
 }  // namespace crowdface

@@ -66,14 +66,15 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const std::strin
   return look;
 }
 
-std::map<const Attachment*, PrimLook> prim_looks(const Inputs& inputs, const std::string& shared) {
+std::map<const Attachment*, PrimLook> prim_looks(const std::vector<const Attachment*>& items,
+                                                 const std::string& shared) {
   UsdaNames names;
   for (const char* taken : {"face", "mesh", "materials", "skeleton", "animation", "points"}) {
     names.add(taken);
   }
   std::map<const Attachment*, PrimLook> looks;
-  for (const Attachment& item : inputs.attachments.items) {
-    looks.emplace(&item, prim_look_of(item, names.add(item.name), shared));
+  for (const Attachment* item : items) {
+    looks.emplace(item, prim_look_of(*item, names.add(item->name), shared));
   }
   return looks;
 }
@@ -82,7 +83,8 @@ std::map<const Attachment*, PrimLook> prim_looks(const Inputs& inputs, const std
 
 MeshEncoders usd_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
-  const auto looks = prim_looks(inputs, source.shared.empty() ? "." : source.shared);
+  const auto looks = prim_looks(source.levels.front().items(inputs.attachments),
+                                source.shared.empty() ? "." : source.shared);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {

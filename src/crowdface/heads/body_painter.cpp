@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/body_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crowdface/core/error.h"
+#include "crowdface/heads/light_of_image.h"
+#include "crowdface/io/image.h"
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/texture/paint_picture.h"
+#include "crowdface/texture/surface_statistics.h"
+
+namespace crowdface {
+namespace {
+
+/// Texture coordinates that give each polygon a square of the image, in rows.
+struct SquareLayout {
+  static constexpr int kTexels = 4;  ///< side of a square
+  int per_row;
+
+  explicit SquareLayout(Index polygons)
+      : per_row(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(polygons))))) {}
+  int side() const { return kTexels * per_row; }
+  Eigen::RowVector2d place(Index polygon, std::size_t corner, std::size_t corners) const {
+    // The corners of a quad are centres of texels, so that interpolation stays in the square.
+    constexpr double kRadius = 1.5 * std::numbers::sqrt2;
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(corner) + 0.5) / static_cast<double>(corners);
+    const Eigen::RowVector2d middle(static_cast<double>(polygon % per_row) + 0.5,
+                                    static_cast<double>(polygon / per_row) + 0.5);
+    return (kTexels * middle + kRadius * Eigen::RowVector2d(std::cos(angle), std::sin(angle))) /
+           side();
+  }
+};
+
+void lay_out(const SquareLayout& squares, Topology& topology, TextureCoordinates& uvs) {
+  topology.corner_uvs.clear();
+  uvs.resize(topology.corner_count(), 2);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const std::size_t corners = topology.face(f).size();
+    for (std::size_t c = 0; c < corners; ++c) {
+      const auto row = static_cast<std::uint32_t>(topology.corner_uvs.size());
+      uvs.row(row) = squares.place(f, c, corners);
+      topology.corner_uvs.push_back(row);
+    }
+  }
+}
+
+std::shared_ptr<const TextureMap> white_map(int side) {
+  TextureMap map{side, side, {}};
+  map.planes.assign(3 * map.texels(), Density{0});
+  return std::make_shared<const TextureMap>(std::move(map));
+}
+
+std::shared_ptr<const TextureMap> read_texture_map(const std::filesystem::path& file) {
+  const Image image = read_image(file, {.jpeg = true});
+  return std::make_shared<const TextureMap>(
+      make_texture_map(image.width, image.height, light_of(image)));
+}
+
+/// All polygons that have texture coordinates, in one image.
+TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
+  TextureLayout layout;
+  layout.pictures = {{map.width, map.height}};
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto uvs = topology.face_uvs(f);
+    layout.of_face.push_back(std::ranges::find(uvs, kNoIndex) == uvs.end() ? 0 : kNoIndex);
+    layout.tile.push_back({0, 0});
+  }
+  return layout;
+}
+
+/// The densities of a map at some vertices, without detail.
+Positions coarse_at(const Rim& rim, const Topology& topology, const Positions& positions,
+                    const SurfaceTexels& texels, const std::shared_ptr<const TextureMap>& map) {
+  const ChebyshevFilter filter(
+      SmoothingOperator(build_adjacency(topology), Boundary::kFree, OperatorKind::kLazy),
+      positions);
+  const SurfaceStatistics statistics = surface_statistics(filter, {texels}, {{map}}, {});
+  return statistics.coarse.front()(rim, kAllColumns).cast<double>();
+}
+
+}  // namespace
+
+BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
+                         const std::filesystem::path& texture)
+    : neck_(neck),
+      topology_(neck.body->file.topology),
+      uvs_(neck.body->file.uvs),
+      own_at_ring_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
+      fade_(topology_, build_adjacency(topology_), neck.body->file.positions, neck.body_rim,
+            falloff_mm / neck.mm_per_unit) {
+  if (texture.empty()) {
+    const SquareLayout squares(topology_.face_count());
+    lay_out(squares, topology_, uvs_);
+    map_ = white_map(squares.side());
+  } else {
+    if (topology_.corner_uvs.empty()) {
+      refuse_file(neck.body->file.path, "expected texture coordinates for neck.body_texture");
+    }
+    map_ = read_texture_map(texture);
+  }
+  texels_ =
+      std::make_unique<const SurfaceTexels>(topology_, uvs_, one_picture(topology_, *map_), 0);
+  if (texture.empty()) return;
+  own_at_ring_ = coarse_at(neck.body_rim, topology_, neck.body->file.positions, *texels_, map_);
+}
+
+BlendedPicture BodyPainter::paint(const Positions& at_ring) const {
+  const Positions difference = at_ring - own_at_ring_;
+  const Eigen::RowVector3d mean = difference.colwise().mean();
+  Positions added = mean.replicate(topology_.vertex_count, 1);
+  const Positions faded = fade_.bend(difference.rowwise() - mean);
+  for (std::size_t i = 0; i < fade_.vertices().size(); ++i) {
+    added.row(fade_.vertices()[i]) += faded.row(static_cast<Index>(i));
+  }
+  for (std::size_t i = 0; i < neck_.body_rim.size(); ++i) {
+    added.row(neck_.body_rim[i]) = difference.row(static_cast<Index>(i));
+  }
+  PictureFields fields;
+  fields.heads = {0};
+  for (const std::uint32_t vertex : texels_->vertices()) {
+    for (Index c = 0; c < 3; ++c) fields.values.push_back(static_cast<float>(added(vertex, c)));
+    fields.values.push_back(1);
+  }
+  return paint_picture(*texels_, map_->coding, {map_}, fields);
+}
+
+}  // namespace crowdface

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "crowdface/heads/heads_on_body.h"
+#include "crowdface/texture/crowd_textures.h"
+#include "crowdface/texture/surface_texels.h"
+
+namespace crowdface {
+
+/// Paints a texture of the body for each face, so that body and face have the same colours at the
+/// ring. The body's optical densities change by the difference at the ring: next to the ring by the
+/// difference of each of its vertices, farther away than `falloff` by the mean difference.
+class BodyPainter {
+ public:
+  /// \param neck     must have a body and outlive this object.
+  /// \param texture  an image in the body's texture coordinates. Empty: the body has the colours of
+  ///                 the ring alone, in texture coordinates of its own.
+  BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
+
+  /// The body's polygons with the texture coordinates of `paint`.
+  const Topology& topology() const { return topology_; }
+  const TextureCoordinates& uvs() const { return uvs_; }
+
+  /// \param at_ring  optical densities of the face's skin at the ring, #rim by 3
+  BlendedPicture paint(const Positions& at_ring) const;
+
+ private:
+  const HeadsOnBody& neck_;
+  Topology topology_;
+  TextureCoordinates uvs_;
+  std::shared_ptr<const TextureMap> map_;
+  std::unique_ptr<const SurfaceTexels> texels_;
+  Positions own_at_ring_;  ///< optical densities of the body, #rim by 3
+  NeckBend fade_;
+};
+
+}  // namespace crowdface
