@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "crowdface/heads/read_heads.h"
+#include "crowdface/heads/head_file.h"
 #include "crowdface/mesh/colour_rows.h"
 
 namespace crowdface {

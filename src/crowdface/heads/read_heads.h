@@ -11,23 +11,13 @@
 #include "crowdface/core/hash.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/heads/read_cache.h"
+#include "crowdface/heads/head_file.h"
 #include "crowdface/io/obj_file.h"
 
 namespace crowdface {
 
 /// Smaller files are not cached: reading them takes no longer than reading their cache entry.
 inline constexpr std::uint64_t kMinKeptBytes = 1'000'000;
-
-/// A head's file. The topology, texture coordinates and corner normals of its ObjFile are empty.
-struct HeadFile {
-  ObjFile file;
-  Digest text;  ///< hash of the file's bytes
-  Digest mesh_digest;
-  std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
-  bool is_kept = false;            ///< whether the cache has the head
-  bool is_joined = false;          ///< whether reading joined vertices at the same position
-};
 
 /// What to do with meshes whose polygons face inward.
 enum class Winding { kAsItIs, kOutward };

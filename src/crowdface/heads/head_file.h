@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "crowdface/core/hash.h"
+#include "crowdface/heads/read_cache.h"
+#include "crowdface/io/obj_file.h"
+
+namespace crowdface {
+
+/// A head's file. The topology, texture coordinates and corner normals of its ObjFile are empty.
+struct HeadFile {
+  ObjFile file;
+  Digest text;  ///< hash of the file's bytes
+  Digest mesh_digest;
+  std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
+  bool is_kept = false;            ///< whether the cache has the head
+  bool is_joined = false;          ///< whether reading joined vertices at the same position
+};
+
+}  // namespace crowdface

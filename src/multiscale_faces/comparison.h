@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "multiscale_faces/front_patch.h"
+
+namespace crowdface::multiscale {
+
+/// How far two faces are apart.
+struct Differences {
+  double rms = 0, largest = 0;  ///< between the same vertices of both
+  double rms_to_surface = 0;    ///< of `b`'s vertices from the surface of `a`
+};
+/// \param a, b  #P by 3, in the patch's numbers.
+Differences differences(const FrontPatch& patch, const Positions& a, const Positions& b);
+
+/// The energy of each wavelength band of a head, on the patch: Σ over its vertices of the squared
+/// length of S(finer bound) − S(coarser bound), where S is Laplacian smoothing (Eq. 1).
+/// \param positions  #V by 3 of whole heads, in millimetres.
+/// \param bounds_mm  half-amplitude wavelengths, ascending. The first band is finer than the first.
+std::vector<double> band_energies(const Topology& topology, const FrontPatch& patch,
+                                  const Positions& positions, const std::vector<double>& bounds_mm);
+
+/// The largest distance between the vertices of two faces along some rims.
+double largest_at(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
+                  const Positions& b);
+
+/// By how many degrees the largest crease of a face exceeds what its heads have there: the largest,
+/// over the edges inside of region borders, of the angle between the normals of both triangles, less
+/// the largest such angle of any of the heads at this edge. 0 if no crease is larger.
+/// \param border  #P: whether a vertex lies in the border between regions.
+double largest_new_crease(const FrontPatch& patch, const Positions& face,
+                          const std::vector<Positions>& heads, const std::vector<bool>& border);
+
+}  // namespace crowdface::multiscale

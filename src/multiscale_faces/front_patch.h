@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "crowdface/core/units.h"
+#include "crowdface/mesh/adjacency.h"
+#include "crowdface/mesh/topology.h"
+#include "crowdface/mesh/triangles.h"
+
+namespace crowdface::multiscale {
+
+/// The front of a head as one connected surface, with its own vertex numbers. Its longest rim is
+/// its border; every other rim is a hole, such as an eye.
+struct FrontPatch {
+  std::vector<std::uint32_t> head_vertices;  ///< #P: the head's vertex of each patch vertex
+  std::vector<Triangle> triangles;           ///< in patch numbers; polygons are cut into triangles
+  std::vector<std::uint32_t> border;         ///< patch vertices around the border, in order
+  std::vector<std::vector<std::uint32_t>> holes;  ///< patch vertices around each hole, in order
+  /// Positions in `border` of the vertices that become the corners of the unit square, in the order
+  /// of the border.
+  std::array<std::size_t, 4> corners{};
+
+  Index vertex_count() const { return static_cast<Index>(head_vertices.size()); }
+  /// The patch's rows of an array with one row for each vertex of the head.
+  Positions rows_of(const Positions& head) const;
+};
+
+/// Cuts out the skin in front of the head's middle (FaceArea::kFront). Polygons at which the border
+/// touches itself are left out.
+/// \param mean   #V by 3, the mean of all heads.
+/// \param up     axis towards the top of the head. \param front  axis along which heads look.
+/// \throws InvalidInput if the front has no border.
+FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up, Axis front);
+
+}  // namespace crowdface::multiscale

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "multiscale_faces/front_patch.h"
+#include "multiscale_faces/spline_lattice.h"
+
+namespace crowdface::multiscale {
+
+/// Spans of the coarsest and the finest lattice. Level k has kCoarsest·2^k spans. The finest is about
+/// as fine as the vertices of a front of some 20,000 vertices; one level more makes the figures'
+/// errors no smaller.
+inline constexpr Index kCoarsest = 4;
+inline constexpr Index kFinest = 256;
+inline constexpr int kLevels = 7;
+static_assert(kCoarsest << (kLevels - 1) == kFinest);
+
+/// Samples along each side of the square on which a face is resampled: two in each finest span.
+inline constexpr Index kSamplesPerSide = 2 * kFinest + 1;
+
+/// A face as Yoon, Lewis and Rhee (2017) describe it, apart from the mesh: a smooth base surface and
+/// scalar displacements along the base's normals, one continuous displacement map for each finer
+/// level. What the published text leaves open:
+/// - Samples lie on a regular grid of the square. In holes there are none; the splines close them.
+/// - A level's displacement is where the base's normal meets that level's surface. Where it does not
+///   (overhangs: nostrils, behind the wings of the nose), it is the difference of both surfaces at
+///   the same (u, v), projected onto the normal.
+struct MultiscaleFace {
+  TextureCoordinates uvs;               ///< #P by 2, of the patch's vertices
+  std::vector<SplineLattice> surfaces;  ///< by level, coarsest first; values are positions
+  int base = 0;                         ///< the level of the base surface
+  std::vector<SplineLattice>
+      displacements;        ///< by level from base + 1 on: added to the level before
+  double missed_share = 0;  ///< share of samples whose normal does not meet the finest surface
+};
+
+/// \param positions  #P by 3, in the patch's numbers. \param base  0 … kLevels − 2.
+MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions, int base);
+/// The same face with another base.
+MultiscaleFace with_base(MultiscaleFace face, int base);
+
+/// What a face lends to a new face.
+struct Details {
+  const MultiscaleFace* face = nullptr;
+  /// By level from base + 1 on, for the whole patch.
+  std::vector<double> level_weights;
+  /// #P, multiplied with `level_weights`; empty: 1 everywhere.
+  std::vector<double> vertex_weights = {};
+};
+
+/// Makes a new face: the base surface of `target`, displaced along its normals by the weighted sum
+/// of the details of all faces, which have the same base level.
+/// \return #P by 3: a position for each vertex of the target's patch.
+Positions synthesize(const MultiscaleFace& target, std::span<const Details> details);
+
+}  // namespace crowdface::multiscale

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/mesh/topology.h"
+#include "crowdface/smooth/columns.h"
+
+namespace crowdface::multiscale {
+
+/// A uniform bicubic B-spline function over the unit square, with values of C components (Lee,
+/// Wolberg and Shin 1997, "Scattered Data Interpolation with Multilevel B-Splines", IEEE TVCG 3(3)).
+class SplineLattice {
+ public:
+  /// \param spans  polynomial pieces along each side, 1 or more. \param control  (spans + 3)² by C;
+  ///               the control point φ_ij of the paper (−1 ≤ i, j ≤ spans + 1) is row
+  ///               (i + 1) + (j + 1)·(spans + 3).
+  SplineLattice(Index spans, Columns control);
+  /// The function that is zero.
+  static SplineLattice zero(Index spans, Index components);
+
+  Index spans() const { return spans_; }
+  Index components() const { return control_.cols(); }
+  const Columns& control() const { return control_; }
+
+  /// \param uv  in [0, 1]².
+  Eigen::RowVectorXd value(const Eigen::RowVector2d& uv) const;
+  /// The value, and its derivatives along u and v, as rows.
+  Eigen::Matrix<double, 3, Eigen::Dynamic> jet(const Eigen::RowVector2d& uv) const;
+
+  /// The same function with twice as many spans (the paper's Section 4.2).
+  SplineLattice refined() const;
+  /// The sum of two functions with equally many spans.
+  SplineLattice operator+(const SplineLattice& other) const;
+
+ private:
+  Index spans_;
+  Columns control_;
+};
+
+/// The paper's BA algorithm: each sample asks for the smallest control points that give its value,
+/// and each control point takes their weighted mean (Eqs. 3 to 5). Control points that no sample
+/// asks for are zero.
+/// \param uvs  #S by 2. \param values  #S by C.
+SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Columns& values);
+
+/// The paper's MBA algorithm with refinement: the functions Ψ_0, Ψ_1, … Each adds an approximation,
+/// on a lattice with twice as many spans, of the errors that the one before leaves.
+/// \param coarsest, finest  spans; finest is coarsest times a power of two.
+std::vector<SplineLattice> approximate_by_levels(Index coarsest, Index finest,
+                                                 const TextureCoordinates& uvs,
+                                                 const Columns& values);
+
+}  // namespace crowdface::multiscale
