@@ -2,6 +2,7 @@
 #include "multiscale_faces/front_patch.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <set>
@@ -113,13 +114,13 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
     const double low = points.col(axis).minCoeff(), high = points.col(axis).maxCoeff();
     return (points(static_cast<Index>(v), axis) - low) / (high - low) - 0.5;
   };
-  std::size_t corner = 0;
-  for (const auto& [right, above] : {Edge{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+  constexpr std::array<std::array<double, 2>, 4> kDiagonals = {
+      {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (std::size_t i = 0; i < 4; ++i) {
     const auto farthest = std::ranges::max_element(patch.border, {}, [&](std::uint32_t v) {
-      return (right != 0U ? 1 : -1) * along(across, v) +
-             (above != 0U ? 1 : -1) * along(up.index, v);
+      return kDiagonals[i][0] * along(across, v) + kDiagonals[i][1] * along(up.index, v);
     });
-    patch.corners[corner++] = static_cast<std::size_t>(farthest - patch.border.begin());
+    patch.corners[i] = static_cast<std::size_t>(farthest - patch.border.begin());
   }
   // In the order of the border, from the first of the four.
   std::ranges::sort(patch.corners);

@@ -56,8 +56,8 @@ Samples resample(const std::vector<Triangle>& triangles, const TextureCoordinate
   Index next = 0;
   for (Index row = 0; row < side * side; ++row) {
     if (!covered[static_cast<std::size_t>(row)]) continue;
-    samples.uvs.row(next) << static_cast<double>(row % side) * step,
-        static_cast<double>(row / side) * step;
+    const Index x = row % side, y = row / side;
+    samples.uvs.row(next) << static_cast<double>(x) * step, static_cast<double>(y) * step;
     samples.points.row(next++) = points.row(row);
   }
   return samples;
@@ -105,7 +105,8 @@ void add_displacements(MultiscaleFace& face) {
   const Index side = kSamplesPerSide;
   TextureCoordinates grid(side * side, 2);
   for (Index row = 0; row < grid.rows(); ++row) {
-    grid.row(row) << static_cast<double>(row % side), static_cast<double>(row / side);
+    const Index x = row % side, y = row / side;
+    grid.row(row) << static_cast<double>(x), static_cast<double>(y);
   }
   grid /= static_cast<double>(side - 1);
 

@@ -287,7 +287,8 @@ class DisturbedEditor : public ::testing::Test {
     const auto text = [&](const fs::path& file) { return fs::exists(file) ? read_text(file) : ""; };
     const std::string recipe = text(edited("edited.jsonl"));
     if (!recipe.empty()) {
-      ASSERT_TRUE(versions_.contains(recipe)) << after << ": " << recipe;
+      ASSERT_TRUE(versions_.contains(recipe))
+          << after << ": " << recipe << " instead of " << versions_.begin()->first;
       EXPECT_EQ(text(edited("eva.obj")) == versions_.at(recipe), true)
           << "another mesh after " << after;
     } else {

@@ -64,7 +64,7 @@ std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
       faces.push_back(std::move(line.face));
     }
     return faces;
-  } catch (const RecoverableError& error) {
+  } catch (const InvalidInput& error) {
     return refuse(error.what());
   }
 }

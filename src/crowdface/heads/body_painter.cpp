@@ -28,8 +28,9 @@ struct SquareLayout {
     constexpr double kRadius = 1.5 * std::numbers::sqrt2;
     const double angle =
         2 * std::numbers::pi * (static_cast<double>(corner) + 0.5) / static_cast<double>(corners);
-    const Eigen::RowVector2d middle(static_cast<double>(polygon % per_row) + 0.5,
-                                    static_cast<double>(polygon / per_row) + 0.5);
+    const Index row = polygon / per_row, column = polygon % per_row;
+    const Eigen::RowVector2d middle(static_cast<double>(column) + 0.5,
+                                    static_cast<double>(row) + 0.5);
     return (kTexels * middle + kRadius * Eigen::RowVector2d(std::cos(angle), std::sin(angle))) /
            side();
   }
