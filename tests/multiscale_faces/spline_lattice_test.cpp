@@ -33,7 +33,7 @@ double largest_error(const SplineLattice& lattice, const TextureCoordinates& uvs
 TEST(SplineLattice, IsAPartitionOfUnity) {
   for (const Index spans : {1, 2, 5, 64}) {
     const SplineLattice ones(spans, Columns::Ones((spans + 3) * (spans + 3), 1));
-    for (const Eigen::RowVector2d uv : {Eigen::RowVector2d(0, 0), {1, 1}, {0.3, 0.7}, {1, 0}}) {
+    for (const Eigen::RowVector2d& uv : {Eigen::RowVector2d(0, 0), {1, 1}, {0.3, 0.7}, {1, 0}}) {
       EXPECT_NEAR(ones.value(uv)[0], 1, 1e-14);
       EXPECT_NEAR(ones.jet(uv).bottomRows(2).norm(), 0, 1e-12);
     }

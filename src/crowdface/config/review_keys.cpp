@@ -7,6 +7,7 @@
 #include "crowdface/config/edited_entries.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/folder.h"
 
 namespace crowdface {
 namespace {

@@ -21,7 +21,7 @@ constexpr const char* kMessage = "interrupted by a signal; run the same command 
 constexpr timespec kGrace = {0, 700'000'000};  ///< 0.7 s
 
 timer_t grace_timer;
-const int grace_signal = SIGRTMIN;
+const int kGraceSignal = SIGRTMIN;
 
 /// Ends the program as a kill would: files under their final names are complete.
 extern "C" void end_program(int) {
@@ -43,10 +43,10 @@ extern "C" void remember_signal(int signal) {
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(grace_signal, end_program);
+  std::signal(kGraceSignal, end_program);
   sigevent event{};
   event.sigev_notify = SIGEV_SIGNAL;
-  event.sigev_signo = grace_signal;
+  event.sigev_signo = kGraceSignal;
   // Without a timer, the program ends after the current block of work, however long that takes.
   ::timer_create(CLOCK_MONOTONIC, &event, &grace_timer);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {

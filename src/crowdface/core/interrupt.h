@@ -4,8 +4,9 @@
 namespace crowdface {
 
 /// After this call, the first SIGINT, SIGTERM, SIGHUP or SIGXCPU only sets the flag that
-/// `interrupted` returns; a second one ends the program. Signals that are ignored (SIGHUP under
-/// nohup) stay ignored.
+/// `interrupted` returns. If the program still runs 0.7 s later, or at a second signal, it ends at
+/// once, with ExitCode::kInterrupted or by the signal. Signals that are ignored (SIGHUP under nohup)
+/// stay ignored. For programs only; uses SIGRTMIN.
 void catch_interrupts();
 
 /// Whether one of these signals has arrived.
