@@ -177,7 +177,7 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
   constexpr double kPart = 0.3;  // of the surface
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
   if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
-  const std::string part =
+  std::string part =
       missing_share(scan) < kPart
           ? ""
           : "; the scan seems to be only a part of a head, whose place is not found without "

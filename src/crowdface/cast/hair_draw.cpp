@@ -59,10 +59,10 @@ HairColour HairDraw::of(const FacePlan& face, Index head) {
 
 /// Returns the fractions of hair colours for the face's group.
 const std::map<std::string, double>& HairDraw::shares_of(const FacePlan& face) const {
-  static const std::map<std::string, double> kNone;
+  static const std::map<std::string, double> none;
   auto found = draw_.hair_colours.find(face.group.value_or(""));
   if (found == draw_.hair_colours.end()) found = draw_.hair_colours.find("");
-  return found == draw_.hair_colours.end() ? kNone : found->second;
+  return found == draw_.hair_colours.end() ? none : found->second;
 }
 
 /// Returns the colour that `hair_colours` gives the face. Among the sampled faces of a group, the

@@ -6,7 +6,7 @@
 
 namespace crowdface {
 
-PopulationBalance::PopulationBalance(std::vector<TraitTarget> targets) {
+PopulationBalance::PopulationBalance(const std::vector<TraitTarget>& targets) {
   for (const TraitTarget& target : targets) {
     Trait& trait = traits_.emplace_back(Trait{target, {}, {}});
     trait.excess.assign(kBins, 0);

@@ -15,7 +15,7 @@ namespace crowdface {
 /// outweighing the others. A choice depends on earlier faces only, so a larger crowd changes none.
 class PopulationBalance {
  public:
-  explicit PopulationBalance(std::vector<TraitTarget> targets);
+  explicit PopulationBalance(const std::vector<TraitTarget>& targets);
 
   /// Returns how far the crowd would be from the asked distributions with this face; for comparing
   /// candidates only. \param landmarks  #landmarks by 3, see FaceMeasurer

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/units.h"
 #include "crowdface/io/mesh_format.h"
 

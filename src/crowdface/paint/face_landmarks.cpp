@@ -246,7 +246,7 @@ class LandmarkSearch {
   std::optional<Hit> skin_beside(const InHead& from, double across, double up) const {
     constexpr double kStep = 0.1, kReach = 8;
     for (double way = 0; way <= kReach; way += kStep) {
-      const auto hit = rays_.from_front(from.across + way * across, from.up + way * up);
+      auto hit = rays_.from_front(from.across + way * across, from.up + way * up);
       if (hit && hit->is_skin) return hit;
     }
     return std::nullopt;

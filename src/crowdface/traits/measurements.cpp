@@ -191,11 +191,11 @@ struct FaceAxes {
   Eigen::Vector3d left, up;
 };
 FaceAxes face_axes(const Positions& landmarks) {
-  static const std::array<std::size_t, 4> kEnds = {landmark("eye_inner_left"),
-                                                   landmark("eye_inner_right"),
-                                                   landmark("nose_bridge"), landmark("nose_base")};
-  const Eigen::Vector3d left = unit(row3(landmarks, kEnds[0]) - row3(landmarks, kEnds[1]));
-  const Eigen::Vector3d nose = row3(landmarks, kEnds[2]) - row3(landmarks, kEnds[3]);
+  static const std::array<std::size_t, 4> ends = {landmark("eye_inner_left"),
+                                                  landmark("eye_inner_right"),
+                                                  landmark("nose_bridge"), landmark("nose_base")};
+  const Eigen::Vector3d left = unit(row3(landmarks, ends[0]) - row3(landmarks, ends[1]));
+  const Eigen::Vector3d nose = row3(landmarks, ends[2]) - row3(landmarks, ends[3]);
   return {left, unit(nose - nose.dot(left) * left)};
 }
 

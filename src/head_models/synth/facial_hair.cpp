@@ -54,7 +54,8 @@ std::vector<Index> covered_faces(const Mesh& skin, const Cover& cover) {
     const auto corners = skin.topology.face(static_cast<Index>(f));
     for (int i = 0; i <= kSteps * kSteps + 2 * kSteps && is_covered[f] == 0; ++i) {
       const double s = static_cast<double>(i % (kSteps + 1)) / kSteps;
-      const double t = static_cast<double>(i / (kSteps + 1)) / kSteps;
+      const int row = i / (kSteps + 1);
+      const double t = static_cast<double>(row) / kSteps;
       if (cover(point_of(skin, corners, s, t)) > kLeast) is_covered[f] = 1;
     }
   });
