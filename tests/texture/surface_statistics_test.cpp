@@ -99,7 +99,7 @@ TEST(SurfaceStatistics, AreMeansSmoothedByIteration) {
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>(0, 0), {1, 0}, {1, 1}}) {
     const Columns expected = means_by_iteration(
         sheet, scale.strength, 1,
-        [&](std::size_t texel, const auto& vertices, const auto& shares) -> Columns {
+        [&, a = a, b = b](std::size_t texel, const auto& vertices, const auto& shares) -> Columns {
           return (detail(a, texel, vertices, shares) *
                   detail(b, texel, vertices, shares).transpose());
         });
