@@ -86,7 +86,8 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
   const std::vector<double> areas = face_areas(topology, components, mean, FaceArea::kFront, front);
   std::vector<Triangle> triangles = triangles_of(topology);
   std::erase_if(triangles, [&](const Triangle& t) {
-    return std::ranges::any_of(t, [&](std::uint32_t v) { return !(areas[v] > 0); });
+    return std::ranges::any_of(t, [&](std::uint32_t v) { return !(areas[v] > 0); }) ||
+           area_vector(mean, t)[front.index] * front.sign <= 0;
   });
   if (triangles.empty()) throw InvalidInput("the heads have no skin in front of their middle");
   tidy_rims(triangles, topology.vertex_count);

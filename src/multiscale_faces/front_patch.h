@@ -28,8 +28,9 @@ struct FrontPatch {
   Positions rows_of(const Positions& head) const;
 };
 
-/// Cuts out the skin in front of the head's middle (FaceArea::kFront). Polygons at which the border
-/// touches itself are left out.
+/// Cuts out the skin in front of the head's middle (FaceArea::kFront) that faces the front, so that
+/// eye sockets and the inside of the mouth become holes. Triangles are left out at which a rim
+/// touches itself or whose corners all lie on rims.
 /// \param mean   #V by 3, the mean of all heads.
 /// \param up     axis towards the top of the head. \param front  axis along which heads look.
 /// \throws InvalidInput if the front has no border.

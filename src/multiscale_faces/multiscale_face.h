@@ -9,9 +9,7 @@
 
 namespace crowdface::multiscale {
 
-/// Spans of the coarsest and the finest lattice. Level k has kCoarsest·2^k spans. The finest is about
-/// as fine as the vertices of a front of some 20,000 vertices; one level more makes the figures'
-/// errors no smaller.
+/// Spans of the coarsest and the finest lattice. Level k has kCoarsest·2^k spans.
 inline constexpr Index kCoarsest = 4;
 inline constexpr Index kFinest = 256;
 inline constexpr int kLevels = 7;
@@ -20,9 +18,9 @@ static_assert(kCoarsest << (kLevels - 1) == kFinest);
 /// Samples along each side of the square on which a face is resampled: two in each finest span.
 inline constexpr Index kSamplesPerSide = 2 * kFinest + 1;
 
-/// A face as Yoon, Lewis and Rhee (2017) describe it, apart from the mesh: a smooth base surface and
-/// scalar displacements along the base's normals, one continuous displacement map for each finer
-/// level. What the published text leaves open:
+/// A face in the method of Yoon, Lewis and Rhee (2017), as "Laplacian face blending" (Section 2.3)
+/// describes it: a smooth base surface and scalar displacements along its normals, one continuous
+/// displacement map for each finer level. Our choices where that description is open:
 /// - Samples lie on a regular grid of the square. In holes there are none; the splines close them.
 /// - A level's displacement is where the base's normal meets that level's surface. Where it does not
 ///   (overhangs: nostrils, behind the wings of the nose), it is the difference of both surfaces at

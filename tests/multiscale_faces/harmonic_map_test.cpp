@@ -31,12 +31,16 @@ TEST(HarmonicMap, FillsTheSquareWithoutFolds) {
     EXPECT_EQ(uvs.minCoeff(), 0);
     EXPECT_EQ(uvs.maxCoeff(), 1);
     double area = 0;
+    std::size_t flat = 0;
     for (const Triangle& t : heads.patch.triangles) {
       const Eigen::RowVector2d a = uvs.row(t[1]) - uvs.row(t[0]), b = uvs.row(t[2]) - uvs.row(t[0]);
       const double twice = a[0] * b[1] - a[1] * b[0];
-      EXPECT_GT(twice, 0);
+      EXPECT_GT(twice, -1e-15);
+      flat += twice < 1e-15 ? 1 : 0;
       area += twice / 2;
     }
+    // Parts that hang on the rest by two vertices become flat.
+    EXPECT_LT(flat, heads.patch.triangles.size() / 200);
     EXPECT_LE(area, 1 + 1e-9);
     EXPECT_GT(area, 0.9);  // the holes are small
   }
