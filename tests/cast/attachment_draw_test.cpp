@@ -428,20 +428,24 @@ TEST(HairColour, FollowsSharesExactlyInEachGroup) {
   std::vector<int> groups;
   for (FacePlan& face : crowd) {
     const bool clan = *face.index % 2 == 0;
-    face.recipe.target = 0;
+    face.recipe.target = clan ? 0 : 2;  // young and old, both brown
     face.group = clan ? "clan" : "others";
     groups.push_back(clan ? 1 : 0);
   }
   draw_attachments(draw, groups, crowd);
-  int blond = 0;
+  int blond = 0, grey = 0;
   for (const FacePlan& face : crowd) {
     if (*face.group == "clan") {
       EXPECT_GE(face.hair->eumelanin, 0.9);
     } else {
-      blond += face.hair->eumelanin < 0.35 ? 1 : 0;  // the others are brown
+      const bool is_blond = face.hair->eumelanin < 0.35;  // the others are brown
+      blond += is_blond ? 1 : 0;
+      if (is_blond) EXPECT_EQ(face.hair->grey, 0) << face.id;
+      grey += face.hair->grey > 0.3 ? 1 : 0;
     }
   }
   EXPECT_NEAR(blond, 15, 1);
+  EXPECT_GT(grey, 10);  // age changes only colours that nobody asked for
 }
 
 TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {

@@ -42,7 +42,11 @@ HairColour HairDraw::of(const FacePlan& face, Index head) {
     return person.empty() ? std::string(what) : concat(what, '/', person);
   };
   std::optional<HairColour> colour = inherited(face, person);
-  if (!colour) colour = asked(face);
+  bool is_asked = false;
+  if (!colour) {
+    colour = asked(face);
+    is_asked = colour.has_value();
+  }
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) families_.try_emplace(*face.family, *colour);
   // A little scatter, so that not all brown hair is the same brown.
@@ -53,7 +57,8 @@ HairColour HairDraw::of(const FacePlan& face, Index head) {
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
   own.pheomelanin += kScatter * (scatter[1] - 0.5);
   known_[face.id] = own;
-  own.grey = std::max(own.grey, grey_of(face, head, key("hair/grey")));
+  // A colour that the config asks for does not turn grey, so that its share of the faces is visible.
+  if (!is_asked) own.grey = std::max(own.grey, grey_of(face, head, key("hair/grey")));
   return rounded_colour(own);
 }
 
