@@ -48,8 +48,8 @@ std::optional<HairColour> parse_hair_label(std::string_view label);
 
 /// Mean light (linear RGB) of neutral textures; sRGB 170.
 inline constexpr float kNeutralLight = 0.4F;
-/// Mean light of hair of a colour, linear RGB. Each pigment absorbs as in the law of Beer and
-/// Lambert, and a constant part of the light is reflected at the surface.
+/// Mean light of hair of a colour, linear RGB: the light that the pigments do not absorb
+/// (Beer-Lambert law), plus a constant fraction that the surface of the hair reflects.
 std::array<float, 3> light_of(const HairColour& colour);
 /// The factors on a neutral texture's light that give it this colour, at most 1.
 std::array<float, 3> tint_factors(const HairColour& colour);

@@ -110,14 +110,14 @@ std::optional<HairColour> HairDraw::inherited(const FacePlan& face,
   }
   if (known.empty()) return std::nullopt;
   if (known.size() == 1) return known[0];
-  // One of the parents' colours, or a colour between them.
+  // The child gets the colour of one parent (35 % each) or a colour between the two.
   const std::string purpose = concat("hair/parent/", person);
   const auto drawn = random_pair({draw_.seed, 0, purpose});
   const double share = drawn[0] < 0.35 ? 0.0 : drawn[0] < 0.7 ? 1.0 : 0.3 + 0.4 * drawn[1];
   return mix(known[0], known[1], share);
 }
 
-/// Returns a parent's colour in young years; nothing if the parent is unknown.
+/// Returns a parent's hair colour without the grey of age; nothing if the parent is unknown.
 std::optional<HairColour> HairDraw::colour_of_parent(const std::string& parent) const {
   if (const auto face = known_.find(parent); face != known_.end()) return face->second;
   const auto head = std::ranges::find(draw_.heads, parent);

@@ -17,7 +17,7 @@ namespace {
 /// the heads.
 constexpr double kChest = 0.85;
 
-/// Whether pictures show each vertex of the body.
+/// For each vertex of the body, whether it is near enough to the ring to appear in pictures.
 std::vector<bool> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
   const Eigen::VectorXd heights = inputs.mean * unit_vector(config.faces.up);
   const Positions& ring = inputs.neck->seam.positions;
@@ -47,7 +47,8 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
       body.topology.corner_uvs.assign(body.topology.corner_vertices.size(), kNoIndex);
     }
   }
-  // Vertices of the rim are those of the face's ring; the other ones follow those of the face.
+  // In the joined mesh, the body shares the vertices of the face's ring. Its other vertices are
+  // numbered after all vertices of the face.
   std::vector<std::uint32_t> number(shown.size(), kNoIndex), rows;
   for (std::size_t i = 0; i < neck.body_rim.size(); ++i) {
     number[neck.body_rim[i]] = neck.seam.rim[i];

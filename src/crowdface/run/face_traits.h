@@ -54,7 +54,7 @@ class FaceTraits {
 std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const Inputs& inputs,
                                                     const Prepared& prepared);
 
-/// Returns all measurements that are available on the heads; null if there are none.
+/// Returns the measurer of all traits that are available on the heads; null if none is.
 /// \throws UsageError if the config names one that is not available.
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
                                                         const Prepared& prepared);

@@ -35,8 +35,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return whole() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files at this level may contain: all attachments and the body for the
-  /// whole mesh, otherwise only those that some face wears.
+  /// The attachments that files at this level may contain. Whole meshes: all of the crowd and the
+  /// body. Reduced meshes: those that some face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;

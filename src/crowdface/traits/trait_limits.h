@@ -33,7 +33,8 @@ TraitLimits with_own(const TraitLimits& common, const TraitLimits& own);
 /// The values of the heads, whose quantiles limits may name.
 class TraitSpread {
  public:
-  /// \param heads  #heads by #measurements; nothing where a measurement is not available.
+  /// \param heads  for each head, the values of all measurements in the table's order; nothing where
+  ///               a measurement is not available.
   explicit TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads);
 
   bool is_available(std::size_t trait) const { return !ascending_[trait].empty(); }

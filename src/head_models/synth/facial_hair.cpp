@@ -130,7 +130,7 @@ FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   topology.vertex_count = static_cast<Index>(rows.size());
   const Positions on_skin = skin.positions(rows, kAllColumns);
   layer.mesh.positions = on_skin + kAboveSkin * normals(rows, kAllColumns);
-  // The texture is the part of the head's texture that contains these faces.
+  // The layer gets its own texture: the rectangle of the head's texture that these faces use.
   TextureCoordinates uvs = skin.uvs(uv_rows, kAllColumns);
   const Eigen::RowVector2d low = uvs.colwise().minCoeff(), high = uvs.colwise().maxCoeff();
   uvs = (uvs.rowwise() - low).array().rowwise() / (high - low).array();
