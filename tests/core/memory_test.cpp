@@ -92,8 +92,8 @@ std::filesystem::path make_group(std::uint64_t bytes) {
       return false;
     };
     const std::string group = line.substr(line.rfind(':') + 1);
-    const auto second = std::filesystem::path("/sys/fs/cgroup" + group) / name;
-    const auto first = std::filesystem::path("/sys/fs/cgroup/memory" + group) / name;
+    auto second = std::filesystem::path("/sys/fs/cgroup" + group) / name;
+    auto first = std::filesystem::path("/sys/fs/cgroup/memory" + group) / name;
     if (line.starts_with("0::") && made(second, "memory.max")) return second;
     if (line.find(":memory:") != line.npos && made(first, "memory.limit_in_bytes")) return first;
   }
