@@ -56,7 +56,10 @@ export class Review {
   change(face, change) {
     const mark = { attempt: face.attempt, ...this.of(face), ...change };
     if (!mark.verdict) delete mark.verdict;
-    if (!mark.lock?.length || mark.verdict !== 'reject') delete mark.lock;
+    if (!mark.lock?.length || mark.verdict !== 'reject') {
+      delete mark.lock;
+      delete mark.unlocked;
+    }
     if (!mark.note) delete mark.note;
     if (mark.verdict || mark.note) this.marks.set(face.id, mark);
     else this.marks.delete(face.id);
@@ -85,7 +88,9 @@ export class Review {
     if (locksAll(this.crowd, lock)) {
       return `Every ${this.crowd.bands.includes(part) ? 'band' : 'region'} is locked, so nothing is left to redraw.`;
     }
-    this.change(face, { verdict: 'reject', lock: [...lock] });
+    const before = this.of(face);
+    const unlocked = before?.lock ? before.unlocked : before?.verdict; // the verdict before the first lock
+    this.change(face, { verdict: lock.size > 0 ? 'reject' : unlocked, lock: [...lock], unlocked });
     return null;
   }
 

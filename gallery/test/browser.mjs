@@ -182,6 +182,20 @@ await page.keyboard.press('t');
 await page.waitForFunction(() => window.crowdface.page.face.turntable.shown.startsWith('head '));
 await page.keyboard.press('t');
 
+// A lock that is taken back leaves the mark as it was.
+if (crowd.regions.length > 1) {
+  const lock = page.locator('.locks button').first();
+  await lock.click();
+  assert.equal((await marks())[drawn[2]].verdict, 'reject');
+  await lock.click();
+  assert.equal((await marks())[drawn[2]], undefined, 'neither locked nor rejected');
+  await page.keyboard.press('k');
+  await lock.click();
+  await lock.click();
+  assert.equal((await marks())[drawn[2]].verdict, 'keep');
+  await page.keyboard.press('k');
+}
+
 // Mark it: lock a region where there are several, and a note that needs care in YAML.
 if (crowd.regions.length > 1) await page.keyboard.press('1');
 else await page.keyboard.press('r');
