@@ -12,6 +12,7 @@ export function el(tag, properties = {}, ...children) {
     else if (name === 'value' || name === 'checked' || name === 'disabled') node[name] = value;
     else node.setAttribute(name, value === true ? '' : value);
   }
+  if (node.matches('button, select, input') && !node.title) node.title = properties['aria-label'] ?? '';
   node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
   return node;
 }

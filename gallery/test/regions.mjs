@@ -57,14 +57,14 @@ if (part === 'use') {
   await reopened(() => button('Propose').click());
   assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears']);
 
-  await page.keyboard.press('m');
+  await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await button('Add …').click();
   await page.getByLabel('Name of the region').fill('cheeks');
   await reopened(() => page.keyboard.press('Enter'));
   assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears', 'cheeks']);
   assert.equal((await shares())[4], 0, 'a new region is nowhere');
 
-  await page.keyboard.press('m');
+  await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await page.locator('.painting button[data-region="cheeks"]').click();
   await paint();
   await take('painted');
@@ -72,15 +72,15 @@ if (part === 'use') {
   const painted = (await shares())[4];
   assert.ok(painted > 0, 'what was painted is in the masks');
 
-  await page.keyboard.press('m');
+  await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await page.locator('.painting button[data-region="cheeks"]').click();
   await reopened(() => button('Remove').click());
   assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears']);
-  await page.keyboard.press('m');
+  await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await paint();
 } else {
   const painted = await shares();
-  await page.keyboard.press('m');
+  await page.waitForSelector('.painting:not([hidden])');
   await button('Undo stroke').click();
   await page.waitForFunction(() => {
     const { painting } = window.crowdface.editor;

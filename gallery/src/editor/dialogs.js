@@ -20,7 +20,7 @@ export function showPutBack(editor) {
     el('section', {}, el('h3', {}, 'Into the config'),
       el('p', { class: 'muted' }, `As ${editor.document.recipe.id}, into the file that the config names as edits.`),
       el('button', {
-        class: 'export', onclick: () => editor.attempt(async () => {
+        class: 'export', title: 'The next run of generate makes it', onclick: () => editor.attempt(async () => {
           const { file } = await post('recipes', { recipe: editor.wire() });
           dialog.close();
           editor.say(`${editor.document.recipe.id} is saved under recipes in ${file}`);
@@ -29,13 +29,32 @@ export function showPutBack(editor) {
     editor.job.crowd ? el('section', {}, el('h3', {}, 'As a review'),
       face ? [el('p', { class: 'muted' }, `What the next run does with ${face}.`), note,
         el('div', { class: 'choices' },
-          el('button', { onclick: () => review('keep', []) }, 'Keep'),
-          el('button', { onclick: () => review('reject', []) }, 'Reject'),
+          el('button', { title: 'The next run keeps this face', onclick: () => review('keep', []) }, 'Keep'),
+          el('button', { title: 'The next run draws another face in its place', onclick: () => review('reject', []) }, 'Reject'),
           el('button', {
             disabled: locked.length === 0, title: 'Lock the regions that are good first',
             onclick: () => review(null, locked),
           }, locked.length > 0 ? `Redraw except ${locked.join(', ')}` : 'Redraw except locked regions'))]
         : el('p', { class: 'muted' }, 'Open a face of the crowd first.')) : null);
+}
+
+/// \param save  saves over the file
+export function showReplace(name, save) {
+  const dialog = openDialog(`${name} exists`,
+    el('p', {}, 'Save over it? Another name at the top keeps both.'),
+    el('div', { class: 'choices' },
+      el('button', { class: 'export', title: 'Replaces the mesh and its recipe', onclick: () => { dialog.close(); save(); } }, 'Save over it'),
+      el('button', { title: 'Saves nothing', onclick: () => dialog.close() }, 'Cancel')));
+}
+
+/// Of two pages, the one that was opened last edits.
+export function showElsewhere() {
+  const dialog = openDialog('Open in another tab',
+    el('p', {}, 'This face is edited in a tab that was opened later. All steps of this tab are there.'),
+    el('div', { class: 'choices' },
+      el('button', { class: 'export', title: 'This tab takes over', onclick: () => location.reload() }, 'Edit here again')));
+  dialog.addEventListener('cancel', (event) => event.preventDefault());
+  dialog.querySelector('[aria-label=Close]').remove();
 }
 
 /// \param painting  use(change), which opens the page anew.
@@ -44,7 +63,7 @@ export function showAddRegion(painting) {
   const dialog = openDialog('Another region',
     el('form', { method: 'dialog', onsubmit: () => painting.editor.attempt(() => painting.use({ add: name.value.trim() })) },
       el('p', { class: 'muted' }, 'It is empty until it is painted. It is added to the config at once.'),
-      el('div', { class: 'choices' }, name, el('button', { class: 'export' }, 'Add'))));
+      el('div', { class: 'choices' }, name, el('button', { class: 'export', title: 'Adds the region to the config' }, 'Add'))));
   name.focus();
   return dialog;
 }
@@ -58,7 +77,7 @@ export function showProposeRegions(painting) {
     el('form', { method: 'dialog', onsubmit: () => painting.editor.attempt(() => painting.use({ propose: names() })) },
       el('p', { class: 'muted' }, 'Brow, nose and mouth replace the current regions. The config is changed at once.'),
       el('div', { class: 'choices' }, boxes.map((box) => el('label', {}, box, ` ${box.value}`)),
-        el('button', { class: 'export' }, 'Propose'))));
+        el('button', { class: 'export', title: 'Replaces the regions of the config' }, 'Propose'))));
 }
 
 function duration(seconds) {
@@ -72,14 +91,14 @@ export function showGenerate(editor) {
   const bar = el('progress', { max: 1, value: 0, 'aria-label': 'Progress' });
   const text = el('p', { role: 'status' }, '');
   const begin = el('button', {
-    class: 'export', onclick: () => editor.attempt(async () => {
+    class: 'export', title: 'Starts the run', onclick: () => editor.attempt(async () => {
       await post('generate', {});
       await look();
     }),
   }, 'Generate the crowd');
-  const stop = el('button', { onclick: () => editor.attempt(() => post('generate/stop', {})) }, 'Stop');
+  const stop = el('button', { title: 'Stops the run; the next one goes on', onclick: () => editor.attempt(() => post('generate/stop', {})) }, 'Stop');
   const open = el('button', {
-    hidden: true, onclick: () => editor.attempt(() => editor.openAgain('open', {})),
+    hidden: true, title: 'Loads the page again with them', onclick: () => editor.attempt(() => editor.openAgain('open', {})),
   }, 'Open the new faces');
   let timer = null;
   async function look() {

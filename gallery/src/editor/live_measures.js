@@ -8,15 +8,16 @@ export class LiveMeasures {
     Object.assign(this, { show, fail, running: false, next: null });
   }
 
-  async ask(recipe) {
-    this.next = recipe;
+  /// \param asked  {recipe, face: id of the crowd's face that was opened}
+  async ask(asked) {
+    this.next = asked;
     if (this.running) return;
     this.running = true;
     try {
       while (this.next) {
-        const asked = this.next;
+        const { next } = this;
         this.next = null;
-        this.show(await post('measures', { recipe: asked }));
+        this.show(await post('measures', next));
       }
     } catch (error) {
       this.fail(error);

@@ -4,7 +4,7 @@ import { getBinary, getJson, post, postForBlob, put } from '../api.js';
 import { showKeys } from '../dialog.js';
 import { el, short } from '../dom.js';
 import { History } from '../history.js';
-import { showGenerate, showPutBack } from './dialogs.js';
+import { showElsewhere, showGenerate, showPutBack, showReplace } from './dialogs.js';
 import { Exact } from './exact.js';
 import { LiveMeasures } from './live_measures.js';
 import { HeadView } from './head_view.js';
@@ -18,6 +18,9 @@ import { RegionPanel } from './region_panel.js';
 import { Shelf } from './shelf.js';
 import { toolbar, viewBar } from './toolbar.js';
 
+const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
+const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
+const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
 
@@ -26,7 +29,8 @@ class Editor extends ProgramPage {
     super();
     this.job = job;
     const { history, kept } = this.restored(state);
-    this.history = new History(this.fromWire(job.start), history);
+    const first = job.crowd?.faces[0]?.id;
+    this.history = new History(first ? this.openedFace(first) : this.fromWire(job.start), history);
     this.kept = kept;
     this.linked = new Set(state?.linked ?? []);
     this.locked = new Set(state?.locked ?? []);
@@ -39,6 +43,7 @@ class Editor extends ProgramPage {
     this.comparedWith = this.kept.length - 1;
     this.heads = [];
     this.exactOf = null;
+    this.savedMeshes = new Set(); // that may be written again
     this.view = new HeadView(job, mesh);
     this.exact = new Exact({
       show: (face, document) => this.showExact(face, document),
@@ -95,7 +100,11 @@ class Editor extends ProgramPage {
     this.status = el('div', { class: 'measures', role: 'status', 'aria-live': 'polite' });
     this.traitBox = el('div', { class: 'traits' });
     this.message = el('div', { class: 'message', role: 'alert', hidden: true });
-    this.node = el('div', { class: 'editor' }, this.tools.node,
+    const skip = el('a', { class: 'skip', href: '#regions', onclick: (event) => {
+      event.preventDefault();
+      this.panel.firstSlider().focus();
+    } }, 'To the sliders of the regions');
+    this.node = el('div', { class: 'editor' }, skip, this.tools.node,
       el('main', {},
         el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.viewTools.node, this.status),
         el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
@@ -175,7 +184,7 @@ class Editor extends ProgramPage {
       this.exactOf = null;
       this.view.worn.node.visible = false;
       const recipe = wire(this.job, document);
-      if (this.passing) this.measures.ask(recipe);
+      if (this.passing) this.measures.ask({ recipe, face: document.face });
       this.exact.ask(document, { recipe, face: document.face, wears: this.look.wears });
     }
   }
@@ -226,7 +235,8 @@ class Editor extends ProgramPage {
       distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
       distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
       face.ms === undefined ? null : el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
-      ...(face.warnings ?? []).map((text) => el('p', { class: 'warning' }, text)),
+      face.warnings?.length > 0 ? el('p', { class: 'warning' }, 'generate would reject this face:',
+        face.warnings.map((text) => el('span', {}, ` ${text}.`))) : null,
     ].filter(Boolean));
   }
 
@@ -257,13 +267,13 @@ class Editor extends ProgramPage {
 
   /// The document with these regions changed in the band that is shown: the named one, and those linked
   /// with it.
+  /// \param change  (numbers, region) => other numbers; what it leaves alone stays each region's own.
   withRegions(name, change) {
     const { document } = this;
     const names = this.linked.has(name) ? [...this.linked] : [name];
     const regions = { ...document.recipe.regions };
-    const changed = change(this.numbersOf(name));
     for (const other of names) {
-      regions[other] = withBand(this.job, document.recipe, other, this.band, structuredClone(changed));
+      regions[other] = withBand(this.job, document.recipe, other, this.band, change(this.numbersOf(other), other));
     }
     return { ...document, recipe: { ...document.recipe, regions } };
   }
@@ -326,6 +336,7 @@ class Editor extends ProgramPage {
     if (!this.painting) return;
     this.shelf.node.prepend(this.painting.node);
     this.viewTools.offerPainting();
+    if (this.look.painting) this.painting.restore(this.look.painting);
   }
 
   masksChanged(alpha) {
@@ -348,11 +359,16 @@ class Editor extends ProgramPage {
     return { recipe: { id: told.id, ...wholeFace(told), regions }, anchors: {}, ...(face ? { face } : {}) };
   }
 
+  /// A face of the crowd as a document with a name of its own.
+  openedFace(name) {
+    const face = this.job.crowd.faces.find((entry) => entry.id === name);
+    return this.fromWire({ ...face, id: `${name}_edited` }, name);
+  }
+
   open(what) {
     const [kind, name] = [what.slice(0, 4), what.slice(5)];
     if (kind === 'face') {
-      const face = this.job.crowd.faces.find((entry) => entry.id === name);
-      this.commit(this.fromWire({ ...face, id: `${name}_edited` }, name), `${name} opened`);
+      this.commit(this.openedFace(name), `${name} opened`);
     } else if (kind === 'head') {
       this.commit(headAlone(this.job, name, this.document.recipe.id), `${name} opened`);
     }
@@ -435,10 +451,23 @@ class Editor extends ProgramPage {
 
   // -- the program --
 
+  /// Over a mesh that was there before, the page asks once.
   async saveMesh(format) {
+    const { id } = this.document.recipe;
+    const name = `${id}.${format}`;
     this.say('Saving …');
-    const { file } = await post('save', { recipe: this.wire(), format });
-    this.say(`Saved: ${file}`);
+    try {
+      const { file } = await post('save', { recipe: this.wire(), format, ask: !this.savedMeshes.has(name) });
+      this.savedMeshes.add(name);
+      this.say(`Saved: ${file}`);
+    } catch (error) {
+      if (error.status !== 409) throw error;
+      this.say('');
+      showReplace(name, () => this.attempt(() => {
+        this.savedMeshes.add(name);
+        return this.saveMesh(format);
+      }));
+    }
   }
 
   async savePicture() {
@@ -468,14 +497,29 @@ class Editor extends ProgramPage {
     location.reload();
   }
 
-  keepNow(leaving) {
+  /// Another page edits the face now: this one shows it, and keeps nothing any more.
+  setAside() {
+    if (this.isAside) return;
+    this.isAside = true;
+    showElsewhere();
+  }
+
+  async keepNow(leaving) {
     clearTimeout(this.keeping);
+    if (this.isAside) return;
     const { kept, look } = this;
     const state = {
-      history: this.history.toJson(mostKept), kept, look: { ...look, place: this.view.place() },
+      page,
+      history: this.history.toJson(mostKept), kept,
+      look: { ...look, place: this.view.place(), painting: this.painting?.state() ?? look.painting },
       linked: [...this.linked], locked: [...this.locked],
     };
-    return put('state', state, leaving).catch((error) => !leaving && this.say(error.message, true));
+    try {
+      await put('state', state, leaving);
+    } catch (error) {
+      if (error.status === 409) this.setAside();
+      else if (!leaving) this.say(error.message, true);
+    }
   }
 
   // -- heads --
@@ -519,6 +563,7 @@ class Editor extends ProgramPage {
     if (event.ctrlKey || event.metaKey) {
       const held = {
         z: () => (event.shiftKey ? this.redo() : this.undo()), y: () => this.redo(),
+        ...(this.painting?.on ? this.painting.heldKeys(event) : {}),
         s: () => this.attempt(() => this.saveMesh(this.tools.format.value)),
       }[letter];
       if (held && !event.target.matches('input[type=text], textarea')) {
@@ -562,10 +607,29 @@ class Editor extends ProgramPage {
   }
 }
 
+/// This page becomes the one that edits. Another one of this browser keeps its last steps first.
+/// \return the state that was kept
+async function takeOver() {
+  await new Promise((done) => {
+    pages.onmessage = ({ data }) => { if (data === 'kept') done(); };
+    pages.postMessage('opened');
+    setTimeout(done, patience);
+  });
+  const state = await post('state', { page });
+  pages.onmessage = async ({ data }) => {
+    const { editor } = window.crowdface ?? {};
+    if (data !== 'opened' || !editor) return;
+    await editor.keepNow(false);
+    pages.postMessage('kept');
+    editor.setAside();
+  };
+  return state;
+}
+
 async function start() {
   const place = document.getElementById('page');
   try {
-    const [job, mesh, state] = await Promise.all([getJson('job'), getBinary('mesh'), getJson('state').catch(() => null)]);
+    const [job, mesh, state] = await Promise.all([getJson('job'), getBinary('mesh'), takeOver().catch(() => null)]);
     document.title = `${job.name} · crowdface edit`;
     const editor = new Editor(job, mesh, state);
     window.crowdface = { editor };

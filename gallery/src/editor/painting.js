@@ -28,7 +28,7 @@ export class Painting {
 
   panel() {
     const slider = (text, low, high, step, value) => {
-      const input = el('input', { type: 'range', min: low, max: high, step, value, 'aria-label': text });
+      const input = el('input', { type: 'range', min: low, max: high, step, value, 'aria-label': text, onchange: () => this.editor.remember() });
       const number = el('span', {}, String(value));
       input.addEventListener('input', () => { number.textContent = input.value; });
       return { input, node: el('label', { class: 'control' }, el('span', {}, text), input, number) };
@@ -36,18 +36,19 @@ export class Painting {
     this.radius = slider('Radius, mm', 2, 60, 1, 15);
     this.strength = slider('Strength', 0.05, 1, 0.05, 0.5);
     this.falloff = slider('Falloff', 0, 1, 0.05, 0.7);
-    this.mirror = el('input', { type: 'checkbox', checked: true });
+    this.mirror = el('input', { type: 'checkbox', checked: true, title: 'Paint both halves alike', onchange: () => this.editor.remember() });
     this.regionButtons = this.editor.job.regions.map((region) => {
       const dot = el('i', { class: 'regiondot' });
       dot.style.background = region.colour;
-      return el('button', { 'data-region': region.name, onclick: () => this.choose({ region: region.name }) }, dot, region.name);
+      return el('button', { 'data-region': region.name, title: `Paint ${region.name}`, onclick: () => this.choose({ region: region.name }) }, dot, region.name);
     });
-    this.modeButtons = [['paint', 'Paint'], ['erase', 'Erase'], ['smooth', 'Smooth'], ['grow', 'Grow']].map(([mode, text]) =>
-      el('button', { 'data-mode': mode, onclick: () => this.choose({ mode }) }, text));
+    this.modeButtons = [['paint', 'Paint', 'Add skin to the region'], ['erase', 'Erase', 'Take skin out of the region'],
+      ['smooth', 'Smooth', 'Soften its border'], ['grow', 'Grow', 'Move its border outwards']].map(([mode, text, title]) =>
+      el('button', { 'data-mode': mode, title, onclick: () => this.choose({ mode }) }, text));
     const ask = (text, act, title = '') => el('button', { title, onclick: () => this.editor.attempt(act) }, text);
     const node = el('section', { class: 'painting', hidden: true, 'aria-label': 'Masks' },
       el('header', {}, el('h2', {}, 'Masks'), el('span', { class: 'grow' }),
-        el('button', { onclick: () => this.undo() }, 'Undo stroke'),
+        el('button', { title: 'Undo the last stroke (Ctrl+Z)', onclick: () => this.undo() }, 'Undo stroke'),
         this.editor.job.can_edit_config
           ? ask('Use masks', () => this.use({}), 'Saved as images, and named in the config')
           : ask('Save masks', () => this.save(), 'As images in the layout of the textures'),
@@ -64,6 +65,7 @@ export class Painting {
       el('p', { class: 'muted' }, 'Paint on the head; drag beside it to turn it. Space paints in the middle of the view.'));
     this.choose = (change) => {
       Object.assign(this, change);
+      this.editor.remember();
       const mark = (buttons, key, value) => buttons.forEach((button) => {
         button.classList.toggle('on', button.dataset[key] === value);
         button.setAttribute('aria-pressed', String(button.dataset[key] === value));
@@ -76,12 +78,37 @@ export class Painting {
   }
 
   setOn(on) {
+    if (on && !this.on) this.shownBefore = this.editor.look.show;
     this.on = on;
     this.node.hidden = !on;
-    this.editor.setShow(on ? 'regions' : 'surface');
+    this.editor.setShow(on ? 'regions' : this.shownBefore);
     this.showRing(null);
     this.editor.view.worn.node.visible = !on; // it would lie before the skin
     if (on) this.node.scrollIntoView({ block: 'nearest' });
+  }
+
+  get numbers() { return { radius: this.radius, strength: this.strength, falloff: this.falloff }; }
+
+  /// What the page keeps across a reload.
+  state() {
+    const numbers = Object.entries(this.numbers).map(([name, { input }]) => [name, input.value]);
+    return {
+      on: this.on, shownBefore: this.shownBefore, region: this.region, mode: this.mode, mirror: this.mirror.checked,
+      numbers: Object.fromEntries(numbers),
+    };
+  }
+
+  restore({ on, shownBefore, region, mode, mirror, numbers }) {
+    const isThere = this.editor.job.regions.some(({ name }) => name === region);
+    this.choose({ mode, ...(isThere ? { region } : {}) });
+    this.mirror.checked = mirror;
+    for (const [name, { input }] of Object.entries(this.numbers)) {
+      input.value = numbers[name];
+      input.dispatchEvent(new Event('input'));
+    }
+    if (!on) return;
+    this.setOn(true);
+    this.shownBefore = shownBefore;
   }
 
   // -- the brush --
@@ -156,6 +183,12 @@ export class Painting {
   undo() {
     this.waiting.push({ undo: true });
     this.send();
+  }
+
+  /// While the brush is out, Ctrl+Z speaks of strokes; the program keeps none to paint again.
+  heldKeys(event) {
+    const redo = () => this.editor.say('A stroke that was undone cannot be redone: paint it again.');
+    return { z: () => (event.shiftKey ? redo() : this.undo()), y: redo };
   }
 
   /// One request at a time; what is painted meanwhile goes with the next, up to where a stroke begins or is taken back.

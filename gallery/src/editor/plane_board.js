@@ -4,9 +4,19 @@ import { el, short } from '../dom.js';
 import { anchorMark, planeFrame, side } from '../plane.js';
 import { anchorsOf, weightsOf } from './recipe.js';
 
-const knobRadius = 11;
-const ring = 20; // how far controllers at one place stand from it, so that each can be taken
+const finger = 14.5; // pixels: radius of what is to be taken, on a board of any size
 const still = 4; // pixels: below, a press is a click
+const reach = 2; // beyond so many half-widths of the heads' place from its middle no controller stands
+
+/// A letter for each region, none twice: the first of its name that is free.
+function lettersOf(names) {
+  const used = new Set();
+  return new Map(names.map((name) => {
+    const free = [...name.toUpperCase(), ...'ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789'].find((letter) => /[\p{L}\p{N}]/u.test(letter) && !used.has(letter)) ?? '';
+    used.add(free);
+    return [name, free];
+  }));
+}
 
 function isDark(hex) {
   const [r, g, b] = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
@@ -18,7 +28,7 @@ export class PlaneBoard {
   ///                setTarget(name), gather(head).
   constructor(editor) {
     this.editor = editor;
-    this.headRadius = Math.min(30, Math.max(13, (0.2 * side) / Math.sqrt(editor.job.heads.length)));
+    this.letters = lettersOf(editor.job.regions.map(({ name }) => name));
     this.heads = el('g', {});
     this.leads = el('g', {});
     this.handles = el('g', {});
@@ -26,21 +36,53 @@ export class PlaneBoard {
       viewBox: `0 0 ${side} ${side}`, class: 'board', role: 'group', 'aria-label': 'Plane of heads and controllers',
     }, this.heads, this.leads, this.handles);
     this.node = el('div', { class: 'boardbox' }, this.svg);
-    this.headNodes = editor.job.heads.map((head, h) => this.headNode(head, h));
     this.handleNodes = new Map(editor.job.regions.map((region) => [region.name, this.handleNode(region)]));
-    this.heads.append(...this.headNodes);
     this.handles.append(...this.handleNodes.values());
+    this.sizeAnew(1);
+    new ResizeObserver(([{ contentRect }]) => {
+      if (contentRect.width > 0) this.sizeAnew(side / Math.min(contentRect.width, contentRect.height));
+    }).observe(this.svg);
+  }
+
+  /// What is taken with a mouse or a finger, and names, have their size on the screen.
+  /// \param unit  a pixel of the screen, in the board's units
+  sizeAnew(unit) {
+    if (unit === this.unit) return;
+    this.unit = unit;
+    this.knobRadius = finger * unit;
+    this.ring = 1.9 * this.knobRadius; // how far controllers at one place stand from it, so that each can be taken
+    this.headRadius = Math.min(30, Math.max(finger * unit, (0.2 * side) / Math.sqrt(this.editor.job.heads.length)));
+    this.svg.style.setProperty('--unit', `${unit}px`);
+    this.headNodes = this.editor.job.heads.map((head, h) => this.headNode(head, h));
+    this.heads.replaceChildren(...this.headNodes);
+    for (const node of this.handleNodes.values()) {
+      for (const circle of node.querySelectorAll('circle')) circle.setAttribute('r', this.knobRadius * (circle.matches('.grab') ? 1.3 : 1));
+    }
     this.frameAnew();
     this.show();
   }
 
-  /// The part of the plane that is seen; it stays while something is dragged.
+  /// The part of the plane that is seen; it stays while something is dragged. A controller far outside does not
+  /// make it large: it stands at the edge.
   frameAnew() {
     const { editor } = this;
     const { job, document } = editor;
+    const [low, high] = this.limits();
     const points = [...anchorsOf(job, document.anchors),
-      ...job.regions.map(({ name }) => editor.numbersOf(name).position).filter(Boolean)];
+      ...job.regions.map(({ name }) => editor.numbersOf(name).position).filter(Boolean)
+        .map((place) => place.map((value, axis) => Math.min(Math.max(value, low[axis]), high[axis])))];
     this.frame = planeFrame(points, 1.36);
+  }
+
+  /// [low, high] corners of where controllers may be put: farther away the weights hardly change.
+  limits() {
+    const anchors = anchorsOf(this.editor.job, this.editor.document.anchors);
+    const ends = [0, 1].map((axis) => {
+      const values = anchors.map((anchor) => anchor[axis]);
+      return [Math.min(...values), Math.max(...values)];
+    });
+    const half = Math.max(...ends.map(([low, high]) => high - low), 1) / 2;
+    return [-1, 1].map((way) => ends.map(([low, high]) => Number(((low + high) / 2 + way * reach * half).toFixed(4))));
   }
 
   headNode(head, h) {
@@ -61,12 +103,12 @@ export class PlaneBoard {
   }
 
   handleNode(region) {
-    const knob = el('circle', { r: knobRadius });
+    const knob = el('circle', { class: 'knob' });
     knob.style.fill = region.colour;
-    const letter = el('text', { y: 4.5 }, region.name[0].toUpperCase());
+    const letter = el('text', {}, this.letters.get(region.name));
     letter.style.fill = isDark(region.colour) ? '#fff' : '#17181a';
     const node = el('g', { class: 'handle', tabindex: '0', role: 'slider', 'data-region': region.name },
-      el('circle', { r: 14, class: 'grab' }), knob, letter);
+      el('circle', { class: 'grab' }), knob, letter);
     this.makeDraggable(node, {
       from: () => this.placeOf(region.name),
       to: (point) => this.withPosition(region.name, point),
@@ -140,7 +182,9 @@ export class PlaneBoard {
       const way = arrows[event.key];
       if (way && !event.ctrlKey && !event.altKey) {
         const step = this.step() * (event.shiftKey ? 0.1 : 1);
-        const point = from().map((value, axis) => Number((value + step * way[axis]).toFixed(4)));
+        const [low, high] = this.limits();
+        const point = from().map((value, axis) => Number(
+          Math.min(Math.max(value + step * way[axis], low[axis]), high[axis]).toFixed(4)));
         this.editor.commit(to(point), label, { joins: true });
       } else if (event.key === 'Enter' || event.key === ' ') {
         click();
@@ -181,8 +225,10 @@ export class PlaneBoard {
 
   showHandles() {
     const { job, document } = this.editor;
-    const places = job.regions.map(({ name }) => ({ name, at: this.frame.at(this.placeOf(name)) }));
+    const inside = (value) => Math.min(Math.max(value, this.knobRadius), side - this.knobRadius);
+    const places = job.regions.map(({ name }) => ({ name, at: this.frame.at(this.placeOf(name)).map(inside) }));
     const heads = anchorsOf(job, document.anchors).map((anchor) => ({ at: this.frame.at(anchor) }));
+    const { ring, knobRadius } = this;
     const shares = (a, b) => Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1]) < ring;
     this.leads.replaceChildren();
     places.forEach((place) => {
@@ -191,7 +237,7 @@ export class PlaneBoard {
       let [x, y] = place.at;
       const onHead = heads.some((head) => shares(head, place)); // whose picture is to be seen
       if ((here.length > 1 || onHead) && this.drag?.node !== node) {
-        const away = onHead ? this.headRadius + 4 : ring;
+        const away = onHead ? this.headRadius + knobRadius / 2 : ring;
         // Side by side above, where no name stands; all around where they are many.
         const step = Math.min(2 * Math.asin(knobRadius * 1.2 / away), (2 * Math.PI) / here.length);
         const angle = (here.indexOf(place) - (here.length - 1) / 2) * step - Math.PI / 2;

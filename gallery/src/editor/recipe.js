@@ -243,6 +243,17 @@ export function wire(job, document) {
   return { id: recipe.id, ...wholeFace(recipe), regions };
 }
 
+/// The same face with heads where they were moved to: positions that speak of other places become weights.
+export function underAnchors(job, document, anchors) {
+  if (JSON.stringify(document.anchors ?? {}) === JSON.stringify(anchors ?? {})) return document;
+  const { recipe } = document;
+  const regions = Object.fromEntries(job.regions.map(({ name }) => [name, withBands(job, recipe, name, (numbers, band) => {
+    const { position, ...rest } = numbers;
+    return position ? { ...rest, weights: named(job, weightsOf(job, document, name, band)) } : numbers;
+  })]));
+  return { ...document, recipe: { ...recipe, regions }, anchors };
+}
+
 /// A part `t` of the way from one recipe to another. Positions stay positions where both have one;
 /// the target is that of the nearer one, as a face stands on one head.
 export function between(job, from, to, t) {

@@ -30,14 +30,20 @@ export class RegionPanel {
     return node;
   }
 
-  /// A number to type. What cannot be read is put back.
-  number(label, change, options = {}) {
+  /// A number to type. What cannot be read is put back, and what is limited says so.
+  /// \param limits  () => [least, most]
+  number(label, change, limits) {
     const node = el('input', {
-      type: 'number', step: 'any', 'aria-label': label, ...options,
+      type: 'number', step: 'any', 'aria-label': label,
       onchange: () => {
-        const value = parseFloat(node.value);
-        if (Number.isFinite(value)) this.editor.commit(change(value), label, { joins: true });
-        this.show();
+        const typed = parseFloat(node.value);
+        const [least, most] = limits();
+        const value = Math.min(Math.max(typed, least), most);
+        if (Number.isFinite(typed)) this.editor.commit(change(value), label, { joins: true });
+        if (Number.isFinite(typed) && value !== typed) {
+          this.editor.say(`${label.replace(', typed', '')}: ${typed} is outside ${short(least)} to ${short(most)}, so it is ${short(value)}.`);
+        }
+        this.show(node);
       },
     });
     return node;
@@ -51,18 +57,18 @@ export class RegionPanel {
     const unit = () => unitOf(editor.numbersOf(name));
     const setLevel = (level) => every((value) =>
       withAmount(value, unit(), Number(amountAt(level, unit(), levels).toFixed(digits[unit()] + 2))));
-    const setPlace = (axis) => (value) => every((old) => {
-      const { weights, ...rest } = old;
-      const position = [...editor.board.placeOf(name)];
+    const setPlace = (axis) => (value) => every(({ weights, ...rest }, other) => {
+      const position = [...editor.board.placeOf(other)];
       position[axis] = value;
       return { ...rest, position };
     });
-    const setStrength = (value) => every((old) => ({ ...old, extrapolation: Math.min(Math.max(value, -4), 4) }));
+    const placeLimits = (axis) => () => editor.board.limits().map((corner) => corner[axis]);
+    const setStrength = (value) => every((old) => ({ ...old, extrapolation: value }));
     const strength = region.extrapolation ?? { min: 1, max: 1 };
     const card = {
       smooth: this.slider(`Smoothness of ${name}`, { min: 0, max: 1, step: 0.002 }, setLevel),
       amount: this.number(`Smoothness of ${name}, typed`, (value) =>
-        every((old) => withAmount(old, unit(), Math.max(0, value))), { min: 0 }),
+        every((old) => withAmount(old, unit(), value)), () => [0, amountAt(1, unit(), levels)]),
       unit: el('select', {
         'aria-label': `Unit of ${name}'s smoothness`,
         onchange: () => editor.commit(every((old) => withAmount(old, card.unit.value,
@@ -72,9 +78,9 @@ export class RegionPanel {
       strength: this.slider(`Strength of ${name}`, {
         min: Math.min(0, strength.min), max: Math.max(2, strength.max), step: 0.01,
       }, setStrength),
-      factor: this.number(`Strength of ${name}, typed`, setStrength, { min: -4, max: 4 }),
-      x: this.number(`${name}, to the right`, setPlace(0)),
-      y: this.number(`${name}, up`, setPlace(1)),
+      factor: this.number(`Strength of ${name}, typed`, setStrength, () => [-4, 4]),
+      x: this.number(`${name}, to the right`, setPlace(0), placeLimits(0)),
+      y: this.number(`${name}, up`, setPlace(1), placeLimits(1)),
       lends: el('p', { class: 'lends' }),
       link: el('button', { class: 'toggle', onclick: () => editor.toggleLink(name) }, 'link'),
       lock: el('button', { class: 'toggle lock', onclick: () => editor.toggleLock(name) }, 'lock'),
@@ -89,7 +95,8 @@ export class RegionPanel {
     return card;
   }
 
-  show() {
+  /// \param typed  the field whose number was just typed: it shows what came of it.
+  show(typed = null) {
     const { editor } = this;
     for (const [band, button] of this.bands) {
       button.classList.toggle('on', band === editor.band);
@@ -99,7 +106,7 @@ export class RegionPanel {
       const region = editor.numbersOf(name);
       const unit = unitOf(region);
       const put = (input, value) => {
-        if (document.activeElement !== input || input.type === 'range') input.value = value;
+        if (document.activeElement !== input || input.type === 'range' || input === typed) input.value = value;
       };
       put(card.smooth, levelOf(region, editor.job.levels));
       put(card.amount, short(amountOf(region), digits[unit]));
@@ -120,6 +127,8 @@ export class RegionPanel {
       set(card.lock, editor.isLocked(name), 'Locked regions stay when a face is drawn');
     }
   }
+
+  firstSlider() { return this.node.querySelector('input'); }
 
   focus(name) {
     this.cards.get(name)?.node.scrollIntoView({ block: 'nearest' });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // States that are kept to compare with, faces to pick from, and the way between two of them.
-import { el } from '../dom.js';
+import { el, short } from '../dom.js';
 import { post } from '../api.js';
-import { between, headAlone, takeOver } from './recipe.js';
+import { between, headAlone, takeOver, underAnchors } from './recipe.js';
 
 const mostKept = 12;
 const mostOffered = 400; // faces of the crowd to go between; others are opened and kept first
@@ -19,7 +19,7 @@ export class Shelf {
     });
     this.picks = el('section', { class: 'picks', hidden: true },
       el('header', {}, el('h2', {}, 'Pick one'), el('label', {}, 'unlike ', this.amount),
-        el('button', { onclick: () => this.offer() }, 'Six more'),
+        el('button', { title: 'Draw six others (L)', onclick: () => this.offer() }, 'Six more'),
         el('button', { onclick: () => this.closePicks(), 'aria-label': 'Close the faces to pick from' }, '✕')),
       this.pickNode);
     this.path = this.betweenNode();
@@ -52,9 +52,17 @@ export class Shelf {
       const shown = editor.comparing === index;
       return el('div', { class: 'card', role: 'listitem' },
         el('button', {
-          class: `portrait ${shown ? 'on' : ''}`, 'aria-pressed': String(shown),
+          class: `portrait ${shown ? 'on' : ''}`, 'aria-pressed': String(shown), 'aria-label': `Compare with ${entry.name}`,
           title: 'Compare: show this one, and again to go back (B)', onclick: () => editor.compare(index),
-        }, entry.picture ? el('img', { src: entry.picture, alt: '' }) : null, el('span', {}, entry.name)),
+        }, entry.picture ? el('img', { src: entry.picture, alt: '' }) : null),
+        el('input', {
+          type: 'text', value: entry.name, maxlength: 64, 'aria-label': `Caption of ${entry.name}`,
+          onchange: (event) => {
+            entry.name = event.target.value.trim() || entry.name;
+            this.show();
+            editor.remember();
+          },
+        }),
         el('div', { class: 'cardfoot' },
           el('button', {
             class: 'plain', 'aria-label': `Go on from ${entry.name}`, title: 'Go on from this one',
@@ -83,7 +91,15 @@ export class Shelf {
     const { recipes } = await post('draw', {
       recipe: editor.wire(), locked: editor.lockedNames(), count: 1, like: null, amount: 1,
     });
-    editor.commit(editor.fromWire(recipes[0]), 'a face drawn');
+    editor.commit(this.drawn(recipes[0], editor.document), 'a face drawn');
+  }
+
+  /// A drawn recipe as a document: heads stay where they were moved to, and what is locked is as it was.
+  drawn(told, from) {
+    const { editor } = this;
+    const document = underAnchors(editor.job, editor.fromWire(told), from.anchors);
+    const recipe = takeOver(editor.job, editor.lockedParts(), from.recipe, document.recipe);
+    return { ...document, recipe: { ...recipe, id: from.recipe.id } };
   }
 
   /// Six like this one, to pick from.
@@ -92,18 +108,19 @@ export class Shelf {
     this.picks.hidden = false;
     this.pickNode.replaceChildren(el('p', { class: 'muted' }, 'Drawing …'));
     const recipe = editor.wire();
-    const { recipes } = await post('draw', {
+    const { recipes, mm } = await post('draw', {
       recipe, locked: editor.lockedNames(), count: 6, like: recipe, amount: Number(this.amount.value),
     });
     this.pickNode.replaceChildren();
     const start = editor.document;
     for (const [index, told] of recipes.entries()) {
-      const document = editor.fromWire(told);
+      const document = this.drawn(told, start);
       await new Promise(requestAnimationFrame);
       this.pickNode.append(el('div', { class: 'card', role: 'listitem' }, el('button', {
-        class: 'portrait', 'aria-label': `Face ${index + 1} of those to pick from`,
-        onclick: () => editor.commit({ ...document, recipe: { ...document.recipe, id: start.recipe.id } }, 'one like it'),
-      }, el('img', { src: editor.pictureOf(document), alt: '' }))));
+        class: 'portrait', 'aria-label': `Face ${index + 1} of those to pick from, ${short(mm[index])} mm away`,
+        title: 'Go on from this one; its distance from the face',
+        onclick: () => editor.commit(document, 'one like it'),
+      }, el('img', { src: editor.pictureOf(document), alt: '' }), el('span', {}, `${short(mm[index])} mm`))));
     }
     this.pickNode.querySelector('button')?.focus();
   }
@@ -122,7 +139,7 @@ export class Shelf {
     });
     return el('section', { class: 'path', hidden: true },
       el('header', {}, el('h2', {}, 'Between two'), el('span', { class: 'grow' }),
-        el('button', { class: 'on', onclick: () => this.endTravel(true) }, 'Take it'),
+        el('button', { class: 'on', title: 'Go on from this one', onclick: () => this.endTravel(true) }, 'Take it'),
         el('button', { onclick: () => this.endTravel(false), 'aria-label': 'Leave it as it was' }, '✕')),
       el('div', { class: 'ends' }, this.from, this.way, this.to));
   }
@@ -145,7 +162,8 @@ export class Shelf {
 
   travel() {
     const { editor } = this;
-    const [from, to] = [this.ends.get(this.from.value), this.ends.get(this.to.value)];
+    const { anchors } = this.ends.get('this face');
+    const [from, to] = [this.from, this.to].map(({ value }) => underAnchors(editor.job, this.ends.get(value), anchors));
     const mixed = between(editor.job, from, to, Number(this.way.value));
     const stay = this.ends.get('this face');
     const recipe = takeOver(editor.job, editor.lockedParts(), stay.recipe, mixed.recipe);

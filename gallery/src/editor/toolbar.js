@@ -80,7 +80,7 @@ export function toolbar(editor) {
   };
 }
 
-const views = [['front', 'Front'], ['three_quarter', 'Three-quarter'], ['profile', 'Profile'], ['back', 'Back']];
+const views = [['front', 'Front', 'F'], ['three_quarter', 'Three-quarter', 'Q'], ['profile', 'Profile', 'P'], ['back', 'Back']];
 
 export function viewBar(editor) {
   const { job, view } = editor;
@@ -89,7 +89,7 @@ export function viewBar(editor) {
     ...(textures.length > 0 ? [['texture', 'Texture: target’s'],
       ...textures.map(([head, h]) => [`texture ${h}`, `Texture: ${head.name}`])] : [])];
   const show = el('select', {
-    'aria-label': 'What the face shows', onchange: () => editor.setShow(show.value),
+    'aria-label': 'What the face shows', title: 'What the face shows (C)', onchange: () => editor.setShow(show.value),
   }, options.map(([value, text]) => el('option', { value }, text)));
   const wire = el('button', {
     title: 'Edges of the preview (W)', onclick: () => editor.setWireframe(!editor.look.wireframe),
@@ -108,7 +108,7 @@ export function viewBar(editor) {
   return {
     node: el('div', { class: 'viewbar' },
       el('div', { class: 'group', role: 'group', 'aria-label': 'Standard views' },
-        views.map(([name, text]) => el('button', { onclick: () => view.view(name) }, text))),
+        views.map(([name, text, key]) => el('button', { title: `${text} view${key ? ` (${key})` : ''}`, onclick: () => view.view(name) }, text))),
       show, wears.map(([, select]) => select), wire, paint, scale),
     show() {
       show.value = editor.look.show;

@@ -92,8 +92,7 @@ std::string describe(Reason reason, const DiversityOptions& diversity,
 std::string describe_broken(Reason reason, const DiversityOptions& diversity,
                             const BelievabilityOptions& believability) {
   const Constraint& constraint = constraint_of(reason);
-  return concat(constraint.broken, ' ', full_key(constraint), " (",
-                limit_of(constraint, diversity, believability), ")");
+  return concat(constraint.broken, " the limit, ", limit_of(constraint, diversity, believability));
 }
 
 }  // namespace crowdface

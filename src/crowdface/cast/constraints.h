@@ -60,7 +60,7 @@ inline std::string_view name_of(Reason reason) {
 /// Returns, for example, "diversity.min_distance, 0.8 mm".
 std::string describe(Reason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability);
-/// Returns, for example, "nearer to a head than diversity.min_distance_to_faces (0.5 mm)".
+/// Returns, for example, "nearer to a head than the limit, 0.5 mm".
 ///
 /// \pre `reason` is none of kFamily, kRejected and kTraits.
 std::string describe_broken(Reason reason, const DiversityOptions& diversity,

@@ -42,6 +42,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/measures", &EditApi::measures},
                                             {"POST", "api/draw", &EditApi::draw},
                                             {"GET", "api/state", &EditApi::state},
+                                            {"POST", "api/state", &EditApi::take_over},
                                             {"PUT", "api/state", &EditApi::keep_state},
                                             {"POST", "api/save", &EditApi::save},
                                             {"POST", "api/picture", &EditApi::picture},
@@ -130,10 +131,12 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   }
   draw.first_attempt = draws_.fetch_add(kAttempts);
   Json recipes = Json::array();
+  Json mm = Json::array();  // distances from `like`
   for (const FacePlan& face : session_.draw(draw)) {
     recipes.push_back(recipe_to_json(face, session_.casting(), session_.job().config));
+    if (draw.like) mm.push_back(session_.distance_mm(*draw.like, face));
   }
-  return json_answer({{"recipes", recipes}});
+  return json_answer({{"recipes", recipes}, {"mm", mm}});
 }
 
 void EditApi::note_turn(const std::string& page, std::uint64_t turn) {
@@ -173,8 +176,14 @@ nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
   return json;
 }
 
+/// The id of the crowd's face from which the edit began, or empty.
+std::string EditApi::opened_in(const Json& body) {
+  return body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
+}
+
 HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
-  return json_answer(told(session_.measure(face_of(body_of(request)))));
+  const Json body = body_of(request);
+  return json_answer(told(session_.measure(face_of(body), opened_in(body))));
 }
 
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
@@ -197,8 +206,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.add("normals", std::span(normals));
   const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
   if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
-  const std::string opened =
-      body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
+  const std::string opened = opened_in(body);
   answer.head["worn"] = Json::array();
   for (const PlacedAttachment& one : placed_.attachments_of(face, opened, chosen, positions)) {
     const std::vector<float> places = placed_.points(one);
@@ -209,7 +217,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.head["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (body.contains("measure") && body["measure"] == true) {
-    answer.head.update(told(session_.measure(face, positions)));
+    answer.head.update(told(session_.measure(face, positions, opened)));
   }
   return binary_answer(answer.bytes());
 }

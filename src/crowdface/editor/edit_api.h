@@ -46,7 +46,7 @@ class EditApi {
   // Requests about the job and its faces.
   Handler job, mesh, head, attachment, face, measures, draw;
   // Requests that save or write files.
-  Handler state, keep_state, save, picture, put_recipe, review;
+  Handler state, take_over, keep_state, save, picture, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
   // Requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
@@ -62,6 +62,7 @@ class EditApi {
   // \throws UsageError with the key's name.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   FacePlan face_of(const Json& body, const std::string& key = "recipe") const;
+  static std::string opened_in(const Json& body);
   Json told(const FaceMeasures& measures) const;
   void note_turn(const std::string& page, std::uint64_t turn);
   bool overtaken(const std::string& page, std::uint64_t turn);

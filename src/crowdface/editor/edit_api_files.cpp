@@ -5,6 +5,7 @@
 
 #include "crowdface/config/words.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/editor/config_edits.h"
 #include "crowdface/editor/edit_api.h"
@@ -53,9 +54,18 @@ HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
   return {200, "application/json", text.empty() ? "null" : std::move(text)};
 }
 
+HttpAnswer EditApi::take_over(const HttpRequest& request, const std::string& rest) {
+  folder_.take_over(text_in(body_of(request), "page"));
+  return state(request, rest);
+}
+
 HttpAnswer EditApi::keep_state(const HttpRequest& request, const std::string&) {
-  if (parse_shallow_json(request.body).is_discarded()) throw UsageError("the state: expected JSON");
-  folder_.keep_state(request.body);
+  const Json json = parse_shallow_json(request.body);
+  if (json.is_discarded()) throw UsageError("the state: expected JSON");
+  const bool is_named = json.is_object() && json.contains("page") && json["page"].is_string();
+  if (!folder_.keep_state(request.body, is_named ? json["page"].get<std::string>() : "")) {
+    return refusal(409, "another page edits this face now");
+  }
   return json_answer(Json::object());
 }
 
@@ -77,6 +87,10 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   }
   const std::lock_guard lock(building_);
   require_masks_of_config();
+  const auto file = folder_.path() / concat(face.id, extension_of(*format));
+  if (body.contains("ask") && body["ask"] == true && path_exists(file)) {
+    return refusal(409, concat(file.filename().string(), " exists"));
+  }
   painting_.apply();
   return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));
 }

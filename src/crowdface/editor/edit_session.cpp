@@ -24,6 +24,12 @@ Config with_fitted_levels(Config config) {
   return config;
 }
 
+std::string with_spaces(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
 std::string sentence(Reason reason, const Config& config) {
   return describe_broken(reason, config.diversity, config.believability);
 }
@@ -41,7 +47,7 @@ void measure_traits(const FaceTraits& traits, const TraitRules& rules, const Fac
     if (limit == limits.end() || spread.meets(*limit, values[t])) continue;
     const Measurement& of = measurements()[trait];
     measures.warnings.push_back(
-        concat(of.name, ", ", format_trait(of, values[t]), ", is outside its limits (traits)"));
+        concat(with_spaces(of.name), ", ", format_trait(of, values[t]), ", is outside its limits"));
   }
 }
 
@@ -140,7 +146,32 @@ void EditSession::use_masks(const RegionWeights& masks) {
   kept_ = {};
 }
 
-FaceMeasures EditSession::measure(const FacePlan& recipe) const {
+FacePointIndex::Nearest EditSession::nearest_other_face(const FaceSpace::Point& point,
+                                                        const FacePlan& recipe,
+                                                        const std::string& opened) const {
+  FacePointIndex::Nearest nearest;
+  const auto search = [&](Index begin, Index end) {
+    if (begin == end) return;
+    const auto found = judging_.get().crowd.nearest(point, nearest.mm, begin, end);
+    if (found.face >= 0) nearest = found;
+  };
+  Index begin = 0;
+  for (const FacePlan& face : *crowd_) {
+    if (face.id != recipe.id && face.id != opened) continue;
+    const Index at = &face - crowd_->data();
+    search(begin, at);
+    begin = at + 1;
+  }
+  search(begin, static_cast<Index>(crowd_->size()));
+  return nearest;
+}
+
+double EditSession::distance_mm(const FacePlan& one, const FacePlan& other) const {
+  const FaceSpace& space = judging_.get().where->space;
+  return FaceSpace::distance(space.point(one.recipe), space.point(other.recipe));
+}
+
+FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& opened) const {
   const Judging& judging = judging_.get();
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
@@ -149,13 +180,7 @@ FaceMeasures EditSession::measure(const FacePlan& recipe) const {
   measures.head = head.face;
   measures.head_mm = head.mm;
   if (crowd_) {
-    const auto own = std::ranges::find(*crowd_, recipe.id, &FacePlan::id);
-    const Index at = own - crowd_->begin();
-    FacePointIndex::Nearest nearest = judging.crowd.nearest(point, HUGE_VAL, 0, at);
-    if (own != crowd_->end()) {
-      const auto after = judging.crowd.nearest(point, nearest.mm, at + 1);
-      if (after.face >= 0) nearest = after;
-    }
+    const FacePointIndex::Nearest nearest = nearest_other_face(point, recipe, opened);
     if (nearest.face >= 0) {
       measures.face = static_cast<std::size_t>(nearest.face);
       measures.face_mm = nearest.mm;
@@ -171,8 +196,9 @@ FaceMeasures EditSession::measure(const FacePlan& recipe) const {
   return measures;
 }
 
-FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face) const {
-  FaceMeasures measures = measure(recipe);
+FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
+                                  const std::string& opened) const {
+  FaceMeasures measures = measure(recipe, opened);
   if (job_.config.believability.check &&
       builder_.wider_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
     measures.warnings.push_back(sentence(Reason::kGap, job_.config));

@@ -33,7 +33,8 @@ Job load_edited_job(const std::filesystem::path& given, ConfigOverrides override
 struct FaceMeasures {
   Index head = 0;  ///< the nearest input head
   double head_mm = 0;
-  std::optional<std::size_t> face;  ///< the nearest other face of the crowd
+  /// The nearest face of the crowd other than the face itself and the face it was opened from.
+  std::optional<std::size_t> face;
   double face_mm = 0;
   /// A measurement of the face, in its unit, and how much larger it is than the heads' mean.
   struct Trait {
@@ -80,9 +81,13 @@ class EditSession {
   /// previous face in few regions.
   Positions build(const Recipe& recipe) const;
   /// Measures a face without its mesh, and therefore does not check for gaps between parts.
-  FaceMeasures measure(const FacePlan& recipe) const;
+  /// \param opened  id of the crowd's face from which the edit began, or empty
+  FaceMeasures measure(const FacePlan& recipe, const std::string& opened = "") const;
   /// \param face  result of `build`
-  FaceMeasures measure(const FacePlan& recipe, const Positions& face) const;
+  FaceMeasures measure(const FacePlan& recipe, const Positions& face,
+                       const std::string& opened = "") const;
+  /// Root mean square distance between two faces, in mm.
+  double distance_mm(const FacePlan& one, const FacePlan& other) const;
   /// See draw_faces.
   std::vector<FacePlan> draw(const DrawRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.
@@ -101,6 +106,8 @@ class EditSession {
     std::unique_ptr<const TraitRules> rules;
   };
   Judging judging() const;
+  FacePointIndex::Nearest nearest_other_face(const FaceSpace::Point& point, const FacePlan& recipe,
+                                             const std::string& opened) const;
   nlohmann::ordered_json regions_json() const;
   FacePlan first_face() const;
   std::vector<HeadLevels> preview_levels() const;

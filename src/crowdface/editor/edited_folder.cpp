@@ -77,10 +77,17 @@ std::string EditedFolder::state() const {
   return path_exists(file) ? read_file(file) : std::string();
 }
 
-void EditedFolder::keep_state(std::string_view text) {
+void EditedFolder::take_over(std::string page) {
   const std::lock_guard lock(mutex_);
+  editing_page_ = std::move(page);
+}
+
+bool EditedFolder::keep_state(std::string_view text, const std::string& page) {
+  const std::lock_guard lock(mutex_);
+  if (page != editing_page_) return false;
   require_same();
   write_file(path_ / "state.json", text);
+  return true;
 }
 
 void EditedFolder::write_meshes(const FacePlan& face, const std::string& ending,

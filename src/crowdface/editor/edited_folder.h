@@ -35,7 +35,11 @@ class EditedFolder {
 
   /// The state that the page saved last, unchanged; empty if there is none.
   std::string state() const;
-  void keep_state(std::string_view text);
+  /// From now on, only this page may replace the state: two pages would overwrite each other's steps.
+  void take_over(std::string page);
+  /// \param page  the page that asks, or empty if no page has taken over
+  /// \return false, without an effect, if another page has taken over
+  bool keep_state(std::string_view text, const std::string& page);
 
   /// Writes the mesh of a face in one format.
   using WriteMesh =
@@ -60,6 +64,7 @@ class EditedFolder {
   std::filesystem::path path_;
   DirectoryHandle held_;
   std::mutex mutex_;
+  std::string editing_page_;  ///< see take_over
 };
 
 }  // namespace crowdface
