@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "crowdface/core/cancel.h"
 #include "crowdface/core/error.h"
 
 namespace crowdface {
@@ -61,12 +62,12 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return signal_seen != 0;
+  return signal_seen != 0 || is_cancelled();
 }
 
 void throw_if_interrupted() {
   if (interrupted()) {
-    throw Interrupted(kMessage);
+    throw Interrupted(signal_seen != 0 ? kMessage : "cancelled; run again to continue");
   }
 }
 

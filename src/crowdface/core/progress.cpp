@@ -18,6 +18,16 @@ bool on_terminal() {
   return terminal && log_level() != LogLevel::kQuiet;
 }
 
+std::atomic<bool> has_listener = false;
+std::mutex listener_mutex;
+ProgressListener progress_listener;  ///< guarded by listener_mutex
+
+void tell_listener(const std::string& stage, std::size_t done, std::size_t total) {
+  if (!has_listener) return;
+  const std::lock_guard lock(listener_mutex);
+  if (progress_listener) progress_listener(stage, done, total);
+}
+
 }  // namespace
 
 std::string format_duration(double seconds) {
@@ -28,8 +38,9 @@ std::string format_duration(double seconds) {
   return concat(whole / 3600, " h ", whole % 3600 / 60, " min");
 }
 
-Progress::Progress(std::string stage, std::size_t total)
-    : stage_(std::move(stage)), total_(total) {}
+Progress::Progress(std::string stage, std::size_t total) : stage_(std::move(stage)), total_(total) {
+  tell_listener(stage_, 0, total_);
+}
 
 Progress::~Progress() {
   if (shown_ && on_terminal()) std::fputs("\r\033[K", stderr);
@@ -40,8 +51,15 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
+void set_progress_listener(ProgressListener listener) {
+  const std::lock_guard lock(listener_mutex);
+  has_listener = static_cast<bool>(listener);
+  progress_listener = std::move(listener);
+}
+
 void Progress::step(std::size_t amount) {
   const std::size_t done = done_.fetch_add(amount) + amount;
+  tell_listener(stage_, done, total_);
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock.owns_lock() && done < total_) show(done);
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -37,6 +38,13 @@ class Progress {
   Clock::time_point last_shown_ = start_;
   bool shown_ = false;
 };
+
+/// Receives the name of a stage, the number of finished steps and the number of all steps. Called on
+/// any thread, one call at a time, at the start of a stage and after each step.
+using ProgressListener =
+    std::function<void(const std::string& stage, std::size_t done, std::size_t total)>;
+/// Reports all progress of the process to `listener`; an empty listener ends the reports.
+void set_progress_listener(ProgressListener listener);
 
 /// "3 s", "2 min 5 s", "1 h 10 min".
 std::string format_duration(double seconds);

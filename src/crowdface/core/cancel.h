@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace crowdface {
+
+/// Stops all work of the library in this process: `interrupted` returns true until `allow_work` is
+/// called, and long loops throw Interrupted. For programs in which a user may cancel a call that
+/// runs on another thread. Thread-safe.
+void cancel_work();
+void allow_work();
+/// Whether work is cancelled.
+bool is_cancelled();
+
+}  // namespace crowdface
