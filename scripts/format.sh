@@ -6,4 +6,4 @@ cd "$(dirname "$0")/.."
 
 scripts/install_dependencies.sh --check
 git ls-files -z --cached --others --exclude-standard -- 'src/*.h' 'src/*.cpp' 'tests/*.h' \
-  'tests/*.cpp' 'examples/*.cpp' | xargs -0 --no-run-if-empty clang-format -i
+  'tests/*.cpp' 'examples/*.cpp' 'python/*.h' 'python/*.cpp' | xargs -0 --no-run-if-empty clang-format -i

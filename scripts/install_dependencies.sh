@@ -5,7 +5,7 @@
 # Debian 13 (trixie) and Debian testing (forky, November 2026); Ubuntu 24.04 has the same package names.
 #
 #   scripts/install_dependencies.sh          what building needs, and most tests
-#   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, and Doxygen
+#   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, Doxygen, and what the Python module needs
 #   scripts/install_dependencies.sh --farm   only what the tests of farms start: Slurm, GNU parallel, sshd
 #   scripts/install_dependencies.sh --docs   and what scripts/docs.sh needs
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
@@ -33,7 +33,7 @@ packages=(
 command -v npm >/dev/null || packages+=(nodejs npm)
 case "${1-}" in
   "") ;;
-  --test) packages+=(chromium doxygen) ;;
+  --test) packages+=(chromium doxygen pybind11-dev python3-dev python3-numpy python3-pytest mypy) ;;
   --docs) packages+=(doxygen) ;;
   --check) packages+=(clang-format clang-tidy) ;;
   --farm) packages=(slurmctld slurmd slurm-client munge parallel openssh-server openssh-client) ;;

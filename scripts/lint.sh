@@ -22,7 +22,7 @@ sources() {
 }
 
 cpp=('src/*.cpp' 'tests/*.cpp' 'examples/*.cpp')
-all=("${cpp[@]}" 'src/*.h' 'tests/*.h')
+all=("${cpp[@]}" 'src/*.h' 'tests/*.h' 'python/*.h' 'python/*.cpp')
 
 check_format() {
   local files

@@ -21,6 +21,11 @@ for file in core/text.h run/mesh_writers.h; do
   [ ! -e "$place/prefix/include/crowdface/$file" ] || { echo "installed, and not public: $file"; exit 1; }
 done
 "$place/prefix/bin/crowdface" --version
+# The Python module, if it is built.
+if compgen -G "$build/python/crowdface/_crowdface.*.so" >/dev/null; then
+  packages=$(dirname "$(dirname "$(find "$place/prefix" -name py.typed)")")
+  PYTHONPATH=$packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c 'import crowdface; print("Python module", crowdface.__version__)'
+fi
 # What it loads for images lies where it looks.
 "$place/prefix/bin/crowdface" synth -q -o "$place/heads" --count 2 --vertices 5000
 "$place/prefix/bin/crowdface" init -q "$place/heads" -o "$place/crowd.yaml"
