@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes mesh objects as OBJ files, and reads vertices back.
+
+Vertices keep their order. Coordinates are Blender's (+Z up, heads look along -Y), with the object's rotation and scale
+but without its location, so heads may stand side by side in the scene.
+"""
+import os
+import re
+import shutil
+
+import bpy
+import numpy
+
+UP, FRONT = "+Z", "-Y"
+
+
+def plain_name(name):
+    """A name as crowdface accepts it."""
+    return re.sub(r"[^A-Za-z0-9_.-]", "_", name).lstrip(".")[:64] or "_"
+
+
+def points_of(item, block=None):
+    """Vertices of a mesh object (or of one of its shape keys), n by 3."""
+    source = block.data if block else item.data.vertices
+    points = numpy.empty(3 * len(source))
+    source.foreach_get("co", points)
+    turn = numpy.array(item.matrix_world.to_3x3())
+    return points.reshape(-1, 3) @ turn.T
+
+
+def _corners(mesh):
+    corners = numpy.empty(len(mesh.loops), dtype=int)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return corners
+
+
+def _texture_coordinates(mesh, corners):
+    """Different (vertex, u, v), and the row of each corner."""
+    layer = mesh.uv_layers.active
+    if not layer:
+        return None, None
+    uvs = numpy.empty(2 * len(corners))
+    layer.data.foreach_get("uv", uvs)
+    rows, numbers = numpy.unique(numpy.column_stack([corners, uvs.reshape(-1, 2)]), axis=0, return_inverse=True)
+    return rows[:, 1:], numbers.reshape(-1)
+
+
+def write_obj(file, item, block=None, materials=True):
+    """Writes the base mesh; modifiers do not count."""
+    mesh = item.data
+    corners = _corners(mesh)
+    uvs, uv_corners = _texture_coordinates(mesh, corners)
+    names = [plain_name(slot.name) if slot else "none" for slot in mesh.materials]
+    lines = []
+    if materials and names:
+        library = os.path.splitext(file)[0] + ".mtl"
+        _write_materials(library, mesh.materials)
+        lines.append(f"mtllib {os.path.basename(library)}")
+    lines += ["v %.9g %.9g %.9g" % tuple(point) for point in points_of(item, block)]
+    if uvs is not None:
+        lines += ["vt %.9g %.9g" % tuple(uv) for uv in uvs]
+    used = None
+    for polygon in mesh.polygons:
+        if names and polygon.material_index != used:
+            used = polygon.material_index
+            lines.append(f"usemtl {names[min(used, len(names) - 1)]}")
+        if uvs is None:
+            lines.append("f " + " ".join(str(corners[i] + 1) for i in polygon.loop_indices))
+        else:
+            lines.append("f " + " ".join(f"{corners[i] + 1}/{uv_corners[i] + 1}" for i in polygon.loop_indices))
+    with open(file, "w", encoding="utf-8") as out:
+        out.write("\n".join(lines) + "\n")
+
+
+def base_colour(material):
+    """The image that feeds the Base Color of a material (or None), and the plain colour."""
+    tree = material.node_tree
+    shader = next((n for n in tree.nodes if n.type == 'BSDF_PRINCIPLED'), None) if tree else None
+    if not shader:
+        return None, material.diffuse_color
+    socket = shader.inputs["Base Color"]
+    waiting = [link.from_node for link in socket.links]
+    while waiting:
+        node = waiting.pop(0)
+        if node.type == 'TEX_IMAGE' and node.image:
+            return node.image, socket.default_value
+        waiting += [link.from_node for plug in node.inputs for link in plug.links]
+    return None, socket.default_value
+
+
+def _write_materials(library, materials):
+    lines = []
+    for material in materials:
+        lines.append(f"newmtl {plain_name(material.name) if material else 'none'}")
+        image, colour = base_colour(material) if material else (None, (0.8, 0.8, 0.8, 1))
+        lines.append("Kd %.6g %.6g %.6g" % tuple(colour[:3]))
+        if image:
+            lines.append(f"map_Kd {_write_image(image, os.path.dirname(library))}")
+    with open(library, "w", encoding="utf-8") as out:
+        out.write("\n".join(lines) + "\n")
+
+
+def _write_image(image, folder):
+    """Copies an image into the folder, or writes it there, and returns its file name."""
+    source = bpy.path.abspath(image.filepath, library=image.library)
+    stem = plain_name(os.path.splitext(image.name)[0])
+    if image.packed_file:
+        name = stem + (".jpg" if image.file_format == 'JPEG' else ".png")
+        with open(os.path.join(folder, name), "wb") as out:
+            out.write(image.packed_file.data)
+    elif os.path.isfile(source) and not image.is_dirty:
+        name = stem + os.path.splitext(source)[1].lower()
+        if os.path.abspath(source) != os.path.abspath(os.path.join(folder, name)):
+            shutil.copyfile(source, os.path.join(folder, name))
+    else:  # painted or generated, not saved
+        name = stem + ".png"
+        copy = image.copy()
+        copy.filepath_raw, copy.file_format = os.path.join(folder, name), 'PNG'
+        copy.save()
+        bpy.data.images.remove(copy)
+    return name
+
+
+def read_points(file):
+    """The vertices of an OBJ file, n by 3."""
+    with open(file, encoding="utf-8") as lines:
+        return numpy.array([line.split()[1:4] for line in lines if line.startswith("v ")], dtype=float)
+
+
+def set_points(item, points):
+    """Moves the vertices of an object to points as `points_of` gives them."""
+    turn = numpy.linalg.inv(numpy.array(item.matrix_world.to_3x3()))
+    item.data.vertices.foreach_set("co", (points @ turn.T).astype(numpy.float32).reshape(-1))
+    item.data.update()
