@@ -44,10 +44,10 @@ py::array view(const std::vector<Number>& numbers, const py::object& owner) {
   return array;
 }
 
-/// An index below `count`; `missing` stands for -1.
+/// An index below `count`; -1 and kNoIndex mean none.
 std::uint32_t index_from(std::int64_t number, Index count, bool may_be_missing,
                          const std::string& what) {
-  if (number == -1 && may_be_missing) return kNoIndex;
+  if (may_be_missing && (number == -1 || number == kNoIndex)) return kNoIndex;
   if (number < 0 || number >= count) {
     throw InvalidInput(
         concat(what, ": expected numbers from 0 to ", count - 1, ", found ", number));

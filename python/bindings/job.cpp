@@ -23,6 +23,7 @@
 #include "crowdface/run/generate.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/pipeline.h"
+#include "crowdface/run/wrap_scans.h"
 
 #include "bindings/bindings.h"
 #include "bindings/long_call.h"
@@ -130,6 +131,28 @@ py::dict dict_of(const CrowdCheck& check) {
   result["unfinished"] = check.unfinished;
   result["remarks"] = check.remarks;
   return result;
+}
+
+/// The options of a wrap from its arguments that are texts.
+WrapOptions wrap_options(const std::map<std::string, std::string>& texts) {
+  static const std::map<std::string, std::string WrapOptions::*> fields = {
+      {"template", &WrapOptions::shape},
+      {"scan", &WrapOptions::scan},
+      {"out", &WrapOptions::out},
+      {"landmarks", &WrapOptions::landmarks},
+      {"template_landmarks", &WrapOptions::template_landmarks},
+      {"model", &WrapOptions::model},
+      {"ignore", &WrapOptions::ignore},
+      {"units", &WrapOptions::units},
+      {"scan_units", &WrapOptions::scan_units},
+      {"up", &WrapOptions::up},
+      {"front", &WrapOptions::front},
+      {"scan_up", &WrapOptions::scan_up},
+      {"scan_front", &WrapOptions::scan_front},
+  };
+  WrapOptions options;
+  for (const auto& [name, text] : texts) options.*value_of(fields, "wrap", name) = text;
+  return options;
 }
 
 /// Reads or casts a crowd into a folder. \return the folder.
@@ -252,6 +275,16 @@ void bind_job(py::module_& module) {
       },
       py::arg("source"), py::arg("cache"), py::arg("force"), py::arg("dry_run"), py::arg("shard"),
       py::arg("memory"), py::arg("only_plan"), py::arg("progress"));
+  module.def(
+      "wrap",
+      [](const std::map<std::string, std::string>& texts, bool picture, bool estimate,
+         const py::object& progress) {
+        WrapOptions options = wrap_options(texts);
+        options.no_pictures = !picture;
+        options.estimate = estimate;
+        long_call(progress, [&] { wrap_scans(options); });
+      },
+      py::arg("texts"), py::arg("picture"), py::arg("estimate"), py::arg("progress"));
   module.def(
       "gather",
       [](const fs::path& folder, const fs::path& cache, const py::object& progress) {

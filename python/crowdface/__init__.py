@@ -12,6 +12,7 @@ exception, the work is cancelled.
 import json
 import os
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -45,8 +46,9 @@ Progress = Callable[[str, int, int], Any]
 __all__ = [
     "BrokenPrecondition", "CannotCreate", "Crowd", "Error", "Face", "Heads", "Interrupted",
     "InvalidInput", "IoError", "Job", "MissingInput", "Problem", "Smoothing", "Unsatisfiable",
-    "UsageError", "__version__", "cache_directory", "distances", "gather", "generate",
+    "UsageError", "Wrapped", "__version__", "cache_directory", "distances", "gather", "generate",
     "open_crowd", "plan", "read_heads", "set_log_level", "set_threads",
+    "wrap",
 ]  # fmt: skip
 
 
@@ -287,6 +289,64 @@ def generate(
         config, settings, out, review, without_reviews, force, cache, progress,
         only_plan=False, shard=shard, memory=memory,
     )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Wrapped:
+    """A template that was fitted to a scan."""
+
+    positions: Positions
+    """(V, 3), vertices of the template; in the scan's size if `scan_units` was given."""
+    report: Dict[str, Any]
+    """The report of `crowdface wrap`: distances to the scan and landmarks, in mm; warnings."""
+
+
+def wrap(
+    template: Union[PathLike, Heads],
+    scan: Union[PathLike, Heads],
+    *,
+    out: Optional[PathLike] = None,
+    landmarks: Union[PathLike, Mapping[str, Any], None] = None,
+    picture: bool = False,
+    estimate: bool = False,
+    progress: Optional[Progress] = None,
+    **options: str,
+) -> Wrapped:
+    """Fits a template to a scan: what `crowdface wrap` does.
+
+    template, scan: a mesh file, or arrays as Heads with one head. out: an OBJ file to write, with
+    its report beside it. landmarks: a file, or the content of a YAML file as a dict:
+    {"template": {name: vertex}, "scan": {name: [x, y, z]}}. picture: also write a picture beside
+    `out`. estimate: also estimate the error of correspondence. options: template_landmarks, model,
+    ignore, units, scan_units, up, front, scan_up, scan_front, as on the command line.
+    """
+    with tempfile.TemporaryDirectory(prefix="crowdface-") as folder:
+
+        def file_of(mesh: Union[PathLike, Heads], name: str) -> str:
+            if not isinstance(mesh, Heads):
+                return os.fspath(mesh)
+            faces, has_uvs = (mesh.corners, mesh.offsets), len(mesh.uvs) > 0
+            one = Heads(
+                [mesh.positions(0)],
+                faces,
+                uvs=mesh.uvs if has_uvs else None,
+                uv_faces=(mesh.uv_corners, mesh.offsets) if has_uvs else None,
+                names=[name],
+            )
+            one.save(Path(folder))
+            return os.path.join(folder, f"{name}.obj")
+
+        if isinstance(landmarks, Mapping):
+            text = json.dumps(landmarks)
+            landmarks = Path(folder) / "landmarks.yaml"
+            landmarks.write_text(text, encoding="utf-8")
+        head = Path(folder, "head.obj") if out is None else Path(out)
+        texts = {"template": file_of(template, "template"), "scan": file_of(scan, "scan")}
+        if landmarks is not None:
+            texts["landmarks"] = os.fspath(landmarks)
+        _crowdface.wrap({**options, **texts, "out": str(head)}, picture, estimate, progress)
+        report = json.loads(head.with_suffix(".wrap.json").read_text(encoding="utf-8"))
+        return Wrapped(_crowdface.read_heads([head], None).positions(0), report)
 
 
 def gather(

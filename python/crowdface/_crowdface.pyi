@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy.typing as npt
 
@@ -116,5 +116,6 @@ def run(
     only_plan: bool,
     progress: Progress,
 ) -> Path: ...
+def wrap(texts: Mapping[str, str], picture: bool, estimate: bool, progress: Progress) -> None: ...
 def gather(folder: Path, cache: Path, progress: Progress) -> None: ...
 def verify(folder: Path) -> Dict[str, Any]: ...

@@ -39,7 +39,7 @@ std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
 
 }  // namespace
 
-void pick(const WrapOptions& options) {
+void pick(const WrapCommand& options) {
   constexpr std::uint64_t kLargestPort = 65535;
   const auto port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
   WrapOptions without_landmarks = options;

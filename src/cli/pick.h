@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/wrap_inputs.h"
+#include <string>
+
+#include "crowdface/run/wrap_inputs.h"
+
+#include "cli/common_options.h"
 
 namespace crowdface::cli {
 
+/// The command line of `wrap`.
+struct WrapCommand : CommonOptions, WrapOptions {
+  std::string first;       ///< the template, without --batch
+  std::string port = "0";  ///< TCP port of the page of --pick; 0: any free port
+  bool pick = false, no_browser = false;
+};
+
 /// Executes `wrap --pick`: serves the page on which the user picks landmarks of template and scan.
 /// \throws Error
-void pick(const WrapOptions& options);
+void pick(const WrapCommand& options);
 
 }  // namespace crowdface::cli

@@ -70,6 +70,11 @@ def test_heads_are_made_from_arrays(heads):
     )
     assert stacked.names == ["head_00", "head_01"]
     np.testing.assert_array_equal(stacked.faces, heads.faces)
+    copied = crowdface.Heads([np.eye(3)], [[0, 1, 2]], uvs=np.eye(1, 2), uv_faces=[[0, -1, 0]])
+    again = crowdface.Heads(
+        [np.eye(3)], [[0, 1, 2]], uvs=copied.uvs, uv_faces=(copied.uv_corners, copied.offsets)
+    )
+    assert again.uv_corners.tolist() == copied.uv_corners.tolist() == [0, 0xFFFFFFFF, 0]
     mixed = crowdface.Heads([np.eye(4, 3)], [[0, 1, 2], [0, 1, 2, 3]])
     assert mixed.faces is None
     assert mixed.offsets.tolist() == [0, 3, 7]

@@ -15,16 +15,17 @@
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/wrap.h"
 
-#include "cli/common_options.h"
+namespace crowdface {
 
-namespace crowdface::cli {
-
-struct WrapOptions : CommonOptions {
-  std::string first, scan, shape, landmarks, template_landmarks, model, ignore, out, batch;
+/// The options of `crowdface wrap`, as the user typed them; `crowdface wrap --help` explains them.
+/// Empty: not given.
+struct WrapOptions {
+  std::string shape;  ///< the template
+  std::string scan;   ///< a scan; `out` is then the head to write
+  std::string batch;  ///< a folder of scans; `out` is then a folder
+  std::string out, landmarks, template_landmarks, model, ignore;
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
-  std::string port = "0";  ///< TCP port of the page of --pick; 0: any free port
-  bool no_pictures = false, force = false, dry_run = false, pick = false, no_browser = false;
-  bool estimate = false;
+  bool no_pictures = false, force = false, dry_run = false, estimate = false;
 };
 
 /// The inputs that all scans of a run share.
@@ -57,4 +58,4 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
 /// give heads of the same name; InvalidInput if there are none.
 std::vector<std::filesystem::path> scans_in(const std::filesystem::path& folder);
 
-}  // namespace crowdface::cli
+}  // namespace crowdface

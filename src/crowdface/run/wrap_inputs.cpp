@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/wrap_inputs.h"
+#include "crowdface/run/wrap_inputs.h"
 
 #include <algorithm>
 #include <map>
@@ -18,7 +18,7 @@
 #include "crowdface/pick/proposed_landmarks.h"
 #include "crowdface/region/region_weights.h"
 
-namespace crowdface::cli {
+namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +180,4 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   return inputs;
 }
 
-}  // namespace crowdface::cli
+}  // namespace crowdface

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/wrap_scans.h"
+
+#include <algorithm>
+#include <map>
+
+#include "crowdface/config/input_files.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/output_file.h"
+#include "crowdface/core/problems.h"
+#include "crowdface/core/progress.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/obj_writer.h"
+#include "crowdface/paint/face_marks.h"
+#include "crowdface/pick/found_landmarks.h"
+#include "crowdface/pick/suggested_places.h"
+#include "crowdface/wrap/report.h"
+#include "crowdface/wrap/scan_face.h"
+#include "crowdface/wrap/scan_file.h"
+#include "crowdface/wrap/wrap.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A scan and its output files.
+struct Task {
+  fs::path scan, own_landmarks, head, report, picture;
+};
+
+Task make_task(const fs::path& scan, const fs::path& head, const fs::path& reports) {
+  const std::string name = head.stem().string();
+  Task task{scan, scan, head, reports / concat(name, ".wrap.json"),
+            reports / concat(name, ".wrap.png")};
+  task.own_landmarks.clear();
+  for (const char* ending : {".yaml", ".pp", "_picked_points.pp"}) {
+    const fs::path beside = scan.parent_path() / concat(scan.stem().string(), ending);
+    if (task.own_landmarks.empty() && path_exists(beside)) task.own_landmarks = beside;
+  }
+  return task;
+}
+
+std::vector<Task> tasks_of(const WrapOptions& options) {
+  if (options.batch.empty()) {
+    const fs::path head = output_file(options.out);
+    return {make_task(options.scan, head, head.parent_path())};
+  }
+  std::vector<Task> tasks;
+  for (const fs::path& scan : scans_in(options.batch)) {
+    tasks.push_back(make_task(scan, fs::path(options.out) / concat(scan.stem().string(), ".obj"),
+                              fs::path(options.out) / "reports"));
+  }
+  return tasks;
+}
+
+void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<Task>& tasks) {
+  std::vector<fs::path> inputs = {options.shape, options.landmarks, options.ignore};
+  if (!options.model.empty()) {
+    for (fs::path& head : list_heads(options.model)) inputs.push_back(std::move(head));
+  }
+  std::vector<fs::path> outputs;
+  for (const Task& task : tasks) {
+    inputs.insert(inputs.end(), {task.scan, task.own_landmarks});
+    outputs.insert(outputs.end(), {task.head, task.report, task.picture});
+  }
+  refuse_to_write_over(inputs, outputs);
+}
+
+Digest inputs_of(const WrapInputs& shared, const Task& task) {
+  Hasher hasher;
+  hasher.add(shared.digest).add(hash_file(task.scan).digest);
+  if (!task.own_landmarks.empty()) hasher.add(hash_file(task.own_landmarks).digest);
+  return hasher.digest();
+}
+
+/// Returns whether the task's report contains the digests of these inputs and of the existing head.
+bool is_done(const Task& task, const Digest& inputs) {
+  if (!path_exists(task.report) || !path_exists(task.head)) return false;
+  const std::string report = read_file(task.report);
+  return report.find(concat("\"inputs\": \"", inputs.hex(), '"')) != std::string::npos &&
+         report.find(concat("\"mesh\": \"", hash_file(task.head).digest.hex(), '"')) !=
+             std::string::npos;
+}
+
+LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
+  LandmarkFile file = shared.landmarks;
+  if (task.own_landmarks.empty()) return file;
+  const LandmarkFile own = read_landmarks(task.own_landmarks);
+  for (const auto& [name, place] : own.of_template) file.of_template[name] = place;
+  for (const auto& [name, place] : own.of_scan) file.of_scan[name] = place;
+  return file;
+}
+
+/// Returns the landmarks from the files. If these are too few and the pose of the scan is known,
+/// adds landmarks that are detected by shape.
+/// \param hint  pose of the scan. Receives the face that is found in the scan's relief and, if
+///              `hint` was empty, the axes of this face.
+std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
+                                       std::optional<PoseHint>& hint) {
+  const LandmarkFile file = landmarks_for(shared, task);
+  std::vector<WrapLandmark> landmarks = match_landmarks(file, shared.file.positions, scan);
+  if (landmarks.empty() && !file.of_scan.empty()) {
+    log_warning(concat(task.scan.string(), ": none of its ", file.of_scan.size(), " landmarks (",
+                       file.of_scan.begin()->first, ", …) has the name of a template landmark: ",
+                       "name template landmarks with --template-landmarks, or under template in "
+                       "the YAML file"));
+  }
+  if (landmarks.size() >= kMinLandmarks) return landmarks;
+  auto face = find_scan_face(scan, hint);
+  if (hint) {
+    hint->face = std::move(face);
+  } else {
+    if (!face) return landmarks;
+    hint = PoseHint{face->axes.up, face->axes.front, face};
+    const Orientation orientation = all_orientations()[face->view];
+    log_info(concat(task.scan.string(), ": found a face that looks along ",
+                    name_of(orientation.front), " with ", name_of(orientation.up), " up"));
+  }
+  std::vector<std::string> found;
+  for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *hint)) {
+    if (std::ranges::any_of(landmarks, [&](const auto& l) { return l.name == landmark.name; })) {
+      continue;
+    }
+    found.push_back(landmark.name);
+    landmarks.push_back(std::move(landmark));
+  }
+  if (!found.empty()) {
+    log_info(concat(task.scan.string(), ": ", found.size(),
+                    " landmarks detected from the shape: ", join(found)));
+  }
+  return landmarks;
+}
+
+/// Returns the factor that scales the head to the size of the scan; 1, the size of the template, if
+/// the unit of the scan is not given. \throws UsageError if the factor is implausible.
+double output_scale(const WrapOptions& options, const Similarity& pose) {
+  if (options.scan_units.empty()) return 1;
+  const double scale = pose.scale * mm_per(unit_of("--scan-units", options.scan_units));
+  constexpr double kMax = 1.5;
+  if (scale > kMax || scale < 1 / kMax) {
+    throw UsageError(concat("--scan-units ", options.scan_units, ": the head would be ",
+                            format_fixed(scale, 3),
+                            " times as large as the template; expected another unit, or none"));
+  }
+  return scale;
+}
+
+/// Leave-one-out check: returns the distance of each landmark from the position that the other
+/// landmarks predict; empty for fewer than five landmarks.
+std::map<std::string, double> left_out(const WrapInputs& shared,
+                                       const std::vector<WrapLandmark>& landmarks) {
+  constexpr std::size_t kMin = 5;
+  std::map<std::string, double> result;
+  std::vector<PickedLandmark> picked;
+  for (const WrapLandmark& one : landmarks) {
+    picked.push_back({one.name, one.vertex, one.place, std::nullopt});
+  }
+  if (picked.size() < kMin) return result;
+  const auto pose = pose_of_picked(picked, shared.shape.positions);
+  if (!pose) return result;
+  for (const auto& [name, residual] : pose->residuals) result[name] = residual.mm;
+  return result;
+}
+
+/// Returns hints for an error message if landmarks are missing: whether the scan is only a part of a
+/// head, and whether its relief has a face with other axes than --scan-up and --scan-front.
+std::string likely_causes(const WrapInputs& shared, const Scan& scan,
+                          const std::vector<WrapLandmark>& landmarks) {
+  constexpr double kPart = 0.3;  // of the surface
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
+  if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
+  std::string part =
+      missing_share(scan) < kPart
+          ? ""
+          : "; the scan seems to be only a part of a head, whose place is not found without "
+            "landmarks: pick four or more";
+  if (!shared.hint) return part;
+  const auto face = find_scan_face(scan, std::nullopt);
+  if (!face) return part;
+  const Orientation found = all_orientations()[face->view];
+  if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
+    return part;
+  return concat(part, part.empty() ? "; the scan seems to look" : "; or it looks", " along ",
+                name_of(found.front), " with ", name_of(found.up), " up: use --scan-up ",
+                name_of(found.up), " --scan-front ", name_of(found.front));
+}
+
+void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
+              const Digest& inputs) {
+  const Scan scan = read_scan(task.scan);
+  for (const std::string& note : scan.notes) log_warning(concat(task.scan.string(), ": ", note));
+  // Fit the template to the scan, and refuse a bad fit.
+  std::optional<PoseHint> hint = shared.hint;
+  const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan, hint);
+  const WrapResult result = [&] {
+    try {
+      WrapResult wrapped =
+          wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
+      refuse_bad_wrap(shared.shape, wrapped, shared.regions);
+      return wrapped;
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(
+          concat(task.scan.string(), ": ", error.what(), likely_causes(shared, scan, landmarks)));
+    }
+  }();
+  // Write head, picture and report.
+  const double scale = output_scale(options, result.pose);
+  const std::vector<std::string> warnings =
+      wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);
+  const Digest mesh = write_obj_like(shared.file, shared.file.topology,
+                                     Positions(result.positions * (scale / shared.mm)), task.head);
+  if (!options.no_pictures) {
+    write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
+                                          task.scan.filename().string()));
+  }
+  WrapFacts facts{options.shape, task.scan.string(),         inputs.hex(), mesh.hex(),
+                  scale,         left_out(shared, landmarks)};
+  if (options.estimate) {
+    facts.unseen_mm = unseen_landmarks(shared.shape, shared.model ? &*shared.model : nullptr, scan,
+                                       landmarks, hint);
+  }
+  write_file(task.report,
+             format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
+  for (const std::string& warning : warnings) {
+    log_warning(concat(task.scan.string(), ": ", warning));
+  }
+  const WrapDistances distances = distances_of(shared.shape, result);
+  log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
+                  format_fixed(distances.median, 2), " mm from the scan (95 %: ",
+                  format_fixed(distances.percentile_95, 2), "), ", landmarks.size(), " landmarks"));
+}
+
+void check_one(const WrapInputs& shared, const Task& task) {
+  const Scan scan = read_scan(task.scan);
+  std::optional<PoseHint> hint = shared.hint;
+  const auto landmarks = landmarks_on(shared, task, scan, hint);
+  log_info(concat(task.scan.string(), ": ", scan.triangles.size(), " triangles, ", landmarks.size(),
+                  " landmarks; would be wrapped to ", task.head.string()));
+}
+
+}  // namespace
+
+void wrap_scans(const WrapOptions& options) {
+  const WrapInputs shared = read_wrap_inputs(options);
+  const std::vector<Task> tasks = tasks_of(options);
+  refuse_to_write_over_inputs(options, tasks);
+  if (!options.dry_run && !options.batch.empty()) {
+    make_directories(fs::path(options.out) / "reports");
+    remove_leftovers(options.out);
+  }
+  Progress progress("scans", tasks.size());
+  Problems problems;
+  std::size_t done = 0;
+  for (const Task& task : tasks) {
+    throw_if_interrupted();
+    try {
+      const Digest inputs = inputs_of(shared, task);
+      if (!options.force && is_done(task, inputs)) {
+        ++done;
+      } else if (options.dry_run) {
+        check_one(shared, task);
+      } else {
+        wrap_one(options, shared, task, inputs);
+      }
+    } catch (const RecoverableError& error) {
+      // Collect the problem and continue with the other scans.
+      if (error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kIoError) throw;
+      problems.add(error);
+    }
+    progress.step();
+  }
+  if (done > 0) log_info(concat(done, " of ", tasks.size(), " scans are already wrapped"));
+  problems.throw_if_any();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/run/wrap_inputs.h"
+
+namespace crowdface {
+
+/// Fits the template to a scan or to a folder of scans, and writes heads, reports and pictures. With
+/// `batch`, skips scans that are already wrapped, and reports the problems of all scans at the end.
+/// \throws Error that names the faulty file or option.
+void wrap_scans(const WrapOptions& options);
+
+}  // namespace crowdface

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+
+import numpy as np
+import pytest
+
+import crowdface
+
+
+@pytest.fixture(scope="module")
+def landmarks(place):
+    """Landmarks of synth_02 as a scan of synth_01: the same vertices."""
+    heads = crowdface.read_heads([place / "heads/synth_01.obj", place / "heads/synth_02.obj"])
+    skin = np.linspace(0, heads.vertex_count // 2, 12).astype(int)
+    return {
+        "template": {f"l{i}": int(vertex) for i, vertex in enumerate(skin)},
+        "scan": {f"l{i}": heads.positions(1)[vertex].tolist() for i, vertex in enumerate(skin)},
+    }
+
+
+def test_wraps_as_the_program(place, program, landmarks):
+    file = place / "landmarks.yaml"
+    file.write_text(json.dumps(landmarks))
+    template, scan = place / "heads/synth_01.obj", place / "heads/synth_02.obj"
+    program("wrap", "-q", template, scan, "--landmarks", file, "--no-pictures", "-o", place / "w.obj")
+    wrapped = crowdface.wrap(template, scan, landmarks=landmarks, out=place / "ours.obj")
+    assert (place / "ours.obj").read_bytes() == (place / "w.obj").read_bytes()
+    np.testing.assert_array_equal(wrapped.positions, crowdface.read_heads(place / "w.obj").positions(0))
+    heads = crowdface.read_heads([template, scan])
+    before, after = crowdface.distances(heads, [heads.positions(1), heads.positions(0), wrapped.positions])[0, 1:]
+    assert after < before / 2
+    assert len(wrapped.report["landmarks"]) == 12
+    arrays = crowdface.wrap(
+        crowdface.read_heads(template), crowdface.read_heads(scan), landmarks=landmarks
+    )
+    np.testing.assert_array_equal(arrays.positions, wrapped.positions)
+
+
+def test_a_bad_wrap_is_an_error(place):
+    template = place / "heads/synth_01.obj"
+    with pytest.raises(crowdface.UsageError, match="units"):
+        crowdface.wrap(template, template, units="miles")
+    with pytest.raises(crowdface.UsageError, match="template_landmarks.*found \"size\""):
+        crowdface.wrap(template, template, size="8")
+    with pytest.raises(crowdface.MissingInput):
+        crowdface.wrap(template, place / "no.obj")
