@@ -1,42 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the 3D views share: camera, lights, the way a head stands, skin and painted eyes.
+// What the 3D views share: camera, the way a head stands, skin and painted eyes.
 import {
-  AmbientLight, BufferAttribute, Color, DirectionalLight, DoubleSide, Group, HemisphereLight,
-  MeshPhysicalMaterial, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
-  ACESFilmicToneMapping, Matrix4, ShaderChunk,
+  BufferAttribute, Color, DoubleSide, Group, Matrix4, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { extend, studioMaterial, surfaceWhere } from './studio.js';
 
 const degreesOf = {
   front: 0, three_quarter: 35, profile: 90, back: 180, other_profile: -90, other_three_quarter: -35,
 };
 
-/// Lamps that go with the camera, each shining at a point six units before it: a key light from the
-/// upper left, a weak fill, two rims.
-export const lamps = [
-  { colour: 0xfff1de, strength: 2.6, at: [-4.2, 4.2, 0] },
-  { colour: 0xd9e6ff, strength: 0.45, at: [5, 0.4, 0] },
-  { colour: 0xe6edff, strength: 1.3, at: [4.5, 2, -9.5] },
-  { colour: 0xffffff, strength: 0.6, at: [-5, 1.5, -9.5] },
-];
-export const exposure = 1.05;
-export const sky = { above: 0xe8edf4, below: 0x4c4640, strength: 0.75, ambient: 0.08 };
-
-/// Which way a surface looks is told from its smooth normal. By the triangle, as three.js does, coarse
-/// ones that just turn away at a jaw's edge would be lit as if from behind: bright specks.
-const faceDirection = ShaderChunk.normal_fragment_begin.replace('gl_FrontFacing',
-  'dot(normalize(vNormal), normalize(vViewPosition)) > -0.4');
-
-/// Skin, with a little light that goes through it at the rim.
-export function skinMaterial() {
-  const material = new MeshPhysicalMaterial({
-    vertexColors: true, roughness: 0.56, side: DoubleSide, sheen: 0.25, sheenRoughness: 0.6,
-    sheenColor: new Color(0.9, 0.5, 0.4), specularIntensity: 0.7,
-  });
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader
-      .replace('#include <normal_fragment_begin>', faceDirection);
-  };
+/// \param sky   whether the geometry has `sky`, the share of the sky that each vertex sees
+export function skinMaterial({ sky = false, lightness } = {}) {
+  const material = studioMaterial('skin', { vertexColors: true, side: DoubleSide }, lightness);
+  if (sky) material.defines.HAS_SKY = '';
   return material;
 }
 
@@ -49,6 +26,19 @@ export function linearColours(bytes) {
     linear.set([colour.r, colour.g, colour.b], i);
   }
   return linear;
+}
+
+/// How light the skin in a texture is (render/skin_specular.h): the 70th percentile of what its texels reflect.
+export function skinLightness(image) {
+  const canvas = document.createElement('canvas');
+  canvas.width = 64;
+  canvas.height = 64;
+  const context = canvas.getContext('2d');
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  const linear = linearColours(context.getImageData(0, 0, canvas.width, canvas.height).data.filter((_, i) => i % 4 < 3));
+  const means = [];
+  for (let i = 0; i < linear.length; i += 3) means.push((linear[i] + linear[i + 1] + linear[i + 2]) / 3);
+  return means.sort((a, b) => a - b)[Math.floor(0.7 * means.length)];
 }
 
 /// Eyeballs get a round iris, pixel by pixel: a reduced mesh has too few vertices for one.
@@ -83,9 +73,7 @@ export function eyeUniforms(eyes) {
 /// \param places  three a vertex, in radii of its eyeball; z below −1.5 is no eye.
 export function paintEyes(material, geometry, places, eyes) {
   geometry.setAttribute('eye', new BufferAttribute(places, 3));
-  const before = material.onBeforeCompile;
-  material.onBeforeCompile = (shader, renderer) => {
-    before.call(material, shader, renderer);
+  extend(material, (shader) => {
     Object.assign(shader.uniforms, eyeUniforms(eyes));
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', `#include <common>\n${eyeShader.vertex}`)
@@ -95,24 +83,21 @@ export function paintEyes(material, geometry, places, eyes) {
       .replace('#include <color_fragment>', `#include <color_fragment>
         #ifndef USE_MAP
           if (isEye()) diffuseColor.rgb = eyeballColour();
-        #endif`)
-      .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>
-        if (isEye()) roughnessFactor = 0.25;`);
-  };
+        #endif`);
+    surfaceWhere(shader, 'isEye()', 'eye');
+  });
 }
 
 /// The attribute `rough` says how rough a surface is; painted eyes (paintEyes comes first) say it themselves.
 export function roughAtVertices(material) {
-  const before = material.onBeforeCompile;
-  material.onBeforeCompile = (shader, renderer) => {
-    before.call(material, shader, renderer);
+  extend(material, (shader) => {
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nattribute float rough;\nvarying float vRough;')
       .replace('#include <project_vertex>', 'vRough = rough;\n#include <project_vertex>');
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nvarying float vRough;')
       .replace('#include <roughnessmap_fragment>', '#include <roughnessmap_fragment>\nroughnessFactor = vRough;');
-  };
+  });
 }
 
 /// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
@@ -121,8 +106,6 @@ export class Stage {
   constructor({ pan = false, antialias = true } = {}) {
     this.renderer = new WebGLRenderer({ antialias, alpha: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
-    this.renderer.toneMapping = ACESFilmicToneMapping;
-    this.renderer.toneMappingExposure = exposure;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.node = this.renderer.domElement;
     this.node.className = 'turntable';
@@ -130,7 +113,7 @@ export class Stage {
     this.group = new Group();
     this.scene.add(this.group);
     this.camera = new PerspectiveCamera(20, 1, 0.1, 100);
-    this.lights();
+    this.scene.add(this.camera);
     this.controls = new OrbitControls(this.camera, this.node);
     this.controls.enablePan = pan;
     this.controls.enableDamping = false;
@@ -138,17 +121,6 @@ export class Stage {
     this.controls.maxDistance = 14;
     this.controls.addEventListener('change', () => this.draw());
     this.frames = 0;
-  }
-
-  lights() {
-    for (const { colour, strength, at } of lamps) {
-      const light = new DirectionalLight(colour, strength);
-      light.position.set(...at);
-      light.target.position.set(0, 0, -6);
-      this.camera.add(light, light.target);
-    }
-    this.scene.add(this.camera, new HemisphereLight(sky.above, sky.below, sky.strength),
-      new AmbientLight(0xffffff, sky.ambient));
   }
 
   stand({ up, front, box: [low, high] }) {

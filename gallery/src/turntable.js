@@ -5,7 +5,7 @@ import { BufferAttribute, BufferGeometry, Mesh } from 'three';
 import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
 import { normalsOf } from './normals.js';
-import { linearColours, paintEyes, roughAtVertices, skinMaterial, Stage } from './stage.js';
+import { linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from './stage.js';
 import { pictureAt, pointsOf, Worn } from './worn.js';
 
 /// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
@@ -90,8 +90,9 @@ export class Turntable extends Stage {
     });
     const eyes = mesh.eyes
       ? Float32Array.from(new Uint32Array(bytesOf(mesh.eyes.places).buffer), (value) => value / mesh.eyes.steps - 4) : null;
+    this.skinLightness = { value: 0 };
     this.materials = looks.map(() => {
-      const material = skinMaterial();
+      const material = skinMaterial({ sky: true, lightness: this.skinLightness });
       if (eyes) paintEyes(material, geometry, eyes, mesh.eyes);
       roughAtVertices(material);
       return material;
@@ -125,7 +126,7 @@ export class Turntable extends Stage {
     this.act(this.values);
   }
 
-  /// Where a look has a picture its vertices have no colour but the light that reaches them.
+  /// Where a look has a picture its vertices are white.
   /// \param own  the face's colours at vertices; none: those that all faces share.
   wear(pictures, ofLook, own) {
     for (const picture of this.pictures ?? []) picture.dispose();
@@ -137,8 +138,9 @@ export class Turntable extends Stage {
       material.map = pictures[ofLook[materialIndex]] ?? null;
       material.needsUpdate = true;
       if (!material.map) return;
-      for (const v of index.array.subarray(start, start + count)) colours.fill(this.light[v], 3 * v, 3 * v + 3);
+      for (const v of index.array.subarray(start, start + count)) colours.fill(1, 3 * v, 3 * v + 3);
     });
+    this.skinLightness.value = pictures.length > 0 ? skinLightness(pictures[0].image) : 0;
     this.face.colours = colours;
   }
 
@@ -175,15 +177,15 @@ export class Turntable extends Stage {
     }
     geometry.setAttribute('position', new BufferAttribute(points, 3));
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-    geometry.setAttribute('color', new BufferAttribute(this.lit(values[this.mesh.widest?.shape]), 3));
+    geometry.setAttribute('color', new BufferAttribute(this.face.colours, 3));
+    geometry.setAttribute('sky', new BufferAttribute(this.skyIn(values[this.mesh.widest?.shape]), 1));
     geometry.computeBoundingSphere();
     this.draw();
   }
 
-  /// Colours hold how much light arrives; the shape that opens most lets more of it in.
-  lit(share) {
-    const { colours } = this.face;
-    return share ? colours.map((value, i) => value * (1 + share * (this.opened[Math.floor(i / 3)] - 1))) : colours;
+  /// How much of the sky each vertex sees; the shape that opens most lets more of it in.
+  skyIn(share = 0) {
+    return this.light.map((light, v) => Math.min(1, (light * (1 + share * ((this.opened?.[v] ?? 1) - 1))) ** 2));
   }
 
   draw() {

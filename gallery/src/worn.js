@@ -2,11 +2,12 @@
 // Hair, glasses and the like beside a face. Each stands once in the data, its triangles and pictures;
 // a face brings its positions.
 import {
-  BufferAttribute, BufferGeometry, ClampToEdgeWrapping, Color, DoubleSide, Group, Mesh, MeshStandardMaterial,
-  RepeatWrapping, SRGBColorSpace, TextureLoader,
+  BufferAttribute, BufferGeometry, ClampToEdgeWrapping, Color, DoubleSide, Group, Mesh, RepeatWrapping, SRGBColorSpace,
+  TextureLoader,
 } from 'three';
 import { bytesOf } from './bytes.js';
 import { normalsOf } from './normals.js';
+import { studioMaterial } from './studio.js';
 
 const solid = 0.5; // from here on a texel hides what is behind it
 
@@ -22,15 +23,15 @@ export async function pictureAt(address, { colours, repeated }) {
 /// Where there is a picture of holes strands are drawn twice: what is there for the most part as if it were
 /// whole, its edges by shares of a pixel; then, over it, what is hardly there. Nothing need be sorted by depth.
 function materialsOf(look) {
-  const plain = { color: look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour), map: look.map, roughness: 0.6, side: DoubleSide };
+  const plain = { color: look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour), map: look.map, side: DoubleSide };
   if (!look.alphaMap) {
     const seen = look.share < 1 ? { transparent: true, depthWrite: false, opacity: look.share } : {};
-    return [new MeshStandardMaterial({ ...plain, ...seen })];
+    return [studioMaterial('attachment', { ...plain, ...seen })];
   }
   const holes = { ...plain, alphaMap: look.alphaMap, opacity: look.share };
   return [
-    new MeshStandardMaterial({ ...holes, alphaTest: solid * look.share, alphaToCoverage: true }),
-    new MeshStandardMaterial({ ...holes, alphaTest: 0.02, transparent: true, depthWrite: false }),
+    studioMaterial('attachment', { ...holes, alphaTest: solid * look.share, alphaToCoverage: true }),
+    studioMaterial('attachment', { ...holes, alphaTest: 0.02, transparent: true, depthWrite: false }),
   ];
 }
 

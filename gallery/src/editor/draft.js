@@ -2,28 +2,28 @@
 // Skin that moves where no graphics card draws. Shaders run on the processor there, and for a vertex
 // again and again as triangles come by; so colour and light are computed once a vertex in typed
 // arrays, and the shader does no more than to place it.
-import { BufferAttribute, Color, FrontSide, Matrix3, ShaderMaterial, Vector3 } from 'three';
-import { exposure, lamps, sky } from '../stage.js';
+import { BufferAttribute, FrontSide, Matrix3, ShaderMaterial, Vector3 } from 'three';
+import { keyShare, lamps, shoulder, surfaces, withBounces, wrapped } from '../studio.js';
 
-/// The curve of ACES as three.js has it (Hill's fit), for light of one colour: what it does to hues
-/// is left away.
 function toneOf(light) {
-  const x = (light * exposure) / 0.6;
-  const a = x * (x + 0.0245786) - 0.000090537;
-  const b = x * (0.983729 * x + 0.432951) + 0.238081;
-  const y = Math.min(Math.max(a / b, 0), 1);
+  const y = Math.min(shoulder(light), 1);
   return y <= 0.0031308 ? 12.92 * y : 1.055 * y ** (1 / 2.4) - 0.055;
 }
 
 const steps = 4096;
-const brightest = 4;
+const brightest = 2;
+const typicalAlbedo = 0.3; // of light that bounces
 const tones = Uint8Array.from({ length: steps + 1 }, (_, i) => Math.round(255 * toneOf((i * brightest) / steps)));
 
 export class Draft {
   /// \param geometry  with regionColour; \param colours  linear light, three a vertex;
   /// \param palette   colours of distances, near to far.
-  constructor(geometry, blender, colours, palette) {
+  /// \param sky       share of the sky that each vertex sees, or nothing
+  constructor(geometry, blender, colours, palette, sky) {
     Object.assign(this, { geometry, blender, colours, palette });
+    this.sky = sky ?? new Float32Array(colours.length / 3).fill(1);
+    this.lit = this.sky.map(keyShare);
+    this.open = this.sky.map((share) => withBounces(share, typicalAlbedo));
     this.count = colours.length / 3;
     this.points = new BufferAttribute(blender.points, 4);
     this.shades = new BufferAttribute(new Uint8Array(4 * this.count), 4, true);
@@ -53,8 +53,9 @@ export class Draft {
         #endif
         void main() {
           #ifdef TEXTURED
-            gl_FragColor = vec4(2.0 * vShade * texture2D(map, vPlace).rgb, 1.0);
-            #include <tonemapping_fragment>
+            vec3 light = 2.0 * vShade * texture2D(map, vPlace).rgb;
+            vec3 over = max(light - 0.6, 0.0) / 0.4;
+            gl_FragColor = vec4(min(light, 0.6) + 0.4 * over / (1.0 + 0.55 * over), 1.0);
             #include <colorspace_fragment>
           #else
             gl_FragColor = vec4(vShade, 1.0);
@@ -80,13 +81,10 @@ export class Draft {
     // Lamps go with the camera: in the head's axes they stand elsewhere whenever it turns.
     const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse.clone().multiply(group.matrixWorld)).transpose();
     const local = (way) => way.applyMatrix3(turn).normalize().toArray();
-    const light = lamps.map(({ at, colour, strength }) => ({
-      way: local(new Vector3(...at).sub(new Vector3(0, 0, -6))),
-      colour: new Color(colour).multiplyScalar(strength / Math.PI).toArray(),
-    }));
-    const up = new Vector3(0, 1, 0).applyMatrix3(new Matrix3().setFromMatrix4(group.matrixWorld).transpose()).normalize().toArray();
-    const above = new Color(sky.above).multiplyScalar(sky.strength / Math.PI).toArray();
-    const below = new Color(sky.below).multiplyScalar(sky.strength / Math.PI).toArray();
+    const [key, fill, ...rims] = [lamps.key, lamps.fill, ...lamps.rims].map(({ way, colour }) => ({ way: local(way.clone()), colour }));
+    const up = local(new Vector3(0, 1, 0));
+    const { above, below } = lamps;
+    const { wrap } = surfaces.skin;
     const { points, normals } = this.blender;
     const shades = this.shades.array;
     const regions = this.geometry.getAttribute('regionColour').array;
@@ -94,12 +92,12 @@ export class Draft {
     const sum = [0, 0, 0];
     for (let v = 0; v < this.count; v += 1) {
       const [x, y, z] = [normals[4 * v], normals[4 * v + 1], normals[4 * v + 2]];
+      const facing = ({ way }) => x * way[0] + y * way[1] + z * way[2];
       const high = 0.5 + 0.5 * (x * up[0] + y * up[1] + z * up[2]);
-      for (let c = 0; c < 3; c += 1) sum[c] = below[c] + high * (above[c] - below[c]) + sky.ambient / Math.PI;
-      for (const { way, colour } of light) {
-        const facing = x * way[0] + y * way[1] + z * way[2];
-        if (facing <= 0) continue;
-        for (let c = 0; c < 3; c += 1) sum[c] += facing * colour[c];
+      const [toKey, toFill, right, left] = [facing(key), facing(fill), this.sky[v] * Math.max(facing(rims[0]), 0), this.sky[v] * Math.max(facing(rims[1]), 0)];
+      for (let c = 0; c < 3; c += 1) {
+        sum[c] = this.open[v] * (below[c] + high * (above[c] - below[c]) + fill.colour[c] * wrapped(toFill, wrap[c])) +
+          this.lit[v] * key.colour[c] * wrapped(toKey, wrap[c]) + rims[0].colour[c] * right + rims[1].colour[c] * left;
       }
       if (show === 'texture') {
         for (let c = 0; c < 3; c += 1) shades[4 * v + c] = Math.min(127.5 * sum[c], 255);

@@ -2,7 +2,7 @@
 // The face in 3D: blended on the card or on the processor, whichever a measurement finds faster,
 // shown with its surfaces' colours, a texture, its distance to the target, or its regions.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, MeshLambertMaterial, Sphere,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Sphere,
   SRGBColorSpace, TextureLoader, Vector3,
 } from 'three';
 import { linearColours, paintEyes, skinMaterial, Stage } from '../stage.js';
@@ -85,7 +85,7 @@ export class HeadView extends Stage {
     if (mesh.eyes) paintEyes(this.material, this.geometry, mesh.eyes, mesh.head.eyes);
     // Skin and parts are drawn apart: while skin moves as a draft, the few triangles of eyes stay painted.
     this.object = new Mesh(this.geometry, [this.material, this.material]);
-    if (software) this.prepareDraft(layout);
+    if (software) this.prepareDraft();
     this.object.frustumCulled = false;
     const lines = new MeshBasicMaterial({
       color: 0x101214, wireframe: true, transparent: true, opacity: 0.55, side: DoubleSide, toneMapped: false,
@@ -133,12 +133,9 @@ export class HeadView extends Stage {
     return geometry;
   }
 
-  prepareDraft(layout) {
+  prepareDraft() {
     this.draft = new Draft(this.geometry, this.blender, this.geometry.getAttribute('color').array,
       this.uniforms.distanceColours.value);
-    this.plain = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide });
-    fetchFace(this.plain, this.uniforms, layout);
-    if (this.mesh.eyes) paintEyes(this.plain, this.geometry, this.mesh.eyes, this.mesh.head.eyes);
   }
 
   colourRegions(geometry = this.geometry) {
@@ -234,7 +231,7 @@ export class HeadView extends Stage {
     if (!this.draft || this.moving === on) return;
     this.moving = on;
     this.last = null;
-    this.object.material = on ? [this.draft.material, this.plain] : [this.material, this.material];
+    this.object.material = on ? [this.draft.material, this.material] : [this.material, this.material];
     this.setRatio(on ? this.draftRatio : this.fullRatio);
     this.draw();
   }

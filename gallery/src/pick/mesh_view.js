@@ -2,11 +2,11 @@
 // A mesh in 3D with named places on it. What is pointed at, the program finds on the whole mesh: this one has
 // fewer triangles.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Matrix4, Mesh, MeshPhongMaterial, Raycaster, Vector2, Vector3,
+  BufferAttribute, BufferGeometry, Color, Matrix4, Mesh, Raycaster, Vector2, Vector3,
 } from 'three';
 import { el } from '../dom.js';
 import { hitTriangle } from '../hit.js';
-import { Stage } from '../stage.js';
+import { skinMaterial, Stage } from '../stage.js';
 
 const hides = 0.004; // of the distance: what lies deeper behind the surface is hidden
 const still = 4; // pixels that a hand moves as it clicks
@@ -27,8 +27,7 @@ export class MeshView extends Stage {
     const shades = [new Color(colour), new Color('#e4e2dd')];
     for (let v = 0; v < mesh.part.length; v += 1) shades[mesh.part[v]].toArray(colours, 3 * v);
     geometry.setAttribute('color', new BufferAttribute(colours, 3));
-    const material = new MeshPhongMaterial({ vertexColors: true, shininess: 12, specular: 0x222222, side: DoubleSide });
-    this.group.add(new Mesh(geometry, material));
+    this.group.add(new Mesh(geometry, skinMaterial()));
     this.standAs(stands);
     this.marks = el('svg', { class: 'marks' });
     this.raycaster = new Raycaster();

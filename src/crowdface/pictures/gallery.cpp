@@ -138,16 +138,6 @@ void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& wh
                   {"colour", colour(SurfaceKind::kIris)}};
 }
 
-std::array<std::uint8_t, 3> bytes_of(const Light& light) {
-  const Eigen::Array3f srgb = 255 * to_srgb(light);
-  std::array<std::uint8_t, 3> bytes{};
-  for (int c = 0; c < 3; ++c) {
-    bytes[static_cast<std::size_t>(c)] =
-        static_cast<std::uint8_t>(std::lround(std::clamp(srgb[c], 0.0F, 255.0F)));
-  }
-  return bytes;
-}
-
 }  // namespace
 
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& shown)
@@ -276,11 +266,10 @@ std::string GalleryMeshes::roughness(const TextureSet& texture_set) const {
 std::string GalleryMeshes::shades(const VertexColours& colours) const {
   std::string bytes;
   for (Index v = 0; v < colours.rows(); ++v) {
-    const Light light = from_srgb(colours.row(v).transpose().array());
-    // The page's lamps cast no shadows, so occlusion darkens the colours. The square root keeps
-    // some light where a lamp still reaches, for example under the chin.
-    const Light left = light * std::sqrt(open_[static_cast<std::size_t>(v)]);
-    for (const std::uint8_t byte : bytes_of(left)) bytes += static_cast<char>(byte);
+    for (int c = 0; c < 3; ++c) {
+      const float byte = std::clamp(255 * colours(v, c), 0.0F, 255.0F);
+      bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(byte)));
+    }
   }
   return bytes;
 }

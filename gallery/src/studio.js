@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of contact sheets (src/crowdface/render/studio.cpp, shading.cpp and light.cpp), so that a face in a page
+// looks as it does there.
+import { MeshStandardMaterial, ShaderChunk, Vector3 } from 'three';
+
+const mostShaded = 0.85; // what sees more of the sky lies in no shadow
+const hairSky = 0.72; // the sky that hair sees, most of which lies under other hair
+
+const unit = (...way) => new Vector3(...way).normalize();
+
+/// Lamps that go with the camera: directions towards them, x right, y up, z to the camera.
+export const lamps = {
+  key: { way: unit(-0.62, 0.62, 0.62), colour: [1.55, 1.49, 1.39] },
+  fill: { way: unit(0.85, 0.05, 0.55), colour: [0.15, 0.165, 0.185] },
+  rims: [
+    { way: unit(0.8, 0.35, -0.5), colour: [0.62, 0.65, 0.71] },
+    { way: unit(-0.85, 0.25, -0.55), colour: [0.25, 0.26, 0.28] },
+  ],
+  above: [0.29, 0.3, 0.315],
+  below: [0.1, 0.093, 0.086],
+};
+
+/// How far light is seen beyond the terminator, roughness, reflectance at normal incidence.
+export const surfaces = {
+  skin: { wrap: [0.3, 0.19, 0.14], roughness: 0.48, reflectance: 0.03, specular: 1, darkens: true, sky: 1 },
+  eye: { wrap: [0.15, 0.12, 0.1], roughness: 0.16, reflectance: 0.04, specular: 1, darkens: false, sky: 1 },
+  attachment: { wrap: [0.3, 0.28, 0.26], roughness: 0.45, reflectance: 0.03, specular: 0.45, darkens: true, sky: hairSky },
+};
+
+/// What a pixel shows of a linear value, before the curve of sRGB: highlights are compressed.
+export function shoulder(x) {
+  if (x <= 0.6) return x;
+  const over = (x - 0.6) / 0.4;
+  return 0.6 + (0.4 * over) / (1 + 0.55 * over);
+}
+
+/// Diffuse light from a lamp past the terminator.
+export function wrapped(cosine, wrap) {
+  const lit = Math.max((cosine + wrap) / (1 + wrap), 0);
+  return (0.5 * (lit * lit + lit)) / (1 + wrap);
+}
+
+/// The part of the key light that reaches a place, told from the sky that it sees.
+export function keyShare(sky) {
+  const x = Math.min(sky / mostShaded, 1);
+  return x * x * (3 - 2 * x);
+}
+
+/// The sky that reaches a place, with light that bounces in a crevice (Jimenez et al. 2016).
+export function withBounces(sky, albedo) {
+  const sum = ((sky * (2.0404 * albedo - 0.3324) + (-4.7951 * albedo + 0.6417)) * sky + (2.7552 * albedo + 0.6903)) * sky;
+  return Math.min(Math.max(sum, sky), 1);
+}
+
+/// Numbers as a vector of shaders.
+const text = (numbers) => `vec3(${[...numbers].map((number) => number.toFixed(6)).join(', ')})`;
+const lamp = ({ way, colour }) => `${text(way)}, ${text(colour)}`;
+
+const shading = `
+  struct Surface { vec3 wrap; float roughness, reflectance, specular; };
+  vec3 wrapped(float cosine, vec3 wrap) {
+    vec3 lit = max((cosine + wrap) / (1.0 + wrap), 0.0);
+    return 0.5 * (lit * lit + lit) / (1.0 + wrap);
+  }
+  vec3 withBounces(float sky, vec3 albedo) {
+    vec3 sum = ((sky * (2.0404 * albedo - 0.3324) + (-4.7951 * albedo + 0.6417)) * sky + (2.7552 * albedo + 0.6903)) * sky;
+    return clamp(sum, sky, 1.0);
+  }
+  float masking(float cosine, float alpha2) { return cosine + sqrt(alpha2 + (1.0 - alpha2) * cosine * cosine); }
+  float gloss(vec3 n, vec3 eye, vec3 to, float alpha2, float reflectance) { // Walter et al. 2007
+    float nl = dot(n, to);
+    if (nl <= 0.0) return 0.0;
+    vec3 h = normalize(to + eye);
+    float nh = max(dot(n, h), 0.0), away = 1.0 - max(dot(eye, h), 0.0);
+    float spread = nh * nh * (alpha2 - 1.0) + 1.0;
+    float fresnel = reflectance + (1.0 - reflectance) * pow(away, 5.0);
+    return nl * alpha2 * fresnel / (spread * spread * masking(nl, alpha2) * masking(max(dot(n, eye), 0.05), alpha2));
+  }
+  vec3 lampLight(vec3 way, vec3 colour, vec3 n, vec3 eye, vec3 diffuse, float alpha2, float reflectance, float shine) {
+    return colour * (diffuse + shine * gloss(n, eye, way, alpha2, reflectance));
+  }
+  vec3 inStudio(vec3 albedo, vec3 n, vec3 eye, Surface surface, float sky, float key) {
+    vec3 open = withBounces(sky, albedo);
+    float alpha2 = pow(max(surface.roughness, 0.14), 4.0), soft = surface.specular * sky * sky;
+    vec3 toKey = ${text(lamps.key.way)}, toFill = ${text(lamps.fill.way)};
+    vec3 light = albedo * open * mix(${text(lamps.below)}, ${text(lamps.above)}, 0.5 + 0.5 * n.y);
+    light += lampLight(${lamp(lamps.key)}, n, eye, albedo * key * wrapped(dot(n, toKey), surface.wrap), alpha2, surface.reflectance, surface.specular * key);
+    light += lampLight(${lamp(lamps.fill)}, n, eye, albedo * open * wrapped(dot(n, toFill), surface.wrap), alpha2, surface.reflectance, soft);
+    ${lamps.rims.map((rim) => `light += lampLight(${lamp(rim)}, n, eye, albedo * sky * max(dot(n, ${text(rim.way)}), 0.0), alpha2, surface.reflectance, soft);`).join('\n    ')}
+    return light;
+  }
+  // No shadows are cast here: what sees little of the sky sees little of the key light.
+  float keyShare(float sky) { return smoothstep(0.0, ${mostShaded.toFixed(2)}, sky); }
+  vec3 shoulder(vec3 x) {
+    vec3 over = max(x - 0.6, 0.0) / 0.4;
+    return min(x, 0.6) + 0.4 * over / (1.0 + 0.55 * over);
+  }`;
+
+/// Which way a surface looks is told from its smooth normal. By the triangle, as three.js does, coarse
+/// ones that just turn away at a jaw's edge would be lit as if from behind: bright specks.
+const faceDirection = ShaderChunk.normal_fragment_begin.replace('gl_FrontFacing', '!isInside()');
+
+/// Adds to what the material's shaders do. \param change  (shader) => shader with other text
+export function extend(material, change) {
+  const before = material.onBeforeCompile;
+  material.onBeforeCompile = (shader, renderer) => {
+    before.call(material, shader, renderer);
+    change(shader);
+  };
+}
+
+/// \param kind      of `surfaces`
+/// \param options   of three.js
+/// \param skin      {lightness: {value}}: how light a texture's skin is; darker texels are painted hair
+export function studioMaterial(kind, options, skin = { value: 0 }) {
+  const { wrap, roughness, reflectance, specular, darkens, sky } = surfaces[kind];
+  const material = new MeshStandardMaterial({ roughness, ...options });
+  extend(material, (shader) => {
+    shader.uniforms.skinLightness = skin;
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', `#include <common>
+        #ifdef HAS_SKY
+          attribute float sky;
+          varying float vSky;
+        #endif`)
+      .replace('#include <project_vertex>', `#include <project_vertex>
+        #ifdef HAS_SKY
+          vSky = sky;
+        #endif`);
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', `#include <common>
+        uniform float skinLightness;
+        #ifdef HAS_SKY
+          varying float vSky;
+        #endif
+        ${shading}`)
+      .replace('#include <normal_pars_fragment>', `#include <normal_pars_fragment>
+        bool isInside() { return dot(normalize(vNormal), normalize(vViewPosition)) < -0.4; }`)
+      .replace('#include <normal_fragment_begin>', faceDirection)
+      .replace('#include <lights_physical_fragment>', '').replace('#include <lights_fragment_begin>', '')
+      .replace('#include <lights_fragment_maps>', '').replace('#include <lights_fragment_end>', '')
+      .replace('#include <opaque_fragment>', `
+        Surface surface = Surface(${text(wrap)}, roughnessFactor, ${reflectance.toFixed(3)}, ${specular.toFixed(3)});
+        vec3 eyeWay = normalize(vViewPosition);
+        float brightness = dot(diffuseColor.rgb, vec3(1.0 / 3.0));
+        ${darkens ? `surface.reflectance *= clamp(brightness / 0.055, 0.25, 1.0);
+        if (skinLightness > 0.0) surface.specular *= mix(0.12, 1.0, clamp((brightness / skinLightness - 0.15) / 0.55, 0.0, 1.0));` : ''}
+        float skyShare = ${sky.toFixed(2)};
+        #ifdef HAS_SKY
+          skyShare = vSky;
+        #endif
+        // <surface>
+        normal = dot(normal, eyeWay) < 0.0 ? normalize(normal - dot(normal, eyeWay) * eyeWay) : normal;
+        outgoingLight = inStudio(diffuseColor.rgb, normal, eyeWay, surface, skyShare, keyShare(skyShare));
+        if (isInside()) outgoingLight *= 0.3;
+        outgoingLight = shoulder(outgoingLight);
+        #include <opaque_fragment>`);
+  });
+  return material;
+}
+
+/// Other numbers of the surface where a condition of the shader holds.
+export function surfaceWhere(shader, condition, kind) {
+  const { wrap, roughness, reflectance, specular } = surfaces[kind];
+  shader.fragmentShader = shader.fragmentShader.replace('// <surface>', `// <surface>
+        if (${condition}) surface = Surface(${text(wrap)}, ${roughness.toFixed(3)}, ${reflectance.toFixed(3)}, ${specular.toFixed(3)});`);
+}
