@@ -145,7 +145,7 @@ class CROWDFACE_OT_review(RunsJob, bpy.types.Operator):
         browse = context.scene.crowdface.browse
         browse.folder = browse.folder  # reads the crowd again, without marks
         replaced = faces.replace(context, crowds.read(browse.path()), self._ids)
-        self.report({'INFO'}, f"{len(self._ids)} faces drawn again, {replaced} objects replaced")
+        self.report({'INFO'}, f"{len(self._ids)} faces drawn again, {len(replaced)} objects replaced")
 
 
 CLASSES = (CROWDFACE_OT_cancel, CROWDFACE_OT_import, CROWDFACE_OT_choose, CROWDFACE_OT_page, CROWDFACE_OT_add_glb,

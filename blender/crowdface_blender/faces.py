@@ -112,8 +112,9 @@ def exclude(layer, collection):
 
 
 def replace(context, crowd, ids):
-    """Imports these faces again wherever the scene has them. Returns the number of replaced objects."""
+    """Imports these faces again wherever the scene has them. Returns the ids of the replaced objects."""
     old = [item for item in context.scene.objects if item.get(CROWD) == crowd.folder and item.get(FACE) in ids]
+    replaced = []
     for item in old:
         collection, face, level, place = item.users_collection[0], item[FACE], item[LEVEL], item.matrix_basis.copy()
         parent = next(c for c in [context.scene.collection, *bpy.data.collections] if collection.name in c.children)
@@ -121,4 +122,5 @@ def replace(context, crowd, ids):
             bpy.data.objects.remove(part)
         bpy.data.collections.remove(collection)
         import_face(crowd, face, level, parent)[0].matrix_basis = place
-    return len(old)
+        replaced.append(face)
+    return replaced

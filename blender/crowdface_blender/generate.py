@@ -64,7 +64,7 @@ class Crowd:
         self.name = meshes.plain_name(options.heads.name)
         self.heads = os.path.join(self.folder, "heads")
         self.config = os.path.join(self.folder, "crowd.yaml")
-        self.out = os.path.join(self.folder, self.name)
+        self.out = os.path.join(self.folder, "out", self.name)
 
     def write(self):
         write_heads(self.options.heads, self.heads)
@@ -140,8 +140,10 @@ class CROWDFACE_OT_generate(RunsJob, bpy.types.Operator):
         if context.scene.crowdface.generate.show:
             crowd = crowds.read(self._crowd.out)
             ids = [face.id for face in crowd.faces]
+            shown = faces.replace(context, crowd, ids)  # by an earlier run
             places = faces.grid(context.scene.cursor.location, len(ids), browse.columns, browse.spacing)
-            faces.place_faces(context, crowd, ids, [0], places)
+            new = [(face, place) for face, place in zip(ids, places) if face not in shown]
+            faces.place_faces(context, crowd, [face for face, _ in new], [0], [place for _, place in new])
         self.report({'INFO'}, f"the crowd is in {self._crowd.out}")
 
 

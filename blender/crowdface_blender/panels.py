@@ -12,9 +12,11 @@ class Panel(bpy.types.Panel):
     bl_category = "crowdface"
 
     def column(self):
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        return self.layout.column()
+        """A column with names beside its values."""
+        column = self.layout.column()
+        column.use_property_split = True
+        column.use_property_decorate = False
+        return column
 
 
 def draw_job(layout):
@@ -23,14 +25,11 @@ def draw_job(layout):
     if not job:
         return
     box = layout.box()
-    text = f"{job.title}: {job.message}"
     if hasattr(box, "progress"):  # Blender 4.0
-        box.progress(factor=job.fraction, text=text)
+        box.progress(factor=job.fraction, text=f"{round(100 * job.fraction)} %")
     else:
-        bar = box.split(factor=max(0.02, job.fraction))
-        bar.alert = True
-        bar.label(text="", icon='SEQUENCE_COLOR_01')
-        box.label(text=f"{round(100 * job.fraction)} %  {text}")
+        box.prop(bpy.context.window_manager, "crowdface_progress", text=job.title, slider=True)
+    box.label(text=job.message)
     box.operator("crowdface.cancel", icon='CANCEL')
 
 
@@ -41,11 +40,14 @@ class CROWDFACE_PT_generate(Panel):
         options = context.scene.crowdface.generate
         draw_job(self.layout)
         column = self.column()
-        for name in ("heads", "folder", "units", "align", "count", "seed", "variety", "distance", "groups", "families"):
+        for name in ("heads", "folder", "units", "count", "seed", "variety", "distance", "families"):
             column.prop(options, name)
         if options.families:
             column.prop(options, "members")
-        for name in ("expressions", "attachments", "lods", "traits", "force", "show"):
+        for name in ("expressions", "attachments", "lods", "traits"):
+            column.prop(options, name)
+        column = self.layout.column(align=True)
+        for name in ("groups", "align", "force", "show"):
             column.prop(options, name)
         row = self.layout.row()
         row.operator("crowdface.check")
@@ -62,8 +64,7 @@ class CROWDFACE_PT_browse(Panel):
         if not crowd:
             return
         self._draw_filters(state, crowd)
-        found = state.filtered()
-        self._draw_faces(state, crowd, found)
+        self._draw_faces(context, state, crowd, state.filtered())
         column = self.column()
         column.prop(state, "place")
         if state.place in ('CURSOR', 'GRID'):
@@ -80,17 +81,18 @@ class CROWDFACE_PT_browse(Panel):
 
     def _draw_filters(self, state, crowd):
         self.layout.prop(state, "words", text="", icon='VIEWZOOM')
-        row = self.layout.row(align=True)
-        for name in ("sex", "age", "tag"):
-            row.prop(state, name, text="")
-        if crowd.traits:
+        column = self.column()
+        for name in ("sex", "age", "tag", "trait"):
+            column.prop(state, name)
+        if state.trait in crowd.traits:
             row = self.layout.row(align=True)
-            for name in ("trait", "low", "high"):
-                row.prop(state, name, text="")
+            row.prop(state, "low")
+            row.prop(state, "high")
 
-    def _draw_faces(self, state, crowd, found):
+    def _draw_faces(self, context, state, crowd, found):
         first = min(state.page, max(0, (len(found) - 1) // browse.PAGE)) * browse.PAGE
-        grid = self.layout.grid_flow(columns=3, even_columns=True, even_rows=True, align=True, row_major=True)
+        columns = max(1, int(context.region.width / context.preferences.system.ui_scale / 100))
+        grid = self.layout.grid_flow(columns=columns, even_columns=True, even_rows=True, align=True, row_major=True)
         for item in found[first:first + browse.PAGE]:
             cell = grid.column(align=True)
             cell.template_icon(icon_value=browse.picture(crowd, item.name), scale=5)

@@ -5,18 +5,19 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        StringProperty)
 
 from . import crowds
+from .program import RunsJob
 
 ANY = "*"  # no filter
 
 _items = {}  # Blender keeps no reference to the strings of dynamic enumerations
 
 
-def _choices(kind, all_of_them, names):
+def _choices(kind, names):
     """The items of a filter: everything, or one of the names of the open crowd."""
 
     def items(browse, context):
         crowd = crowds.read(browse.path())
-        _items[kind] = [(ANY, all_of_them, "")] + [
+        _items[kind] = [(ANY, "Any", "")] + [
             (name, name.replace("_", " "), "") for name in (names(crowd) if crowd else [])]
         return _items[kind]
     return items
@@ -59,8 +60,8 @@ class CrowdfaceGenerate(bpy.types.PropertyGroup):
     seed: IntProperty(name="Seed", default=1, min=0)
     variety: FloatProperty(name="Variety", default=0.7, min=0, max=1, subtype='FACTOR',
                            description="How much of a head's detail other heads may replace (sampling.smoothness)")
-    distance: FloatProperty(name="Distance (mm)", default=0, min=0, soft_max=5,
-                            description="The smallest distance between two faces (diversity.min_distance)")
+    distance: FloatProperty(name="Apart, mm", default=0, min=0, soft_max=5,
+                            description="The smallest distance between two faces in mm (diversity.min_distance)")
     groups: BoolProperty(name="Groups by sub-collection",
                          description="Faces of a group are made of the heads of one sub-collection")
     families: IntProperty(name="Families", default=0, min=0, soft_max=20)
@@ -70,8 +71,8 @@ class CrowdfaceGenerate(bpy.types.PropertyGroup):
                                  description="A head whose shape keys every face gets")
     attachments: StringProperty(name="Hair", subtype='DIR_PATH',
                                 description="A folder with attachments.yaml, in the unit and axes of the heads")
-    lods: StringProperty(name="Levels of detail", description="Percentages of the triangles, such as 50 %, 20 %")
-    traits: StringProperty(name="Measurements", description="Measurements to filter by, such as nose_width, face_height")
+    lods: StringProperty(name="Levels", description="Levels of detail: percentages of the triangles, such as 50 %, 20 %")
+    traits: StringProperty(name="Traits", description="Measurements to filter by, such as nose_width, face_height")
     force: BoolProperty(name="Replace other crowd",
                         description="Replace a crowd of other heads or options in the folder")
     show: BoolProperty(name="Import when done", default=True)
@@ -91,10 +92,10 @@ class CrowdfaceBrowse(bpy.types.PropertyGroup):
     faces: CollectionProperty(type=CrowdfaceFace)
     words: StringProperty(name="Search", options={'TEXTEDIT_UPDATE'},
                           description="Words in id, family, group, target, tags and attachments")
-    sex: EnumProperty(name="Sex", items=_choices("sex", "Any sex", lambda crowd: crowd.sexes))
-    age: EnumProperty(name="Age", items=_choices("age", "Any age", lambda crowd: crowd.ages))
-    tag: EnumProperty(name="Tag", items=_choices("tag", "Any tag", lambda crowd: crowd.tags))
-    trait: EnumProperty(name="Trait", items=_choices("trait", "No trait", lambda crowd: crowd.traits),
+    sex: EnumProperty(name="Sex", items=_choices("sex", lambda crowd: crowd.sexes))
+    age: EnumProperty(name="Age", items=_choices("age", lambda crowd: crowd.ages))
+    tag: EnumProperty(name="Tag", items=_choices("tag", lambda crowd: crowd.tags))
+    trait: EnumProperty(name="Trait", items=_choices("trait", lambda crowd: crowd.traits),
                         update=_choose_trait)
     low: FloatProperty(name="From")
     high: FloatProperty(name="To")
@@ -142,9 +143,13 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Scene.crowdface = PointerProperty(type=CrowdfaceState)
+    bpy.types.WindowManager.crowdface_progress = FloatProperty(
+        subtype='PERCENTAGE', min=0, max=100, precision=0,
+        get=lambda _: 100 * RunsJob.current.fraction if RunsJob.current else 0, description="Progress of the job")
 
 
 def unregister():
+    del bpy.types.WindowManager.crowdface_progress
     del bpy.types.Scene.crowdface
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

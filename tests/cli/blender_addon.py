@@ -88,7 +88,7 @@ def test_check(options):
 
 def test_generate(options):
     bpy.ops.crowdface.generate()
-    crowd = crowds.read(os.path.join(folder, "made", "mob"))
+    crowd = crowds.read(os.path.join(folder, "made", "out", "mob"))
     assert [face.id for face in crowd.faces] == ["mob_family_1_01", "mob_family_1_02"] + [
         "mob_%04d" % number for number in range(1, 5)], [face.id for face in crowd.faces]
     assert {face.row["group"] for face in crowd.faces[2:]} == {"female", "male"}
@@ -100,6 +100,9 @@ def test_generate(options):
         low, high = bounds(item)
         assert 0.2 < high[2] - low[2] < 0.4, "metres, upright"
         assert abs(high[1] - item.location.y) < 0.3 and nose(item) < item.location.y - 0.05, "looks along -Y"
+    names = [item.name for item in shown]
+    bpy.ops.crowdface.generate()
+    assert [item.name for item in imported()] == names, "not shown twice"
     clear()
     return crowd
 
