@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/command_line.h"
 
+#include <sstream>
+
 #include <CLI/CLI.hpp>
+
+#include "cli/command_tables.h"
 
 namespace crowdface::cli {
 
@@ -65,6 +69,54 @@ AddedOption add_repeated(CLI::App& command, const std::string& name,
                           ->type_name(type)
                           ->expected(1)
                           ->take_all());
+}
+
+namespace {
+
+/// Splits the accepted values from the name of a value: "WORD:{fixed,free}".
+void split_words(OptionTable& option) {
+  const std::size_t colon = option.type.find(":{");
+  if (colon == option.type.npos) return;
+  std::istringstream words(option.type.substr(colon + 2));
+  option.type.resize(colon);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (word.ends_with('}')) word.pop_back();
+    option.words.push_back(word);
+  }
+}
+
+OptionTable table_of(const CLI::Option& option) {
+  OptionTable table;
+  for (const std::string& name : option.get_snames()) table.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) table.names.push_back("--" + name);
+  table.argument = option.get_positional();
+  if (table.argument) table.names = {option.get_name(true)};
+  if (option.get_items_expected_max() > 0) table.type = option.get_type_name();
+  split_words(table);
+  table.initial = option.get_default_str();
+  table.help = option.get_description();
+  table.required = option.get_required();
+  table.repeated = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+  return table;
+}
+
+void fill(const CLI::App& command, CommandTable& table) {
+  table.name = command.get_name();
+  table.help = command.get_description();
+  for (const CLI::Option* option : command.get_options())
+    table.options.push_back(table_of(*option));
+}
+
+}  // namespace
+
+ProgramTable tables_of(const CLI::App& program) {
+  ProgramTable table;
+  fill(program, table);
+  table.footer = program.get_footer();
+  for (const CLI::App* command : program.get_subcommands(nullptr)) {
+    fill(*command, table.commands.emplace_back());
+  }
+  return table;
 }
 
 }  // namespace crowdface::cli

@@ -30,5 +30,7 @@ Run add_wrap(CLI::App& program);
 Run add_edit(CLI::App& program);
 Run add_submit(CLI::App& program);
 Run add_status(CLI::App& program);
+Run add_completion(CLI::App& program);
+Run add_manual(CLI::App& program);
 
 }  // namespace crowdface::cli

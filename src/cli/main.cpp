@@ -172,9 +172,10 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   Run chosen;
   for (Run (*add)(CLI::App&) :
-       {add_generate, add_check, add_convert, add_init, add_mask, add_plan, add_prepare, add_blend,
-        add_smooth, add_gather, add_verify, add_sheet, add_synth, add_import, add_cache, add_wrap,
-        add_edit, add_submit, add_status}) {
+       {add_generate, add_check,      add_convert, add_init,   add_mask,   add_plan,
+        add_prepare,  add_blend,      add_smooth,  add_gather, add_verify, add_sheet,
+        add_synth,    add_import,     add_cache,   add_wrap,   add_edit,   add_submit,
+        add_status,   add_completion, add_manual}) {
     const std::size_t before = program.get_subcommands({}).size();
     Run command = add(program);
     program.get_subcommands({})[before]->final_callback(

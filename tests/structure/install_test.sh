@@ -13,7 +13,7 @@ cmake --install "$build" --prefix "$place/prefix" >"$place/install.log" || {
   exit 1
 }
 for file in bin/crowdface include/crowdface/crowdface.h include/crowdface/core/version.h \
-  share/crowdface/configs/demo.yaml share/doc/crowdface/LICENSE share/doc/crowdface/config.md; do
+  share/crowdface/configs/demo.yaml share/man/man1/crowdface.1 share/bash-completion/completions/crowdface share/doc/crowdface/LICENSE share/doc/crowdface/config.md; do
   [ -e "$place/prefix/$file" ] || { echo "not installed: $file"; exit 1; }
 done
 # The public headers alone: crowdface.h includes neither of these.

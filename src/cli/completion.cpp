@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/completion.h"
+
+#include <functional>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/version.h"
+
+#include "cli/command_line.h"
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace crowdface::cli {
+namespace {
+
+/// A text as one word of bash and zsh.
+std::string in_quotes(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// A text with a backslash before each of some characters.
+std::string escaped(const std::string& text, std::string_view characters) {
+  std::string result;
+  for (const char c : text) {
+    if (characters.find(c) != characters.npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+/// The first sentence of a help text, for menus.
+std::string short_help(const std::string& help) {
+  return help.substr(0, help.find_first_of(";\n"));
+}
+
+bool is_folder_type(const OptionTable& option) {
+  return option.type.ends_with("DIR");
+}
+
+std::vector<std::string> option_names(const CommandTable& command) {
+  std::vector<std::string> names;
+  for (const OptionTable& option : command.options) {
+    if (!option.argument) names.insert(names.end(), option.names.begin(), option.names.end());
+  }
+  return names;
+}
+
+/// The part of bash's function that completes one command.
+std::string bash_case(const CommandTable& command) {
+  std::string values, words;
+  for (const OptionTable& option : command.options) {
+    if (option.argument) {
+      for (const std::string& word : option.words) words += concat(' ', word);
+      continue;
+    }
+    if (option.type.empty()) continue;
+    std::string reply;  // empty: bash completes file names
+    if (!option.words.empty()) {
+      reply = concat("COMPREPLY=($(compgen -W ", in_quotes(join(option.words, " ")),
+                     " -- \"$current\")); ");
+    } else if (is_folder_type(option)) {
+      reply = "compopt -o dirnames; ";
+    }
+    values += concat("        ", join(option.names, " | "), ") ", reply, "return ;;\n");
+  }
+  return concat("    ", in_quotes(command.name), ")\n      case $previous in\n", values,
+                "      esac\n      options=", in_quotes(join(option_names(command), " ")),
+                " words=", in_quotes(words), " ;;\n");
+}
+
+std::string bash_script(const ProgramTable& program) {
+  std::vector<std::string> names;
+  std::string cases;
+  for (const CommandTable& command : program.commands) {
+    names.push_back(command.name);
+    cases += bash_case(command);
+  }
+  CommandTable none = program;
+  none.name.clear();
+  return concat(
+      "# Completion of crowdface for bash; made by: crowdface completion bash\n"
+      "_crowdface() {\n"
+      "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+      "  local command= options= words= word\n"
+      "  COMPREPLY=()\n"
+      "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"
+      "    case $word in -*) ;; *) command=$word; break ;; esac\n"
+      "  done\n"
+      "  case $command in\n",
+      bash_case(none), cases,
+      "  esac\n  [ -n \"$command\" ] || words=", in_quotes(join(names, " ")),
+      "\n"
+      "  case $current in\n"
+      "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$current\")) ;;\n"
+      "    *) COMPREPLY=($(compgen -W \"$words\" -- \"$current\")) ;;\n"
+      "  esac\n"
+      "}\n"
+      "complete -o bashdefault -o default -F _crowdface crowdface\n");
+}
+
+/// What zsh completes for a value.
+std::string zsh_action(const OptionTable& option) {
+  if (!option.words.empty()) return concat('(', join(option.words, " "), ')');
+  return is_folder_type(option) ? "_files -/" : "_files";
+}
+
+/// The specifications of one command's options and arguments for zsh's _arguments.
+std::string zsh_arguments(const CommandTable& command) {
+  std::string specifications;
+  for (const OptionTable& option : command.options) {
+    const std::string type = escaped(option.type, ":[]");
+    const std::string value = option.type.empty() ? "" : concat(':', type, ':', zsh_action(option));
+    if (option.argument) {
+      specifications += concat(" \\\n        ", in_quotes(value));
+      continue;
+    }
+    for (const std::string& name : option.names) {
+      specifications += concat(
+          " \\\n        ", in_quotes(concat(option.repeated ? "*" : "", name, '[',
+                                            escaped(short_help(option.help), "[]\\"), ']', value)));
+    }
+  }
+  return specifications;
+}
+
+std::string zsh_script(const ProgramTable& program) {
+  std::string names, cases;
+  for (const CommandTable& command : program.commands) {
+    names += concat("    ", in_quotes(concat(command.name, ':', command.help)), "\n");
+    cases += concat("    ", command.name, ")\n      _arguments", zsh_arguments(command), " ;;\n");
+  }
+  return concat(
+      "#compdef crowdface\n"
+      "# Completion of crowdface for zsh; made by: crowdface completion zsh\n"
+      "local -a commands=(\n",
+      names,
+      ")\n"
+      "if ((CURRENT == 2)); then\n"
+      "  if [[ $PREFIX == -* ]]; then\n"
+      "    _arguments",
+      zsh_arguments(program),
+      "\n"
+      "  else\n"
+      "    _describe command commands\n"
+      "  fi\n"
+      "else\n"
+      "  local command=$words[2]\n"
+      "  shift words\n"
+      "  ((CURRENT--))\n"
+      "  case $command in\n",
+      cases, "  esac\nfi\n");
+}
+
+std::string fish_line(const std::string& condition, const std::string& rest,
+                      const std::string& help) {
+  return concat("complete -c crowdface -n '", condition, "' ", rest, " -d '",
+                escaped(short_help(help), "'\\"), "'\n");
+}
+
+std::string fish_options(const CommandTable& command, const std::string& condition) {
+  std::string lines;
+  for (const OptionTable& option : command.options) {
+    std::string rest;
+    for (const std::string& name : option.names) {
+      if (!option.argument) {
+        rest += name.starts_with("--") ? concat("-l ", name.substr(2), ' ')
+                                       : concat("-s ", name.substr(1), ' ');
+      }
+    }
+    if (!option.words.empty()) {
+      rest += concat(option.argument ? "" : "-x ", "-a '", join(option.words, " "), "'");
+    } else if (option.argument) {
+      continue;  // fish completes file names
+    } else if (is_folder_type(option)) {
+      rest += "-x -a '(__fish_complete_directories)'";
+    } else if (!option.type.empty()) {
+      rest += "-r";
+    }
+    lines += fish_line(condition, rest, option.help);
+  }
+  return lines;
+}
+
+std::string fish_script(const ProgramTable& program) {
+  std::string lines = "# Completion of crowdface for fish; made by: crowdface completion fish\n";
+  lines += fish_options(program, "__fish_use_subcommand");
+  for (const CommandTable& command : program.commands) {
+    lines += fish_line("__fish_use_subcommand", concat("-f -a ", command.name), command.help);
+    lines += fish_options(command, concat("__fish_seen_subcommand_from ", command.name));
+  }
+  return lines;
+}
+
+/// A text for groff: no control characters at the start of a line, hyphens that can be copied.
+std::string roff(const std::string& text) {
+  std::string result;
+  bool at_start = true;
+  for (const char c : text) {
+    if (at_start && (c == '.' || c == '\'')) result += "\\&";
+    if (c == '\\') {
+      result += "\\e";
+    } else if (c == '-') {
+      result += "\\-";
+    } else {
+      result += c;
+    }
+    at_start = c == '\n';
+  }
+  return result;
+}
+
+std::string bold(const std::string& text) {
+  return concat("\\fB", roff(text), "\\fR");
+}
+
+std::string roff_options(const CommandTable& command) {
+  std::string text;
+  for (const OptionTable& option : command.options) {
+    std::vector<std::string> names;
+    if (!option.argument) {
+      for (const std::string& name : option.names) names.push_back(bold(name));
+    }
+    const std::string words = option.words.empty() ? option.type : join(option.words, " | ");
+    const std::string value = option.type.empty() ? "" : concat("\\fI", roff(words), "\\fR");
+    text += concat(".TP\n", join(names), names.empty() || value.empty() ? "" : " ", value, '\n',
+                   roff(option.help),
+                   option.initial.empty() ? "" : concat(" (default: ", roff(option.initial), ')'),
+                   option.required && !option.argument ? " (required)" : "", ".\n");
+  }
+  return text;
+}
+
+std::string synopsis(const CommandTable& command) {
+  std::string text = concat(".B crowdface ", command.name, "\n[\\fIoptions\\fR]");
+  for (const OptionTable& option : command.options) {
+    if (!option.argument) continue;
+    const std::string name = concat("\\fI", roff(option.type), "\\fR");
+    text += option.required ? concat(' ', name) : concat(" [", name, ']');
+  }
+  return text + '\n';
+}
+
+Run add_printer(CLI::App& program, const char* name, const char* help,
+                const std::function<void(CLI::App&, std::string&)>& declare,
+                const std::function<std::string(const ProgramTable&, const std::string&)>& make) {
+  const auto word = std::make_shared<std::string>();
+  declare(add_subcommand(program, name, help), *word);
+  return [&program, word, make] { print(make(tables_of(program), *word)); };
+}
+
+}  // namespace
+
+std::string completion_script(const ProgramTable& program, const std::string& shell) {
+  if (shell == "bash") return bash_script(program);
+  return shell == "zsh" ? zsh_script(program) : fish_script(program);
+}
+
+std::string manual_page(const ProgramTable& program) {
+  std::string text =
+      concat(".TH CROWDFACE 1 \"\" \"crowdface ", kVersion,
+             "\" \"User Commands\"\n.SH NAME\ncrowdface \\- ",
+             roff("crowds of believable faces from a handful of scanned heads"),
+             "\n.SH SYNOPSIS\n.B crowdface\n\\fIcommand\\fR [\\fIoptions\\fR]\n"
+             ".SH DESCRIPTION\n.nf\n",
+             roff(program.help), "\n.fi\n.SH OPTIONS\n", roff_options(program), ".SH COMMANDS\n");
+  for (const CommandTable& command : program.commands) {
+    text += concat(".SS ", command.name, '\n', synopsis(command), ".PP\n", roff(command.help),
+                   ".\n", roff_options(command));
+  }
+  return text + concat(".SH EXIT STATUS\n.nf\n", roff(program.footer), "\n.fi\n");
+}
+
+Run add_completion(CLI::App& program) {
+  return add_printer(
+      program, "completion", "Print the script with which a shell completes this command line",
+      [](CLI::App& command, std::string& shell) {
+        add_option(command, "shell", shell, "SHELL", "The shell: bash, zsh or fish")
+            .required()
+            .one_of({"bash", "zsh", "fish"});
+      },
+      completion_script);
+}
+
+Run add_manual(CLI::App& program) {
+  return add_printer(
+      program, "manual", "Print the manual page, for man", [](CLI::App&, std::string&) {},
+      [](const ProgramTable& tables, const std::string&) { return manual_page(tables); });
+}
+
+}  // namespace crowdface::cli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/command_tables.h"
+
+namespace crowdface::cli {
+
+/// The script with which a shell completes commands, options and their values.
+/// \param shell  "bash", "zsh" or "fish".
+std::string completion_script(const ProgramTable& program, const std::string& shell);
+
+/// The manual page of the program and all its commands, for `man` (groff's man macros).
+std::string manual_page(const ProgramTable& program);
+
+}  // namespace crowdface::cli
