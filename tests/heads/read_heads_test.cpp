@@ -294,7 +294,7 @@ class TexturedFiles : public ::testing::Test {
       GlbOptions options;
       options.unit = LengthUnit::kCentimetre;
       options.materials = {{.name = "Skin", .image = 0}};
-      options.image_types = {"image/png"};
+      options.images = {{"image/png", ""}};
       const auto tone = static_cast<std::uint8_t>(60 + 40 * h);
       const std::string picture = encode_png(8, 8, 3, std::vector<std::uint8_t>(192, tone));
       const std::array<std::string_view, 1> images = {picture};

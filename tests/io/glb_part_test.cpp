@@ -27,7 +27,7 @@ TEST(GlbPart, StandsBelowTheFaceWithMaterialsOfItsOwn) {
   const GlbPart part(
       "bob", card, uvs,
       {{"cards", {1, 1, 1, 1}, 0, Alpha::kMask}, {"lens", {1, 0, 0, 0.5F}, {}, Alpha::kBlend}},
-      {0, 1}, {{encode_png(2, 1, 4, pixels), "image/png"}});
+      {0, 1}, {{encode_png(2, 1, 4, pixels), "image/png", "strands"}});
   const PlacedGlbPart parts[] = {{&part, &card_points}, {&part, &card_points}};
   const Positions normals = vertex_normals(face, positions);
   const std::string bytes = form.encode(positions, normals, "face", {}, {}, {}, parts).text();
@@ -44,6 +44,7 @@ TEST(GlbPart, StandsBelowTheFaceWithMaterialsOfItsOwn) {
   const int texture = mask.pbrMetallicRoughness.baseColorTexture.index;
   const int source = model.textures.at(static_cast<std::size_t>(texture)).source;
   EXPECT_EQ(model.images.at(static_cast<std::size_t>(source)).image, pixels);
+  EXPECT_EQ(model.images.at(static_cast<std::size_t>(source)).name, "strands");
   const auto& lens = model.materials.at(static_cast<std::size_t>(mesh.primitives[1].material));
   EXPECT_EQ(lens.alphaMode, "BLEND");
   EXPECT_EQ(lens.pbrMetallicRoughness.baseColorFactor[3], 0.5);

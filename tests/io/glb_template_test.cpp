@@ -142,6 +142,7 @@ TEST(GlbTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   EXPECT_EQ(eye.pbrMetallicRoughness.baseColorTexture.index, 0);
   EXPECT_EQ(eye.pbrMetallicRoughness.baseColorFactor, (std::vector<double>{1, 1, 1, 1}));
   ASSERT_EQ(model.images.size(), 1U);
+  EXPECT_EQ(model.images[0].name, "iris");
   const auto& view = model.bufferViews[static_cast<std::size_t>(model.images[0].bufferView)];
   const auto& bytes = model.buffers[0].data;
   EXPECT_EQ(

@@ -106,6 +106,7 @@ TEST_F(OwnTextures, AreInsideGlbFiles) {
   run(folder_, {"output.meshes=[glb]", "textures.formats=[jpeg]"});
   EXPECT_FALSE(fs::exists(meshes() / "blended/mob_0001.jpg"));
   const std::string glb = read_text(meshes() / "mob_0001.glb");
+  EXPECT_THAT(glb, HasSubstr("\"images\":[{\"name\":\"mob_0001\","));
   EXPECT_THAT(glb, HasSubstr("\"mimeType\":\"image/jpeg\""));
   EXPECT_THAT(glb, HasSubstr("\"baseColorTexture\":{\"index\":0}"));
   EXPECT_THAT(glb, HasSubstr("\xFF\xD8\xFF"));

@@ -41,6 +41,12 @@ struct GlbTarget {
   std::vector<std::uint32_t> vertices;
 };
 
+/// An image whose content differs from file to file.
+struct GlbOwnImage {
+  std::string type;    ///< "image/png" or "image/jpeg"
+  std::string suffix;  ///< follows the mesh's name in the image's name, such as ".normal"
+};
+
 struct GlbOptions {
   /// Length unit of the positions; the file's node scales to metres.
   LengthUnit unit = LengthUnit::kMetre;
@@ -56,8 +62,7 @@ struct GlbOptions {
   std::vector<std::string> points;
   GlbSkin skin;  ///< joints under the face's node; positions differ per face
   std::vector<std::uint32_t> vertex_ids;  ///< #V values of `_VERTEX_ID`; empty: 0, 1, 2, …
-  /// MIME type of each image embedded in every file: "image/png" or "image/jpeg".
-  std::vector<std::string> image_types;
+  std::vector<GlbOwnImage> images;        ///< the images embedded in every file
   std::optional<GlbOverlay> overlay = {};
   /// Folder relative to which files without embedded images refer to `GlbOverlay::kFile`.
   std::string shared = ".";

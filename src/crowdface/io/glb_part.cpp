@@ -77,7 +77,7 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   for (const GlbImage& image : images) {
     shared_ += image.bytes;
     image_sizes_.push_back(image.bytes.size());
-    image_types_.push_back(image.type);
+    images_.push_back({{}, image.type, image.name});
   }
   shared_.append((4 - shared_.size() % 4) % 4, '\0');
 }
@@ -120,7 +120,7 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
     offset += primitive.indices * sizeof(std::uint32_t);
   }
   for (std::size_t i = 0; i < image_sizes_.size(); ++i) {
-    add_image(scene, buffer.add_view(image_sizes_[i]), image_types_[i]);
+    add_image(scene, buffer.add_view(image_sizes_[i]), images_[i].name, images_[i].type);
   }
   buffer.pad();
   Json mesh = {{"name", name_}, {"primitives", std::move(primitives)}};

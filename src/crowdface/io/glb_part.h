@@ -37,6 +37,7 @@ struct GlbPartMaterial {
 struct GlbImage {
   std::string bytes;
   std::string type;  ///< "image/png" or "image/jpeg"
+  std::string name = {};
 };
 
 /// An additional mesh with its own topology, materials and images in the GLB files of faces, as a
@@ -84,7 +85,7 @@ class GlbPart {
   std::vector<Primitive> primitives_;
   std::vector<GlbPartMaterial> materials_;
   std::vector<std::size_t> image_sizes_;
-  std::vector<std::string> image_types_;
+  std::vector<GlbImage> images_;        ///< without `bytes`
   std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
   std::vector<std::string> targets_;
   std::string shared_;  ///< texture coordinates, influences, triangles, images

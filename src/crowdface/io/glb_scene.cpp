@@ -70,9 +70,9 @@ Json node_json(const GlbOptions& options) {
   return node;
 }
 
-void add_image(Json& scene, std::size_t view, const std::string& type) {
+void add_image(Json& scene, std::size_t view, const std::string& name, const std::string& type) {
   scene["textures"].push_back(Json::object({{"source", scene["images"].size()}}));
-  scene["images"].push_back({{"bufferView", view}, {"mimeType", type}});
+  scene["images"].push_back({{"name", name}, {"bufferView", view}, {"mimeType", type}});
 }
 
 void set_targets(Json& mesh, std::size_t first, const std::vector<std::string>& names) {

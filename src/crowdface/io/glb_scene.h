@@ -29,7 +29,8 @@ nlohmann::ordered_json node_json(const GlbOptions& options);
 
 /// Adds an image and a texture that uses it.
 /// \param view  index of the buffer view with the image.
-void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::string& type);
+void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::string& name,
+               const std::string& type);
 
 /// Adds morph targets to a mesh.
 /// \param first  accessor of the first target's displacements; the accessors of further targets

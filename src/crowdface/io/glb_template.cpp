@@ -101,7 +101,7 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", 3 * groups[g].size(), offset)}};
     if (!options.materials.empty()) {
       primitive["material"] = materials.size();
-      materials.push_back(material_json(options.materials[g], options.image_types.size()));
+      materials.push_back(material_json(options.materials[g], options.images.size()));
       if (overlay && options.materials[g].overlay) primitive["attributes"]["TEXCOORD_1"] = *overlay;
     }
     primitives.push_back(std::move(primitive));
@@ -114,11 +114,11 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
 /// Adds images, which come last in the buffer. Their sizes and offsets are set for each file.
 /// \param overlay  buffer view of the overlay image, if there is one
 void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOptions& options) {
-  for (const std::string& type : options.image_types) {
-    add_image(scene, scene["bufferViews"].size(), type);
+  for (const GlbOwnImage& image : options.images) {
+    add_image(scene, scene["bufferViews"].size(), image.suffix, image.type);
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 0}});
   }
-  if (overlay) add_image(scene, *overlay, "image/png");
+  if (overlay) add_image(scene, *overlay, "iris", "image/png");
 }
 
 /// Sets the sizes and offsets of the images.
@@ -158,7 +158,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
                          const GlbOptions& options)
     : vertices_(topology.vertex_count),
       colours_(options.colours),
-      images_(options.image_types.size()),
+      images_(options.images.size()),
       points_(static_cast<Index>(options.points.size())) {
   constexpr Index kMaxVertices = 1 << 24;
   if (vertices_ > kMaxVertices || topology.face_count() == 0) {
@@ -281,6 +281,10 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   }
   scene["nodes"][0]["name"] = name;
   scene["meshes"][0]["name"] = name;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    Json& called = scene["images"][i]["name"];
+    called = name + called.get<std::string>();
+  }
   const std::size_t arrays_size = encode_bytes() + shared_.size();
   const std::size_t own_size =
       images.empty() ? arrays_size : place_images(scene, arrays_size, images);

@@ -87,6 +87,7 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
     image = with_alpha(colour ? &*colour : nullptr, alpha);
   }
   if (has_holes) material.alpha = Alpha::kMask;
+  image->name = (has_colours ? made_of.colour_map : made_of.opacity_map).stem().string();
   material.image = images.size();
   images.push_back(std::move(*image));
   return material;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -145,9 +146,11 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
     options.targets.push_back({shape.name, shape.moves.vertices});
   }
   const std::vector<GlbPicture> held = glb_pictures(config, inputs);
-  for (const GlbPicture& picture : held) {
-    options.image_types.emplace_back(picture.format == TextureFormat::kJpeg ? "image/jpeg"
-                                                                            : "image/png");
+  const std::vector<std::string> names = own_texture_names(config, inputs, "_");
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const std::string stem = std::filesystem::path(names[i]).stem().string();
+    options.images.push_back(
+        {held[i].format == TextureFormat::kJpeg ? "image/jpeg" : "image/png", stem.substr(1)});
   }
   const Surfaces surfaces = surfaces_of(config, inputs);
   options.colours = !inputs.colours.empty();
