@@ -134,6 +134,7 @@ class CROWDFACE_OT_review(RunsJob, bpy.types.Operator):
     """Write the marks as a review and make the marked faces again; the scene shows the new faces"""
     bl_idname = "crowdface.review"
     bl_label = "Run Review"
+    bl_options = {'REGISTER', 'UNDO'}
 
     def start(self, context):
         browse, crowd = open_crowd(context)
@@ -160,6 +161,8 @@ def register():
 
 
 def unregister():
+    if RunsJob.current:
+        RunsJob.current.cancel()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
     bpy.utils.previews.remove(_pictures)

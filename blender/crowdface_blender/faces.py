@@ -64,6 +64,12 @@ def _duplicate(items, parent):
     return list(copies.values())
 
 
+def see_through(scene):
+    """Lets rays of Cycles pass hair cards and transparent shells over the eyes, which turn black after 8 surfaces."""
+    if hasattr(scene, "cycles"):
+        scene.cycles.transparent_max_bounces = max(64, scene.cycles.transparent_max_bounces)
+
+
 def name_of(crowd):
     """The name of the collection with a crowd's faces."""
     return os.path.basename(crowd.folder) + " faces"
@@ -75,6 +81,7 @@ def place_faces(context, crowd, ids, levels, places):
     Levels of detail other than the first of `levels` get a hidden collection each. Returns the faces' objects.
     """
     placed = []
+    see_through(context.scene)
     for level in levels:
         parent = _collection(name_of(crowd) + (f" LOD{level}" if level != levels[0] else ""), context.scene.collection)
         imported = []

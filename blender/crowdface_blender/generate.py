@@ -75,7 +75,8 @@ class Crowd:
         return ["init", self.heads, "-o", self.config, "--force"]
 
     def command(self, name, *more):
-        return [name, self.config, *more, *(word for key, value in self.settings() for word in ("--set", f"{key}={value}"))]
+        settings = [word for key, value in self.settings() for word in ("--set", f"{key}={value}")]
+        return [name, self.config, *more, *settings]
 
     def settings(self):
         """Keys of the config that replace those of `init`."""
@@ -126,6 +127,7 @@ class CROWDFACE_OT_generate(RunsJob, bpy.types.Operator):
     """Write the heads and make the crowd; a cancelled run continues"""
     bl_idname = "crowdface.generate"
     bl_label = "Generate"
+    bl_options = {'REGISTER', 'UNDO'}
 
     def start(self, context):
         options = context.scene.crowdface.generate

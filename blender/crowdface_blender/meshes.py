@@ -19,6 +19,18 @@ def plain_name(name):
     return re.sub(r"[^A-Za-z0-9_.-]", "_", name).lstrip(".")[:64] or "_"
 
 
+def base_name(name):
+    """Without the number that Blender adds to a name in use, such as .001."""
+    return re.sub(r"\.\d{3}$", "", name)
+
+
+def _material_names(mesh):
+    """Heads that were imported one after the other have materials skin, skin.001, …; in each file it is skin."""
+    names = [plain_name(material.name) if material else "none" for material in mesh.materials]
+    short = [base_name(name) for name in names]
+    return short if len(set(short)) == len(set(names)) else names
+
+
 def points_of(item, block=None):
     """Vertices of a mesh object (or of one of its shape keys), n by 3."""
     source = block.data if block else item.data.vertices
@@ -50,11 +62,11 @@ def write_obj(file, item, block=None, materials=True):
     mesh = item.data
     corners = _corners(mesh)
     uvs, uv_corners = _texture_coordinates(mesh, corners)
-    names = [plain_name(slot.name) if slot else "none" for slot in mesh.materials]
+    names = _material_names(mesh)
     lines = []
     if materials and names:
         library = os.path.splitext(file)[0] + ".mtl"
-        _write_materials(library, mesh.materials)
+        _write_materials(library, names, mesh.materials)
         lines.append(f"mtllib {os.path.basename(library)}")
     lines += ["v %.9g %.9g %.9g" % tuple(point) for point in points_of(item, block)]
     if uvs is not None:
@@ -82,16 +94,16 @@ def base_colour(material):
     waiting = [link.from_node for link in socket.links]
     while waiting:
         node = waiting.pop(0)
-        if node.type == 'TEX_IMAGE' and node.image:
+        if node.type == 'TEX_IMAGE' and node.image and node.image.source in ('FILE', 'GENERATED'):
             return node.image, socket.default_value
         waiting += [link.from_node for plug in node.inputs for link in plug.links]
     return None, socket.default_value
 
 
-def _write_materials(library, materials):
+def _write_materials(library, names, materials):
     lines = []
-    for material in materials:
-        lines.append(f"newmtl {plain_name(material.name) if material else 'none'}")
+    for name, material in zip(names, materials):
+        lines.append(f"newmtl {name}")
         image, colour = base_colour(material) if material else (None, (0.8, 0.8, 0.8, 1))
         lines.append("Kd %.6g %.6g %.6g" % tuple(colour[:3]))
         if image:
@@ -103,7 +115,7 @@ def _write_materials(library, materials):
 def _write_image(image, folder):
     """Copies an image into the folder, or writes it there, and returns its file name."""
     source = bpy.path.abspath(image.filepath, library=image.library)
-    stem = plain_name(os.path.splitext(image.name)[0])
+    stem = plain_name(re.sub(r"\.(png|jpe?g|tiff?|exr|tga|bmp)$", "", image.name, flags=re.IGNORECASE))
     if image.packed_file:
         name = stem + (".jpg" if image.file_format == 'JPEG' else ".png")
         with open(os.path.join(folder, name), "wb") as out:

@@ -20,7 +20,7 @@ def path():
     program = addon.preferences.program if addon else "crowdface"
     found = shutil.which(bpy.path.abspath(program))
     if not found:
-        raise Problem(f"the program {program} is missing: install crowdface, or set its path in the add-on's preferences")
+        raise Problem(f"the program {program} is missing: install crowdface, or set its path in the preferences")
     return found
 
 
@@ -61,11 +61,6 @@ class Job:
         self.cancelled = True
         if self._process.poll() is None:
             self._process.terminate()
-
-    def kill(self):
-        """Ends the program at once, when Blender no longer waits for it."""
-        self.cancel()
-        self._process.wait()
 
     def output(self):
         self._log.seek(0)
@@ -129,6 +124,11 @@ class RunsJob:
             return {'PASS_THROUGH'}
         context.window_manager.event_timer_remove(self._timer)
         return self._end(context)
+
+    def cancel(self, context):
+        """Blender ends the operator, for example because another file is opened."""
+        job, RunsJob.current = RunsJob.current, None
+        job.cancel()
 
     def _begin(self, context):
         try:

@@ -71,7 +71,8 @@ class CrowdfaceGenerate(bpy.types.PropertyGroup):
                                  description="A head whose shape keys every face gets")
     attachments: StringProperty(name="Hair", subtype='DIR_PATH',
                                 description="A folder with attachments.yaml, in the unit and axes of the heads")
-    lods: StringProperty(name="Levels", description="Levels of detail: percentages of the triangles, such as 50 %, 20 %")
+    lods: StringProperty(name="Levels",
+                         description="Levels of detail: percentages of the triangles, such as 50 %, 20 %")
     traits: StringProperty(name="Traits", description="Measurements to filter by, such as nose_width, face_height")
     force: BoolProperty(name="Replace other crowd",
                         description="Replace a crowd of other heads or options in the folder")
@@ -127,7 +128,8 @@ class CrowdfaceBrowse(bpy.types.PropertyGroup):
 
 class CrowdfaceWrap(bpy.types.PropertyGroup):
     scan: PointerProperty(name="Scan", type=bpy.types.Object, poll=lambda self, item: item.type == 'MESH')
-    keep_size: BoolProperty(name="Size of the scan", description="The head gets the size of the scan, not of the template")
+    keep_size: BoolProperty(name="Size of the scan",
+                            description="The head gets the size of the scan, not of the template")
 
 
 class CrowdfaceState(bpy.types.PropertyGroup):

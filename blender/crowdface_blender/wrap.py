@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fits the active template to a scan."""
 import os
-import re
 import tempfile
 
 import bpy
@@ -13,7 +12,7 @@ from .program import Job, Problem, RunsJob
 def landmarks_of(item):
     """{name: place} of the empties below an object, in the coordinates of its OBJ file. Blender's .001 is dropped."""
     turn = item.matrix_world.to_3x3() @ item.matrix_world.inverted().to_3x3()
-    return {re.sub(r"\.\d{3}$", "", child.name): turn @ (child.matrix_world.translation - item.matrix_world.translation)
+    return {meshes.base_name(child.name): turn @ (child.matrix_world.translation - item.matrix_world.translation)
             for child in item.children if child.type == 'EMPTY'}
 
 
@@ -34,6 +33,7 @@ class CROWDFACE_OT_wrap(RunsJob, bpy.types.Operator):
     """Fit a copy of the active object, the template, to the scan. Empties below both are landmarks"""
     bl_idname = "crowdface.wrap"
     bl_label = "Wrap Scan"
+    bl_options = {'REGISTER', 'UNDO'}
 
     def start(self, context):
         template, options = context.active_object, context.scene.crowdface.wrap
@@ -43,8 +43,8 @@ class CROWDFACE_OT_wrap(RunsJob, bpy.types.Operator):
             raise Problem("choose a scan that is not the template")
         self._template = template
         self._folder = tempfile.TemporaryDirectory(prefix="crowdface-")
-        template_file, scan_file, landmarks, self._head = (
-            os.path.join(self._folder.name, name) for name in ("template.obj", "scan.obj", "landmarks.yaml", "head.obj"))
+        names = ("template.obj", "scan.obj", "landmarks.yaml", "head.obj")
+        template_file, scan_file, landmarks, self._head = (os.path.join(self._folder.name, name) for name in names)
         meshes.write_obj(template_file, template, materials=False)
         meshes.write_obj(scan_file, options.scan, materials=False)
         command = ["wrap", template_file, scan_file, "-o", self._head, "--no-pictures",

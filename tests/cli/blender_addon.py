@@ -75,6 +75,8 @@ def test_check(options):
         assert numpy.abs(written - expected).max() < 1e-6, "vertices keep their order and do not move"
     with open(os.path.join(folder, "made", "heads", "synth_01.mtl"), encoding="utf-8") as file:
         images = [line.split()[1] for line in file if line.startswith("map_Kd")]
+    with open(os.path.join(folder, "made", "heads", "synth_05.obj"), encoding="utf-8") as file:
+        assert "usemtl skin\n" in file, "not skin.004"
     assert images and all(os.path.isfile(os.path.join(folder, "made", "heads", image)) for image in images), images
     other = bpy.data.objects[HEADS[2]]
     good, other.data = other.data, bpy.data.objects[HEADS[2]].data.copy()
@@ -100,6 +102,7 @@ def test_generate(options):
         low, high = bounds(item)
         assert 0.2 < high[2] - low[2] < 0.4, "metres, upright"
         assert abs(high[1] - item.location.y) < 0.3 and nose(item) < item.location.y - 0.05, "looks along -Y"
+    assert scene.cycles.transparent_max_bounces == 64
     names = [item.name for item in shown]
     bpy.ops.crowdface.generate()
     assert [item.name for item in imported()] == names, "not shown twice"
@@ -280,7 +283,8 @@ def test_wrap():
     scene.collection.objects.link(scan)
     order = numpy.random.default_rng(1).permutation(len(other.data.vertices))
     scan.data = shuffled(other.data, order)
-    scan.matrix_world = Matrix.Translation((4, 0, 0)) @ Matrix.Rotation(0.3, 4, 'Z') @ other.matrix_world.to_3x3().to_4x4()
+    turn = other.matrix_world.to_3x3().to_4x4()
+    scan.matrix_world = Matrix.Translation((4, 0, 0)) @ Matrix.Rotation(0.3, 4, 'Z') @ turn
     numbers = {"nose": front_vertex(template), **{f"p{n}": n for n in range(100, 4000, 400)}}
     bpy.context.view_layer.update()
     for item, number_of in ((template, lambda n: n), (scan, lambda n: int(numpy.argsort(order)[n]))):
@@ -308,7 +312,8 @@ def shuffled(mesh, order):
     """The same surface with vertex i at the place of vertex order[i]."""
     to = numpy.argsort(order)
     new = bpy.data.meshes.new("scan")
-    new.from_pydata([mesh.vertices[i].co[:] for i in order], [], [[int(to[v]) for v in p.vertices] for p in mesh.polygons])
+    polygons = [[int(to[v]) for v in polygon.vertices] for polygon in mesh.polygons]
+    new.from_pydata([mesh.vertices[i].co[:] for i in order], [], polygons)
     return new
 
 
