@@ -105,7 +105,7 @@ class RunsJob:
     def execute(self, context):
         if not self._begin(context):
             return {'CANCELLED'}
-        while RunsJob.current.running():
+        while self._running():
             time.sleep(0.1)
         return self._end(context)
 
@@ -120,7 +120,7 @@ class RunsJob:
         if event.type != 'TIMER':
             return {'PASS_THROUGH'}
         redraw(context)
-        if RunsJob.current.running():
+        if self._running():
             return {'PASS_THROUGH'}
         context.window_manager.event_timer_remove(self._timer)
         return self._end(context)
@@ -137,6 +137,14 @@ class RunsJob:
             self.report({'ERROR'}, str(problem))
             return False
         return True
+
+    @staticmethod
+    def _running():
+        try:
+            return RunsJob.current.running()
+        except OSError:  # the program has gone
+            RunsJob.current.cancel()
+            return False
 
     def _end(self, context):
         job, RunsJob.current = RunsJob.current, None
