@@ -353,7 +353,7 @@ TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
   const auto config =
       read(kBands +
            "traits: {nose_width: {at_least: 3.6 cm}, eye_slope: [-2, 70 %], face_height: {}}\n"
-           "population: census.csv\n"
+           "population: census.csv\nquantiles_of: census.csv\n"
            "groups: [{name: g, share: 0.5, traits: {nose_width: [10 %, 30 %], nasal_index: [0.5, "
            "0.8]}}]\n"
            "recipes: [{id: lead, target: ann, traits: {mouth_width: {at_most: 50 mm}}}]\n"
@@ -374,6 +374,7 @@ TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
   const std::vector<TraitTarget> census = {{trait("nose_width"), 36, 2.5},
                                            {trait("facial_index"), 0.85, 0.04}};
   EXPECT_EQ(config->population.targets, census);
+  EXPECT_EQ(config->quantiles_of.targets, census);
   EXPECT_THAT(config->plan_names().traits,
               ElementsAre("face_height", "nose_width", "mouth_width", "intercanthal", "eye_slope",
                           "facial_index", "nasal_index"));

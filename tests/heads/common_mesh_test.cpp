@@ -140,6 +140,15 @@ TEST_F(CommonMesh, JoinsSplitVerticesInAnotherOrder) {
   expect_common_mesh(used_);
 }
 
+TEST_F(CommonMesh, HasThePolygonsOfMostHeads) {
+  for (const bool split : {false, true}) {
+    write(0, split ? split_below_face_100 : whole, false, true);
+    write(1, whole);
+    write(2, whole);
+    expect_common_mesh(used_);
+  }
+}
+
 TEST_F(CommonMesh, KeepsVerticesThatAllHeadsSplitAlike) {
   for (std::size_t h = 0; h < 3; ++h) write(h, split_below_face_100);
   EXPECT_GT(read()[0].mesh->topology.vertex_count, used_);

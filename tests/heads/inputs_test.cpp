@@ -294,6 +294,28 @@ TEST(Inputs, MissingMasksAndTilesAreRefused) {
   expect_refused(tiles, ExitCode::kMissingInput, {"mask_0", "1002"});
 }
 
+TEST(Inputs, ASingleMaskOutsideTheFirstTileIsWarnedOf) {
+  const auto warnings_at = [](double u) {
+    SmallCrowd crowd;
+    crowd.regions = 3;
+    const SmallCrowdFolder folder(crowd);
+    for (const char* name : {"ann", "bob", "cyd", "dan"}) {
+      edit(folder, name, [&](Lines& lines) {
+        for (std::string& line : lines) {
+          if (!line.starts_with("vt ")) continue;
+          const std::size_t end = line.find(' ', 3);
+          line = concat("vt ", *parse_double(line.substr(3, end - 3)) + u, line.substr(end));
+        }
+      });
+    }
+    return join(load_job(folder.config(), {}).inputs.warnings);
+  };
+  EXPECT_EQ(warnings_at(0).find("is one image"), std::string::npos);
+  EXPECT_NE(warnings_at(1).find("is one image, but the skin's texture coordinates lie outside the "
+                                "first tile"),
+            std::string::npos);
+}
+
 TEST(Inputs, MasksThatCannotBeReadAreRefused) {
   SmallCrowd crowd;
   crowd.regions = 3;

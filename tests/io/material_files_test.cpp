@@ -209,6 +209,21 @@ TEST(MaterialFiles, NeverLeaveTheFolder) {
   EXPECT_EQ(found.warnings.size(), 4U);
 }
 
+TEST(MaterialFiles, LibrariesOfOtherMachinesAreFoundBesideTheMesh) {
+  const testing::TemporaryFolder folder;
+  folder.write("my head.mtl", "newmtl a\n");
+  folder.write("tex/b.mtl", "newmtl b\n");
+  for (const char* path : {"C:\\Users\\Ann Lee\\my head.mtl", "/home/ann/my head.mtl"}) {
+    const MaterialFiles found = find_material_files(folder / "head.obj", {path});
+    EXPECT_EQ(names(found), (std::vector<std::string>{"my head.mtl"})) << path;
+    EXPECT_THAT(found.warnings, ::testing::IsEmpty()) << path;
+    EXPECT_TRUE(found.has_renamed_library) << path;
+  }
+  EXPECT_EQ(names(find_material_files(folder / "head.obj", {"tex\\b.mtl"})),
+            (std::vector<std::string>{"tex/b.mtl"}));
+  EXPECT_FALSE(find_material_files(folder / "head.obj", {"tex/b.mtl"}).has_renamed_library);
+}
+
 TEST(MaterialFiles, MissingOnesAreWarnings) {
   const testing::TemporaryFolder folder;
   const MaterialFiles found = find_material_files(folder / "head.obj", {"none.mtl"});

@@ -28,8 +28,7 @@ class FoundLandmarksTest : public ::testing::Test {
   Similarity truth_ = some_place();
   Scan scan_;
   WrapTemplate shape_ = some_template();
-  std::map<std::string, std::uint32_t> here_ =
-      propose_landmarks(shape_, pickable(shape_, shape_.positions));
+  std::map<std::string, std::uint32_t> here_ = propose_landmarks(shape_);
 };
 
 TEST_F(FoundLandmarksTest, LieWhereTheTemplatesOwnVerticesWouldOnThatHead) {

@@ -77,7 +77,7 @@ TEST(LandmarkNames, SidesAreMirrored) {
                             [&](const LandmarkName& one) { return one.name == *other; }))
         << *other;
   }
-  EXPECT_EQ(sided, 18U);
+  EXPECT_EQ(sided, 28U);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class SuggestedPlacesTest : public ::testing::Test {
   PickableMesh template_{shape_.positions, skin_of(shape_), eyes_of(shape_)};
   PickableMesh scan_{truth_.apply(10 * some_head(1)), skin_of(shape_)};
   MirrorPlane plane_ = middle_plane(shape_, shape_.positions);
-  std::map<std::string, std::uint32_t> proposals_ = propose_landmarks(shape_, template_);
+  std::map<std::string, std::uint32_t> proposals_ = propose_landmarks(shape_);
 };
 
 TEST_F(SuggestedPlacesTest, TheTemplatesShapeTellsItsMiddleAndItsEyes) {

@@ -53,6 +53,30 @@ TEST(Generate, MatchesThePlainMethod) {
   }
 }
 
+TEST(Generate, MeshesNameTheMaterialFileThatWasFoundForAPathOfAnotherMachine) {
+  SmallCrowd crowd;
+  crowd.bowl.materials = true;
+  crowd.count = 2;
+  const SmallCrowdFolder folder(crowd);
+  folder.folder().write("heads/bowl.mtl", "newmtl skin\n");
+  for (const auto& head : fs::directory_iterator(folder / "heads")) {
+    if (head.path().extension() != ".obj") continue;
+    std::string text = testing::read_text(head.path());
+    const std::string line = "mtllib bowl.mtl";
+    text.replace(text.find(line), line.size(), "mtllib C:\\work\\bowl.mtl");
+    folder.folder().write(concat("heads/", head.path().filename().string()), text);
+  }
+  ConfigOverrides overrides;
+  overrides.set = {"output.lods=[40 %]"};
+  generate(folder.config(), overrides, GenerateOptions{folder.cache(), Replace::kRefuse, false});
+  const auto files = crowd_files(folder.out());
+  for (const char* name : {"meshes/mob_0001.obj", "meshes/mob_0002+LOD1.obj"}) {
+    EXPECT_NE(files.at(name).find("mtllib bowl.mtl\n"), std::string::npos) << name;
+    EXPECT_EQ(files.at(name).find("work"), std::string::npos) << name;
+  }
+  EXPECT_TRUE(files.contains("meshes/bowl.mtl"));
+}
+
 TEST(Generate, MatchesThePlainMethodOnUdimTiles) {
   SmallCrowd crowd;
   crowd.regions = 5;

@@ -26,6 +26,21 @@ TEST(TraitSpread, QuantilesAreInterpolatedBetweenTheHeads) {
   EXPECT_DOUBLE_EQ(spread.deviation(0), 10);
 }
 
+TEST(TraitSpread, QuantilesOfATableReplaceThoseOfTheHeads) {
+  auto values = heads({30, 10, 20});
+  for (auto& head : values) head[1] = 5;
+  const TraitSpread spread(values, {{0, 100, 10}});
+  EXPECT_NEAR(spread.quantile(0, 0.5), 100, 1e-5);
+  EXPECT_NEAR(spread.quantile(0, 0.9), 112.81552, 1e-4);
+  EXPECT_NEAR(spread.quantile(0, 0.05), 83.55146, 1e-4);
+  EXPECT_DOUBLE_EQ(spread.quantile(0, 0), 40);
+  EXPECT_NEAR(spread.quantile(0, 1), 160, 0.2) << "beyond 10⁻⁹, shares cannot be told apart";
+  EXPECT_DOUBLE_EQ(spread.quantile(1, 0.9), 5) << "a trait that the table lacks";
+  EXPECT_TRUE(spread.meets({0, TraitEnd{0.9, true}}, 113));
+  EXPECT_FALSE(spread.meets({0, TraitEnd{0.9, true}}, 112));
+  EXPECT_DOUBLE_EQ(spread.ascending(0).front(), 10) << "the heads' own values stay";
+}
+
 TEST(TraitSpread, LimitsIncludeTheirEnds) {
   const TraitSpread spread(heads({10, 20, 30}));
   const TraitLimit limit{0, TraitEnd{0.5, true}, TraitEnd{28, false}};

@@ -222,11 +222,13 @@ struct Config {
   std::vector<FamilyOptions> families;
   std::vector<Group> groups;
 
-  /// Asked distributions of measurements of the sampled faces.
-  struct Population {
+  /// A table of distributions of measurements.
+  struct TraitTable {
     std::filesystem::path file;        ///< empty: none
     std::vector<TraitTarget> targets;  ///< the file's content, ascending by trait
-  } population;
+  };
+  TraitTable population;    ///< the asked distributions of the sampled faces
+  TraitTable quantiles_of;  ///< whose quantiles `traits` names, in place of those of the heads
 
   struct Reviews {
     std::vector<std::filesystem::path> files;

@@ -203,19 +203,20 @@ Key<Config> traits_key() {
                      }};
 }
 
-Key<Config> population_key() {
-  return Key<Config>{"population",
-                     [](const YamlNode& node, Config& config, ConfigDraft& draft) {
+Key<Config> trait_table_key(const char* name, Config::TraitTable Config::*table) {
+  return Key<Config>{name,
+                     [=](const YamlNode& node, Config& config, ConfigDraft& draft) {
                        const auto file =
                            path("a table of measurements, means and deviations").read(node, draft);
                        if (!file || !expect_file(node, *file, draft)) return;
-                       if (config.diversity.mode != DiversityOptions::Mode::kFirstFit) {
+                       if (table == &Config::population &&
+                           config.diversity.mode != DiversityOptions::Mode::kFirstFit) {
                          draft.complaints.add_at(node, "requires diversity.mode: first_fit");
                        }
-                       config.population = {*file, read_population(node, *file, draft)};
+                       config.*table = {*file, read_trait_table(node, *file, draft)};
                      },
-                     [](const Config& config, const WriteContext& context) {
-                       return path("").write(config.population.file, context);
+                     [=](const Config& config, const WriteContext& context) {
+                       return path("").write((config.*table).file, context);
                      }};
 }
 
@@ -271,7 +272,11 @@ const Keys<Config>& root_keys() {
       section_key("diversity", &Config::diversity, diversity_keys()).apart_from_faces(),
       believability_key().apart_from_faces(),
       traits_key().apart_from_faces(),
-      population_key().apart_from_faces(),
+      trait_table_key("population", &Config::population).apart_from_faces(),
+      trait_table_key("quantiles_of", &Config::quantiles_of)
+          .apart_from_faces()
+          .written_if(
+              [](const Config& config, const auto&) { return !config.quantiles_of.file.empty(); }),
       groups_key().apart_from_faces(),
       recipes_key().apart_from_faces(),
       families_key().apart_from_faces(),

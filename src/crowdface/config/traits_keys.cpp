@@ -23,7 +23,7 @@ std::string unknown_measurement(const std::string& name) {
                 "; docs/traits.md lists all");
 }
 
-/// Reads "38 mm", "104" (degrees or a ratio) or "70 %" (a quantile of the heads).
+/// Reads "38 mm", "104" (degrees or a ratio) or "70 %" (a quantile).
 std::optional<TraitEnd> read_end(const YamlNode& node, const Measurement& measurement,
                                  ConfigDraft& draft) {
   const bool is_length = measurement.kind == Measurement::Kind::kDistance;
@@ -31,7 +31,7 @@ std::optional<TraitEnd> read_end(const YamlNode& node, const Measurement& measur
       concat(is_length ? "a length with its unit, such as \"38 mm\","
              : measurement.kind == Measurement::Kind::kRatio ? "a ratio, such as 0.8,"
                                                              : "an angle in degrees, such as 104,",
-             " or a quantile of the heads, such as \"70 %\"");
+             " or a quantile, such as \"70 %\"");
   if (node.kind != YamlNode::Kind::kScalar) return draft.complaints.expected(node, expected);
   std::string_view text = node.text;
   if (text.ends_with('%')) {
@@ -112,8 +112,8 @@ Codec<TraitLimits> trait_limits() {
           "`{measurement: [least, greatest]}` or `{measurement: {at_least: …, at_most: …}}`"};
 }
 
-std::vector<TraitTarget> read_population(const YamlNode& node, const std::filesystem::path& file,
-                                         ConfigDraft& draft) {
+std::vector<TraitTarget> read_trait_table(const YamlNode& node, const std::filesystem::path& file,
+                                          ConfigDraft& draft) {
   std::vector<TraitTarget> targets;
   const std::string text = read_file(file);
   std::size_t number = 0;

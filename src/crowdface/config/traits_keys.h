@@ -11,9 +11,9 @@ namespace crowdface {
 /// limits are not written.
 Codec<TraitLimits> trait_limits();
 
-/// Reads a table of asked distributions: lines of a measurement, its mean and its standard
+/// Reads a table of distributions: lines of a measurement, its mean and its standard
 /// deviation, separated by commas. Adds complaints at `node`.
-std::vector<TraitTarget> read_population(const YamlNode& node, const std::filesystem::path& file,
-                                         ConfigDraft& draft);
+std::vector<TraitTarget> read_trait_table(const YamlNode& node, const std::filesystem::path& file,
+                                          ConfigDraft& draft);
 
 }  // namespace crowdface

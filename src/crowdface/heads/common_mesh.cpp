@@ -253,15 +253,31 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
   return made;
 }
 
+/// The heads whose polygons have the same numbers of corners, in the same order, as those of most
+/// heads; with equal counts, as those of the first head.
+std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads) {
+  std::vector<std::vector<const HeadFile*>> kinds;
+  for (const HeadFile& head : heads) {
+    const auto same = std::ranges::find_if(kinds, [&](const auto& kind) {
+      return kind[0]->mesh->topology.face_offsets == head.mesh->topology.face_offsets;
+    });
+    if (same == kinds.end()) {
+      kinds.push_back({&head});
+    } else {
+      same->push_back(&head);
+    }
+  }
+  return *std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.size(); });
+}
+
 /// Finds the mesh that all heads take.
 /// \param made  receives the mesh if no head has it
 const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& made) {
   const auto has_first = [&](const HeadFile& head) { return head.mesh == heads[0].mesh; };
   if (std::ranges::all_of(heads, has_first)) return heads[0];
   std::vector<const HeadFile*> read, joined;
-  for (const HeadFile& head : heads) {
-    if (head.mesh->topology.face_offsets != heads[0].mesh->topology.face_offsets) continue;
-    (head.is_joined ? joined : read).push_back(&head);
+  for (const HeadFile* head : heads_like_most(heads)) {
+    (head->is_joined ? joined : read).push_back(head);
   }
   return read.empty() ? find_separate_mesh(joined, made) : find_whole_mesh(read, made);
 }

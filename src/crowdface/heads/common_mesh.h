@@ -25,7 +25,7 @@ std::optional<std::vector<std::uint32_t>> vertices_of_corners(const Topology& ex
 
 /// Gives heads one mesh if their meshes differ only by their export: in the order of vertices and
 /// polygons, by triangulation, or by vertices that are split at seams or joined where they touch.
-/// The mesh is that of the first head, with the vertices at seams joined if any head joins them.
+/// The mesh is that of most heads, with the vertices at seams joined if any head joins them.
 /// Logs each change.
 void give_common_mesh(std::vector<HeadFile>& heads);
 

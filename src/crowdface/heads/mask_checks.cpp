@@ -43,12 +43,16 @@ std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) 
     }
     tiles.emplace(std::floor(middle.x()), std::floor(middle.y()));
   }
+  const bool is_in_first_tile =
+      tiles.empty() || (tiles.size() == 1 && *tiles.begin() == std::pair(0.0, 0.0));
   std::vector<std::string> warnings;
   for (const std::string& mask : config.regions.mask) {
-    if (tiles.size() < 2 || MaskSource(mask).tiled() || holds_vertex_weights(mask)) continue;
-    warnings.push_back(concat("mask ", mask, " is one image, but the skin's texture has ",
-                              tiles.size(),
-                              " tiles: outside the first tile the pixels at the image's edge are "
+    if (is_in_first_tile || MaskSource(mask).tiled() || holds_vertex_weights(mask)) continue;
+    const std::string where = tiles.size() > 1
+                                  ? concat("the skin's texture has ", tiles.size(), " tiles")
+                                  : "the skin's texture coordinates lie outside the first tile";
+    warnings.push_back(concat("mask ", mask, " is one image, but ", where,
+                              ": outside the first tile the pixels at the image's edge are "
                               "repeated; with <UDIM> in its name, each tile has its own image"));
   }
   return warnings;

@@ -68,7 +68,11 @@ class Collector {
     throw_if_interrupted();
     // The argument may be one name with spaces, or a list of names; use whichever exists.
     if (exists(argument)) return take_library(argument);
-    for (const std::string& name : words_of(argument)) take_library(name);
+    if (const auto beside = library_beside(argument)) return take_renamed(*beside);
+    for (const std::string& name : words_of(argument)) {
+      const auto beside = exists(name) ? std::nullopt : library_beside(name);
+      beside ? take_renamed(*beside) : take_library(name);
+    }
   }
 
   MaterialFiles take_files() {
@@ -138,6 +142,22 @@ class Collector {
     if (!destinations_.insert(normal).second) return false;
     files_.files.push_back({folder_ / normal, normal});
     return true;
+  }
+
+  /// The file that a path with backslashes or from another machine means: the same path with
+  /// slashes, or else the file of this name beside the mesh.
+  std::optional<fs::path> library_beside(std::string_view text) const {
+    for (const std::string& name : readings_of(text)) {
+      const fs::path path = with_forward_slashes(name);
+      for (const fs::path& relative : {path, path.filename()}) {
+        if (stays_inside(relative) && exists(relative)) return relative;
+      }
+    }
+    return std::nullopt;
+  }
+  void take_renamed(const fs::path& library) {
+    files_.has_renamed_library = true;
+    take_library(library);
   }
 
   void take_library(const fs::path& name) {

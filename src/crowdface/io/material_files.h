@@ -26,6 +26,9 @@ struct MaterialFiles {
   std::vector<MaterialFile> files;  ///< one per destination
   /// Textures whose source file is missing, or whose copy may be missing.
   std::vector<std::string> warnings;
+  /// Whether a material file was found beside the mesh although its path leads elsewhere: the
+  /// `mtllib` line of a written mesh must then name the file that was found.
+  bool has_renamed_library = false;
 };
 
 /// Folder beside the meshes that contains only files made by this program.

@@ -506,6 +506,14 @@ class LandmarkSearch {
 }  // namespace
 
 FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
+                                  const PartList& parts, const HeadShape& head,
+                                  const ReliefMatch& face) {
+  const FaceMarks marks = marks_of_face(topology, head, face);
+  const HeadRays rays(topology, components, parts, head.positions, marks, face.scale);
+  return LandmarkSearch(topology, head, parts, marks, rays, face.scale).run();
+}
+
+FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
                                   const PartList& parts, const Positions& positions,
                                   const HeadAxes& axes) {
   HeadShape head;
@@ -518,9 +526,7 @@ FaceLandmarks find_face_landmarks(const Topology& topology, const Components& co
   }
   const auto face = find_face(topology, head, axes);
   if (!face) return {};
-  const FaceMarks marks = marks_of_face(topology, head, *face);
-  const HeadRays rays(topology, components, parts, positions, marks, face->scale);
-  return LandmarkSearch(topology, head, parts, marks, rays, face->scale).run();
+  return find_face_landmarks(topology, components, parts, head, *face);
 }
 
 }  // namespace crowdface

@@ -22,8 +22,14 @@ struct FaceLandmarks {
 /// in the symmetry plane, the visible parts of the eyeballs, the relief of nose and mouth seen from
 /// the front, and the outline seen from the sides. Left and right are searched together, at the
 /// same heights and depths.
-/// \param positions  #V by 3, usually the mean head
-/// \param axes       orientation of the head, accurate to about 35°
+/// \param head  usually the mean head
+/// \param face  where the face is on the head
+FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
+                                  const PartList& parts, const HeadShape& head,
+                                  const ReliefMatch& face);
+
+/// The same for positions, #V by 3, whose face is searched for. Empty if there is none.
+/// \param axes  orientation of the head, accurate to about 35°
 FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
                                   const PartList& parts, const Positions& positions,
                                   const HeadAxes& axes);

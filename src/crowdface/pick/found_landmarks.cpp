@@ -7,6 +7,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/landmark_names.h"
 #include "crowdface/pick/pickable_mesh.h"
 #include "crowdface/pick/proposed_landmarks.h"
 #include "crowdface/wrap/scan_face.h"
@@ -29,7 +30,7 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
   try {
     const WrapTemplate head =
         make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes, {}, face);
-    return propose_landmarks(head, pickable(head, in_mm));
+    return propose_landmarks(head);
   } catch (const InvalidInput&) {
     return {};
   }
@@ -76,10 +77,11 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
   std::vector<WrapLandmark> most;
   for (const auto& of_scan : ways) {
     std::vector<WrapLandmark> landmarks;
-    for (const auto& [name, vertex] : here) {
-      const auto found = of_scan.find(name);
-      if (found == of_scan.end()) continue;
-      const std::uint32_t there = found->second;
+    for (const LandmarkName& known : suggested_landmarks()) {
+      const std::string name(known.name);
+      const auto of_template = here.find(name), found = of_scan.find(name);
+      if (!known.is_found_on_scans || of_template == here.end() || found == of_scan.end()) continue;
+      const std::uint32_t vertex = of_template->second, there = found->second;
       if ((row3(placed, there) - row3(shape.positions, vertex)).norm() > kFarMm) continue;
       landmarks.push_back({name, vertex, row3(scan.positions, there), true});
     }

@@ -12,10 +12,13 @@ namespace crowdface {
 struct LandmarkName {
   std::string_view name;
   std::string_view where;  ///< description for the user
+  /// Whether find_landmarks looks for it on scans: its place is marked by edges or grooves of the
+  /// skin. Heads differ too much at the places that are only the widest or the highest of the head.
+  bool is_found_on_scans = false;
 };
 
-/// Standard landmarks, in the order in which to pick them. The first four determine the pose of a
-/// head.
+/// Standard landmarks, in the order in which to pick them, then the other landmarks of the
+/// measurements (trait_landmarks). The first four determine the pose of a head.
 const std::vector<LandmarkName>& suggested_landmarks();
 
 /// The name with left and right exchanged: "eye_outer_left" for "eye_outer_right", "brow_l" for

@@ -65,7 +65,7 @@ PickSession::PickSession(PickInputs inputs)
       template_(pickable(inputs_.shape, inputs_.positions)),
       scan_(inputs_.scan.positions, inputs_.scan.triangles),
       plane_(middle_plane(inputs_.shape, inputs_.positions)),
-      proposals_(propose_landmarks(inputs_.shape, template_)),
+      proposals_(propose_landmarks(inputs_.shape)),
       stands_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
       known_(text_on_disk()) {
   LandmarkFile file;

@@ -12,12 +12,9 @@
 
 namespace crowdface {
 
-/// Estimates standard landmarks (suggested_landmarks) from the shape of a template: midline points
-/// from the face profile, corners of eyes and edges of lids from the visible part of the eyeballs.
-/// \param mesh  the template in millimetres, see `pickable`
+/// Finds the landmarks of a template's face by their shape (find_face_landmarks).
 /// \return vertex numbers of the template by name; empty if no face is found.
-std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape,
-                                                       const PickableMesh& mesh);
+std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape);
 
 /// A mesh of the template whose skin can be picked and whose eyes and teeth occlude the skin.
 /// \param positions  #V by 3

@@ -16,6 +16,7 @@
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/heads/skin_tones.h"
 #include "crowdface/run/shortfall.h"
+#include "crowdface/run/trait_advice.h"
 
 namespace crowdface {
 namespace {

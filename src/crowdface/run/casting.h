@@ -8,8 +8,8 @@
 #include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
-#include "crowdface/run/face_traits.h"
 #include "crowdface/run/pipeline.h"
+#include "crowdface/run/trait_reports.h"
 
 namespace crowdface {
 

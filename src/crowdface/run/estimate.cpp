@@ -11,7 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/run/casting.h"
-#include "crowdface/run/face_traits.h"
+#include "crowdface/run/trait_reports.h"
 
 namespace crowdface {
 namespace {

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "crowdface/cast/shares.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/rounded.h"
-#include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/smooth/level_basis.h"
@@ -184,169 +182,6 @@ std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const 
   return std::make_unique<const FaceTraits>(config, inputs, prepared, landmarks, std::move(traits));
 }
 
-namespace {
-
-constexpr std::uint32_t kDrawnForAdvice = 400;
-
-/// The heads whose values lie farthest on the side that a limit asks for, at most three.
-std::string farthest_heads(const Config& config, const std::vector<double>& of_heads,
-                           const Measurement& measurement, bool upwards) {
-  constexpr std::size_t kMost = 3;
-  std::vector<std::size_t> order(of_heads.size());
-  for (std::size_t h = 0; h < order.size(); ++h) order[h] = h;
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return upwards ? of_heads[a] > of_heads[b] : of_heads[a] < of_heads[b];
-  });
-  order.resize(std::min(order.size(), kMost));
-  std::vector<std::string> names;
-  for (const std::size_t h : order) {
-    names.push_back(
-        concat(config.faces.names[h], " (", format_trait(measurement, of_heads[h]), ")"));
-  }
-  return join(names);
-}
-
-/// A face of the kind that could not be found, with the limits that hold for it.
-FacePlan draw_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
-                           std::uint32_t attempt) {
-  const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);
-  if (!shortfall.recipe.empty() && hand != casting.recipes.end()) {
-    return draw_manual_recipe(casting, *hand, attempt);
-  }
-  const auto family = std::ranges::find(casting.families, shortfall.family, &FamilyOptions::name);
-  const bool of_family = !shortfall.family.empty() && family != casting.families.end();
-  std::optional<std::size_t> group;
-  if (shortfall.kind >= 0) group = static_cast<std::size_t>(shortfall.kind);
-  if (of_family) group = family->group;
-  FacePlan face = draw_face(casting, shortfall.reached + 1, attempt, kind_of_group(casting, group));
-  if (of_family) face.family = family->name;
-  return face;
-}
-
-}  // namespace
-
-std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs,
-                                      const CastingOptions& casting, const FaceTraits& traits,
-                                      const Shortfall& shortfall) {
-  const FaceMeasurer& measurer = traits.measurer();
-  const TraitRules rules(measurer, casting);
-  std::vector<Positions> drawn(kDrawnForAdvice);
-  TraitLimits limits;
-  for (std::uint32_t i = 0; i < kDrawnForAdvice; ++i) {
-    const FacePlan face = draw_of_shortfall(casting, shortfall, i);
-    limits = rules.limits_of(face);
-    drawn[i] = measurer.landmarks(face.recipe);
-  }
-  const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
-  std::vector<std::string> lines;
-  for (const TraitLimit& limit : limits) {
-    if (!limit.at_least && !limit.at_most) continue;
-    const Measurement& measurement = measurements()[limit.trait];
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    std::size_t above = 0, below = 0;
-    for (const Positions& points : drawn) {
-      const double value = measure(measurement, points);
-      low = std::min(low, value);
-      high = std::max(high, value);
-      if (measurer.spread().meets(limit, value)) continue;
-      const bool is_low =
-          limit.at_least && value < measurer.spread().value_of(limit.trait, *limit.at_least);
-      ++(is_low ? below : above);
-    }
-    std::string ends;
-    if (limit.at_least) {
-      ends += concat(" at least ", format_trait(measurement, measurer.spread().value_of(
-                                                                 limit.trait, *limit.at_least)));
-    }
-    if (limit.at_most) {
-      ends += concat(
-          ends.empty() ? "" : ",", " at most ",
-          format_trait(measurement, measurer.spread().value_of(limit.trait, *limit.at_most)));
-    }
-    std::vector<double> of_heads;
-    for (const Head& head : inputs.faces.heads) {
-      of_heads.push_back(
-          measure(measurement, landmarks.on(head.positions, mm_per(config.faces.units))));
-    }
-    const double percent = 100.0 * static_cast<double>(drawn.size() - above - below) /
-                           static_cast<double>(drawn.size());
-    lines.push_back(concat(measurement.name, ends, ": ", format_fixed(percent, 0),
-                           " % of the drawn faces meet it; they reach from ",
-                           format_trait(measurement, low), " to ", format_trait(measurement, high),
-                           "; the heads that reach farthest: ",
-                           farthest_heads(config, of_heads, measurement, below >= above)));
-  }
-  return lines;
-}
-
-std::vector<Positions> drawn_landmarks(const CastingOptions& casting,
-                                       const FaceMeasurer& measurer) {
-  constexpr std::uint64_t kDrawn = 2000;
-  const std::vector<FaceKind> kinds = face_kinds(casting);
-  const std::vector<int> schedule = schedule_groups(casting.groups, kDrawn);
-  std::vector<Positions> landmarks(kDrawn);
-  parallel_for_each(kDrawn, [&](std::size_t i) {
-    const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[i] + 1)];
-    landmarks[i] = measurer.landmarks(draw_face(casting, i + 1, 0, kind).recipe);
-  });
-  return landmarks;
-}
-
-std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,
-                                       const std::vector<FacePlan>& crowd) {
-  std::vector<TraitReport> reports;
-  std::vector<Positions> drawn;
-  if (!casting.population.empty()) drawn = drawn_landmarks(casting, traits.measurer());
-  for (std::size_t t = 0; t < traits.traits().size(); ++t) {
-    const std::size_t trait = traits.traits()[t];
-    TraitReport report{trait, quartiles(traits.measurer().spread().ascending(trait)), {}, {}};
-    std::vector<double> all, sampled;
-    for (const FacePlan& face : crowd) {
-      all.push_back(face.traits[t]);
-      if (face.index) sampled.push_back(face.traits[t]);
-    }
-    report.crowd = quartiles(std::move(all));
-    const auto target = std::ranges::find(casting.population, trait, &TraitTarget::trait);
-    if (target != casting.population.end() && !sampled.empty()) {
-      double low = HUGE_VAL, high = -HUGE_VAL, mean = 0, squares = 0;
-      for (const Positions& points : drawn) {
-        const double value = measure(measurements()[trait], points);
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-      const auto count = static_cast<double>(sampled.size());
-      for (const double value : sampled) mean += value / count;
-      for (const double value : sampled) squares += (value - mean) * (value - mean);
-      report.asked = {*target,
-                      mean,
-                      std::sqrt(squares / std::max(count - 1, 1.0)),
-                      largest_difference(*target, sampled),
-                      normal_share(*target, low),
-                      1 - normal_share(*target, high)};
-    }
-    reports.push_back(report);
-  }
-  return reports;
-}
-
-std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports) {
-  constexpr double kTooFar = 0.08, kPercent = 100;
-  std::vector<std::string> warnings;
-  for (const TraitReport& report : reports) {
-    if (!report.asked || report.asked->difference <= kTooFar) continue;
-    const TraitReport::Asked& asked = *report.asked;
-    const Measurement& of = measurements()[report.trait];
-    warnings.push_back(concat(
-        "population: ", of.name, " has the mean ", format_trait(of, asked.mean),
-        " and the standard deviation ", format_trait(of, asked.deviation), ", ",
-        format_trait(of, asked.target.mean), " and ", format_trait(of, asked.target.deviation),
-        " were asked for; of the asked distribution, ", format_fixed(kPercent * asked.below, 0),
-        " % lie below and ", format_fixed(kPercent * asked.above, 0),
-        " % above all faces that can be drawn from these heads"));
-  }
-  return warnings;
-}
-
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
                                                         const Prepared& prepared) {
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
@@ -358,44 +193,6 @@ std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, co
   if (available.empty()) return nullptr;
   return std::make_unique<const FaceTraits>(config, inputs, prepared, landmarks,
                                             std::move(available));
-}
-
-std::string format_trait_ranges(const Config& config, const Inputs& inputs,
-                                const Prepared& prepared, const CastingOptions& casting) {
-  const auto traits = available_face_traits(config, inputs, prepared);
-  if (!traits) return {};
-  const std::vector<Positions> drawn = drawn_landmarks(casting, traits->measurer());
-  constexpr std::size_t kNameWidth = 24, kNumberWidth = 9;
-  const auto column = [](const std::string& text, std::size_t width) {
-    return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
-  };
-  std::string table = concat("measurement                 heads: least  greatest",
-                             "   faces: least      1 %     50 %     99 %  greatest\n");
-  for (const std::size_t trait : traits->traits()) {
-    const Measurement& of = measurements()[trait];
-    const std::vector<double>& heads = traits->measurer().spread().ascending(trait);
-    std::vector<double> faces;
-    for (const Positions& points : drawn) faces.push_back(measure(of, points));
-    std::ranges::sort(faces);
-    const auto at = [&](double share) {
-      return faces[static_cast<std::size_t>(share * static_cast<double>(faces.size() - 1))];
-    };
-    std::string line(of.name);
-    line.resize(std::max(kNameWidth, line.size()), ' ');
-    line += unit_of(of) == " mm" ? " mm" : unit_of(of).empty() ? "   " : "  °";
-    const auto add = [&](double value, std::size_t more) {
-      line += column(format_fixed(value, unit_of(of).empty() ? 3 : 1), kNumberWidth + more);
-    };
-    add(heads.front(), 4);
-    add(heads.back(), 1);
-    add(faces.front(), 6);
-    add(at(0.01), 0);
-    add(at(0.5), 0);
-    add(at(0.99), 0);
-    add(faces.back(), 1);
-    table += line + '\n';
-  }
-  return table;
 }
 
 void measure_faces(const FaceTraits& traits, std::vector<FacePlan>& crowd) {

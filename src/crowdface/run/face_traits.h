@@ -5,9 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "crowdface/cast/casting_result.h"
-#include "crowdface/cast/crowd_statistics.h"
-#include "crowdface/cast/trait_rules.h"
+#include "crowdface/cast/face_measurer.h"
+#include "crowdface/cast/face_plan.h"
 #include "crowdface/heads/prepare.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/head_traits.h"
@@ -58,41 +57,6 @@ std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const 
 /// \throws UsageError if the config names one that is not available.
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
                                                         const Prepared& prepared);
-
-/// What casting reached of the limits that could not be met: a line for each limit, with the share
-/// of drawn faces that meet it, their range, and the heads that reach farthest.
-/// \param shortfall  names the group, family or recipe whose limits bind
-std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs,
-                                      const CastingOptions& casting, const FaceTraits& traits,
-                                      const Shortfall& shortfall);
-
-/// The landmarks of faces as casting draws them, without limits and constraints.
-std::vector<Positions> drawn_landmarks(const CastingOptions& casting, const FaceMeasurer& measurer);
-
-/// A measurement of the faces of a crowd, for reports.
-struct TraitReport {
-  std::size_t trait = 0;
-  Quartiles heads, crowd;
-  /// Only for a measurement with an asked distribution: the largest difference between it and that
-  /// of the sampled faces (Kolmogorov and Smirnov), and the share of the asked distribution that
-  /// lies below and above the values of drawn faces.
-  struct Asked {
-    TraitTarget target;
-    double mean = 0, deviation = 0;  ///< of the sampled faces
-    double difference = 0, below = 0, above = 0;
-  };
-  std::optional<Asked> asked;
-};
-/// \param crowd  measured faces, see measure_faces
-std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,
-                                       const std::vector<FacePlan>& crowd);
-
-/// Warnings about asked distributions that the crowd does not have.
-std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports);
-
-/// A readable table of the ranges that faces of these heads fill, for all measurements.
-std::string format_trait_ranges(const Config& config, const Inputs& inputs,
-                                const Prepared& prepared, const CastingOptions& casting);
 
 /// Records the values of all traits in the faces of a crowd.
 void measure_faces(const FaceTraits& traits, std::vector<FacePlan>& crowd);

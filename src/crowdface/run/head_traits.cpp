@@ -2,7 +2,6 @@
 #include "crowdface/run/head_traits.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -75,13 +74,24 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
   return landmarks;
 }
 
-TraitSpread measure_heads(const Config& config, const Inputs& inputs,
-                          const HeadLandmarks& landmarks) {
+namespace {
+
+/// The values of all heads: #heads by #measurements.
+std::vector<std::vector<std::optional<double>>> measure_each(const Config& config,
+                                                             const Inputs& inputs,
+                                                             const HeadLandmarks& landmarks) {
   std::vector<std::vector<std::optional<double>>> heads;
   for (const Head& head : inputs.faces.heads) {
     heads.push_back(measure_mesh(landmarks, head.positions, mm_per(config.faces.units)));
   }
-  return TraitSpread(heads);
+  return heads;
+}
+
+}  // namespace
+
+TraitSpread measure_heads(const Config& config, const Inputs& inputs,
+                          const HeadLandmarks& landmarks) {
+  return TraitSpread(measure_each(config, inputs, landmarks), config.quantiles_of.targets);
 }
 
 std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs) {
@@ -121,10 +131,8 @@ std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
 
 std::string format_head_traits(const Config& config, const Inputs& inputs,
                                const HeadLandmarks& landmarks) {
-  std::vector<std::vector<std::optional<double>>> heads;
-  for (const Head& head : inputs.faces.heads) {
-    heads.push_back(measure_mesh(landmarks, head.positions, mm_per(config.faces.units)));
-  }
+  const auto heads = measure_each(config, inputs, landmarks);
+  const TraitSpread spread(heads);
   constexpr std::size_t kNumberWidth = 9;
   const auto right_aligned = [](const std::string& text, std::size_t width) {
     return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
@@ -150,14 +158,8 @@ std::string format_head_traits(const Config& config, const Inputs& inputs,
           concat("  ", measurement.name, ": ", landmarks.reason_against(measurement), '\n');
       continue;
     }
-    std::vector<double> numbers;
+    std::vector<double> numbers = {spread.mean(m), spread.deviation(m)};
     for (const auto& head : heads) numbers.push_back(*head[m]);
-    double mean = 0, squares = 0;
-    for (const double value : numbers) mean += value / static_cast<double>(numbers.size());
-    for (const double value : numbers) squares += (value - mean) * (value - mean);
-    const double spread =
-        numbers.size() > 1 ? std::sqrt(squares / static_cast<double>(numbers.size() - 1)) : 0;
-    numbers.insert(numbers.begin(), {mean, spread});
     std::string line = concat(measurement.name, "  ", measurement.symbol);
     line.insert(measurement.name.size(), name_width - measurement.name.size(), ' ');
     line += std::string(start - 2 - line.size(), ' ');

@@ -58,14 +58,16 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// `mtllib` lines that replace the targets' own lines, if the material files lie in another folder.
-std::map<Index, std::string> shared_libraries(const MeshSource& source) {
+/// `mtllib` lines that replace the targets' own lines, if these do not lead to the material files
+/// that are written.
+std::map<Index, std::string> other_libraries(const MeshSource& source) {
   std::map<Index, std::string> lines;
-  if (source.shared.empty()) return lines;
   for (const Index target : source.targets) {
     const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
-    lines[target] = library_line(
-        find_material_files(file.material_path(), file.material_libraries).files, source.shared);
+    if (file.material_libraries.empty()) continue;
+    const MaterialFiles found = find_material_files(file.material_path(), file.material_libraries);
+    if (source.shared.empty() && !found.has_renamed_library) continue;
+    lines[target] = library_line(found.files, source.shared);
   }
   return lines;
 }
@@ -137,12 +139,12 @@ MeshEncoders obj_encoders(const MeshSource& source) {
     MeshEncoder encoder =
         level.whole() ? whole_encoder(source) : level_encoder(source, *level.face);
     encoder.encode = [encode = std::move(encoder.encode),
-                      shared = shared_libraries(source)](const FaceMesh& face) {
+                      others = other_libraries(source)](const FaceMesh& face) {
       EncodedFile file = encode(face);
-      const auto other = shared.find(face.target);
+      const auto other = others.find(face.target);
       if (!face.material_file.empty()) {
         file.replace_line("mtllib", concat("mtllib ", face.material_file));
-      } else if (other != shared.end() && !other->second.empty()) {
+      } else if (other != others.end() && !other->second.empty()) {
         file.replace_line("mtllib", other->second);
       }
       return file;

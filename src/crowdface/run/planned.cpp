@@ -23,8 +23,10 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
   hasher.add(kVersion).add(config_in_folder(job.config, directory)).add(job.settings);
   hasher.add_array(std::span(job.inputs.distance_mask));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
-  for (const TraitTarget& target : job.config.population.targets) {
-    hasher.add(target.trait).add(target.mean).add(target.deviation);
+  for (const auto& table : {job.config.population, job.config.quantiles_of}) {
+    for (const TraitTarget& target : table.targets) {
+      hasher.add(target.trait).add(target.mean).add(target.deviation);
+    }
   }
   if (!job.config.landmarks.empty()) hasher.add(read_file(job.config.landmarks));
   return hasher.digest();

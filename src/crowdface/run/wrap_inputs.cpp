@@ -157,7 +157,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
   if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
   inputs.hint = pose_hint(options);
-  inputs.proposed = propose_landmarks(inputs.shape, pickable(inputs.shape, inputs.shape.positions));
+  inputs.proposed = propose_landmarks(inputs.shape);
   if (!options.landmarks.empty()) {
     inputs.landmarks = read_landmarks(
         options.landmarks, options.batch.empty() ? LandmarksOf::kScan : LandmarksOf::kTemplate);

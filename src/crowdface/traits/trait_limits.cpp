@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "crowdface/core/text.h"
 
@@ -18,8 +19,9 @@ TraitLimits with_own(const TraitLimits& common, const TraitLimits& own) {
   return all;
 }
 
-TraitSpread::TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads)
-    : ascending_(measurements().size()) {
+TraitSpread::TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads,
+                         std::vector<TraitTarget> table)
+    : ascending_(measurements().size()), table_(std::move(table)) {
   for (const auto& head : heads) {
     for (std::size_t m = 0; m < head.size(); ++m) {
       if (head[m]) ascending_[m].push_back(*head[m]);
@@ -29,6 +31,8 @@ TraitSpread::TraitSpread(const std::vector<std::vector<std::optional<double>>>& 
 }
 
 double TraitSpread::quantile(std::size_t trait, double share) const {
+  const auto row = std::ranges::find(table_, trait, &TraitTarget::trait);
+  if (row != table_.end()) return normal_quantile(*row, share);
   const std::vector<double>& values = ascending_[trait];
   const double at = share * static_cast<double>(values.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), values.size() - 1);
@@ -64,6 +68,17 @@ double normal_share(const TraitTarget& target, double value) {
   constexpr double kSteps = 1e9;
   const double z = (value - target.mean) / target.deviation;
   return std::round(0.5 * std::erfc(-z / std::numbers::sqrt2) * kSteps) / kSteps;
+}
+
+double normal_quantile(const TraitTarget& target, double share) {
+  constexpr double kFarthest = 6, kSteps = 1e6;
+  const TraitTarget standard{0, 0, 1};
+  double low = -kFarthest, high = kFarthest;
+  while (high - low > 0.1 / kSteps) {
+    const double middle = (low + high) / 2;
+    (normal_share(standard, middle) < share ? low : high) = middle;
+  }
+  return target.mean + target.deviation * std::round(high * kSteps) / kSteps;
 }
 
 double largest_difference(const TraitTarget& target, std::vector<double> values) {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/trait_reports.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowdface/cast/shares.h"
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+
+namespace {
+
+/// The landmarks of faces as casting draws them, without limits and constraints.
+std::vector<Positions> drawn_landmarks(const CastingOptions& casting,
+                                       const FaceMeasurer& measurer) {
+  constexpr std::uint64_t kDrawn = 2000;
+  const std::vector<FaceKind> kinds = face_kinds(casting);
+  const std::vector<int> schedule = schedule_groups(casting.groups, kDrawn);
+  std::vector<Positions> landmarks(kDrawn);
+  parallel_for_each(kDrawn, [&](std::size_t i) {
+    const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[i] + 1)];
+    landmarks[i] = measurer.landmarks(draw_face(casting, i + 1, 0, kind).recipe);
+  });
+  return landmarks;
+}
+
+}  // namespace
+
+std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,
+                                       const std::vector<FacePlan>& crowd) {
+  std::vector<TraitReport> reports;
+  std::vector<Positions> drawn;
+  if (!casting.population.empty()) drawn = drawn_landmarks(casting, traits.measurer());
+  for (std::size_t t = 0; t < traits.traits().size(); ++t) {
+    const std::size_t trait = traits.traits()[t];
+    TraitReport report{trait, quartiles(traits.measurer().spread().ascending(trait)), {}, {}};
+    std::vector<double> all, sampled;
+    for (const FacePlan& face : crowd) {
+      all.push_back(face.traits[t]);
+      if (face.index) sampled.push_back(face.traits[t]);
+    }
+    report.crowd = quartiles(std::move(all));
+    const auto target = std::ranges::find(casting.population, trait, &TraitTarget::trait);
+    if (target != casting.population.end() && !sampled.empty()) {
+      double low = HUGE_VAL, high = -HUGE_VAL, mean = 0, squares = 0;
+      for (const Positions& points : drawn) {
+        const double value = measure(measurements()[trait], points);
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      const auto count = static_cast<double>(sampled.size());
+      for (const double value : sampled) mean += value / count;
+      for (const double value : sampled) squares += (value - mean) * (value - mean);
+      report.asked = {*target,
+                      mean,
+                      std::sqrt(squares / std::max(count - 1, 1.0)),
+                      largest_difference(*target, sampled),
+                      normal_share(*target, low),
+                      1 - normal_share(*target, high)};
+    }
+    reports.push_back(report);
+  }
+  return reports;
+}
+
+std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports) {
+  constexpr double kTooFar = 0.08, kPercent = 100;
+  std::vector<std::string> warnings;
+  for (const TraitReport& report : reports) {
+    if (!report.asked || report.asked->difference <= kTooFar) continue;
+    const TraitReport::Asked& asked = *report.asked;
+    const Measurement& of = measurements()[report.trait];
+    warnings.push_back(concat(
+        "population: ", of.name, " has the mean ", format_trait(of, asked.mean),
+        " and the standard deviation ", format_trait(of, asked.deviation), ", ",
+        format_trait(of, asked.target.mean), " and ", format_trait(of, asked.target.deviation),
+        " were asked for; of the asked distribution, ", format_fixed(kPercent * asked.below, 0),
+        " % lie below and ", format_fixed(kPercent * asked.above, 0),
+        " % above all faces that can be drawn from these heads"));
+  }
+  return warnings;
+}
+
+std::string format_trait_ranges(const Config& config, const Inputs& inputs,
+                                const Prepared& prepared, const CastingOptions& casting) {
+  const auto traits = available_face_traits(config, inputs, prepared);
+  if (!traits) return {};
+  const std::vector<Positions> drawn = drawn_landmarks(casting, traits->measurer());
+  constexpr std::size_t kNameWidth = 24, kNumberWidth = 9;
+  const auto column = [](const std::string& text, std::size_t width) {
+    return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+  };
+  std::string table = concat("measurement                 heads: least  greatest",
+                             "   faces: least      1 %     50 %     99 %  greatest\n");
+  for (const std::size_t trait : traits->traits()) {
+    const Measurement& of = measurements()[trait];
+    const std::vector<double>& heads = traits->measurer().spread().ascending(trait);
+    std::vector<double> faces;
+    for (const Positions& points : drawn) faces.push_back(measure(of, points));
+    std::ranges::sort(faces);
+    const auto at = [&](double share) {
+      return faces[static_cast<std::size_t>(share * static_cast<double>(faces.size() - 1))];
+    };
+    std::string line(of.name);
+    line.resize(std::max(kNameWidth, line.size()), ' ');
+    line += unit_of(of) == " mm" ? " mm" : unit_of(of).empty() ? "   " : "  °";
+    const auto add = [&](double value, std::size_t more) {
+      line += column(format_fixed(value, unit_of(of).empty() ? 3 : 1), kNumberWidth + more);
+    };
+    add(heads.front(), 4);
+    add(heads.back(), 1);
+    add(faces.front(), 6);
+    add(at(0.01), 0);
+    add(at(0.5), 0);
+    add(at(0.99), 0);
+    add(faces.back(), 1);
+    table += line + '\n';
+  }
+  return table;
+}
+
+}  // namespace crowdface
