@@ -130,6 +130,8 @@ struct LocalServer::State {
 
   std::optional<HttpAnswer> refusal(const HttpHead& head) const;
   bool comes_from_us(const HttpHead& head) const;
+  std::list<Connection>::iterator slowest();
+  bool is_full();
   void accept_clients();
   void read_from(Connection& client);
   void take_request(Connection& client);
@@ -177,22 +179,32 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// Accepts some of the waiting clients. If there are too many connections, closes the one whose
-/// head of a request has been incomplete for the longest time. Reads from each new client at once,
-/// so that a client whose request has arrived is not closed in favour of the clients after it.
+/// The connection to close for a new client: of those that had kMoment for the head of a request,
+/// the one whose head has been incomplete for the longest time.
+std::list<Connection>::iterator LocalServer::State::slowest() {
+  auto oldest = connections.end();
+  for (auto client = connections.begin(); client != connections.end(); ++client) {
+    const bool may_go = client->state == Connection::State::kReading && !client->head &&
+                        Clock::now() - client->since > kMoment;
+    if (may_go && (oldest == connections.end() || client->since < oldest->since)) oldest = client;
+  }
+  return oldest;
+}
+
+bool LocalServer::State::is_full() {
+  return connections.size() >= kMaxConnections && slowest() == connections.end();
+}
+
+/// Accepts some of the waiting clients. If there are too many connections, closes the slowest. Reads
+/// from each new client at once, so that a client whose request has arrived is not closed in favour
+/// of the clients after it.
 void LocalServer::State::accept_clients() {
-  for (std::size_t i = 0; i < kMaxAtOnce; ++i) {
+  for (std::size_t i = 0; i < kMaxAtOnce && !is_full(); ++i) {
     Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     const bool is_short = !accepted.valid() && is_system_error(errno);
     if (!accepted.valid() && !is_short) return;
     if (is_short || connections.size() >= kMaxConnections) {
-      auto oldest = connections.end();
-      for (auto client = connections.begin(); client != connections.end(); ++client) {
-        const bool may_go = client->state == Connection::State::kReading && !client->head;
-        if (may_go && (oldest == connections.end() || client->since < oldest->since)) {
-          oldest = client;
-        }
-      }
+      const auto oldest = slowest();
       if (oldest == connections.end()) return;
       connections.erase(oldest);
     }
@@ -285,7 +297,8 @@ bool LocalServer::State::is_over(const Connection& client) const {
 
 /// Waits up to kMoment for events and handles them without blocking.
 void LocalServer::State::serve_once() {
-  std::vector<pollfd> waiting = {{listening.get(), POLLIN, 0}, {woken.get(), POLLIN, 0}};
+  const short new_clients = is_full() ? 0 : POLLIN;
+  std::vector<pollfd> waiting = {{listening.get(), new_clients, 0}, {woken.get(), POLLIN, 0}};
   std::vector<Connection*> clients;
   for (Connection& client : connections) {
     if (client.state == Connection::State::kAnswering) continue;
