@@ -48,10 +48,11 @@ class Crowd:
         return _first(self._pictures, face + ".png")
 
     def filtered(self, words="", tags=(), trait=None, low=None, high=None):
+        """`low` and `high` are single precision in Blender, and the table has four decimals."""
         wanted = words.lower().split()
         return [face for face in self.faces
                 if all(word in face.words for word in wanted) and all(tag in face.tags for tag in tags)
-                and (not trait or low <= float(face.row[trait] or "nan") <= high)]
+                and (not trait or low - 1e-4 <= float(face.row[trait] or "nan") <= high + 1e-4)]
 
     def range_of(self, trait):
         values = [float(face.row[trait]) for face in self.faces if face.row[trait]]

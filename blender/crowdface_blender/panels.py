@@ -102,7 +102,8 @@ class CROWDFACE_PT_browse(Panel):
         row.operator("crowdface.page", text="", icon='TRIA_LEFT').by = -1
         row.label(text=f"{first + 1}–{min(first + browse.PAGE, len(found))} of {len(found)}" if found else "No face")
         row.operator("crowdface.page", text="", icon='TRIA_RIGHT').by = 1
-        row.operator("crowdface.choose", text="All").choose = True
+        row = self.layout.row(align=True)
+        row.operator("crowdface.choose", text="Choose All").choose = True
         row.operator("crowdface.choose", text="None").choose = False
 
 

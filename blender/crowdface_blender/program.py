@@ -10,6 +10,9 @@ import time
 import bpy
 
 
+MESSAGE = 12  # lines of an error message that Blender shows
+
+
 class Problem(Exception):
     """What the user must know."""
 
@@ -70,7 +73,8 @@ class Job:
         """The error message: the log from its first error on, or the end of the log."""
         lines = self.output().splitlines()
         first = next((i for i, line in enumerate(lines) if line.startswith("error: ")), max(0, len(lines) - 3))
-        return "\n".join(lines[first:]).replace("error: ", "", 1) or f"exit code {self._process.returncode}"
+        lines = lines[first:first + MESSAGE] + (["…"] if len(lines) > first + MESSAGE else [])
+        return "\n".join(lines).replace("error: ", "", 1) or f"exit code {self._process.returncode}"
 
     def warnings(self):
         return [line[9:] for line in self.output().splitlines() if line.startswith("warning: ")]

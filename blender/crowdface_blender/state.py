@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Preferences, and what the panels remember in the scene."""
+import os
+
 import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
                        StringProperty)
@@ -113,7 +115,7 @@ class CrowdfaceBrowse(bpy.types.PropertyGroup):
     all_levels: BoolProperty(name="All levels", description="Import coarser levels too, each in a hidden collection")
 
     def path(self):
-        return bpy.path.abspath(self.folder).rstrip("/\\") if self.folder else ""
+        return os.path.realpath(bpy.path.abspath(self.folder)) if self.folder else ""
 
     def filtered(self):
         """The list's items that pass the filters."""
@@ -128,7 +130,7 @@ class CrowdfaceBrowse(bpy.types.PropertyGroup):
 
 class CrowdfaceWrap(bpy.types.PropertyGroup):
     scan: PointerProperty(name="Scan", type=bpy.types.Object, poll=lambda self, item: item.type == 'MESH')
-    keep_size: BoolProperty(name="Size of the scan",
+    keep_size: BoolProperty(name="Scan size",
                             description="The head gets the size of the scan, not of the template")
 
 

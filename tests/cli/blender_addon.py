@@ -153,6 +153,7 @@ def test_filters(browse, crowd):
     assert [item.name for item in browse.filtered()] == ["mob_0001"]
     browse.words = ""
     browse.trait = "nose_width"
+    assert len(browse.filtered()) == 6, "from the least to the greatest"
     middle = sorted(float(face.row["nose_width"]) for face in crowd.faces)[2]
     browse.high = middle + 1e-3
     assert len(browse.filtered()) == 3
