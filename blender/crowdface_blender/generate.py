@@ -95,6 +95,8 @@ class Crowd:
             yield "faces.align", "rigid"
         if options.groups:
             names = [meshes.plain_name(child.name) for child in options.heads.children if heads_of(child)]
+            if not names:
+                raise Problem("groups need sub-collections with heads in the collection")
             yield "groups", "[" + ", ".join(f"{{name: {name}, tags: [{name}]}}" for name in names) + "]"
         if options.families:
             yield "families", "[" + ", ".join(
