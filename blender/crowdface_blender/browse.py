@@ -47,7 +47,8 @@ class CROWDFACE_OT_import(bpy.types.Operator):
             levels = [browse.level]
             if browse.all_levels:
                 levels += range(browse.level + 1, crowd.levels() + 1)
-            placed = faces.place_faces(context, crowd, ids, levels, self._places(context, browse, len(ids)))
+            places = self._places(context, browse, len(ids))
+            placed = faces.place_faces(context, crowd, ids, levels, places, browse.weld)
         except Problem as problem:
             self.report({'ERROR'}, str(problem))
             return {'CANCELLED'}

@@ -11,15 +11,15 @@ from mathutils import Matrix
 
 from .program import Problem
 
-CROWD, FACE, LEVEL = "crowdface_crowd", "crowdface_face", "crowdface_level"
+CROWD, FACE, LEVEL, WELD = "crowdface_crowd", "crowdface_face", "crowdface_level", "crowdface_weld"
 
 
-def _import_glb(file):
+def _import_glb(file, weld):
     """The objects of a GLB file, the face first."""
     if "bool" not in numpy.__dict__:
         numpy.bool = bool  # Blender 3.4's importer needs this name
     before = set(bpy.data.objects)
-    bpy.ops.import_scene.gltf(filepath=file)
+    bpy.ops.import_scene.gltf(filepath=file, merge_vertices=weld)
     new = [item for item in bpy.data.objects if item not in before]
     return sorted(new, key=lambda item: item.parent is not None)
 
@@ -39,13 +39,16 @@ def _fill(collection, items):
         collection.objects.link(item)
 
 
-def import_face(crowd, face, level, parent):
-    """A new collection below `parent` with one face. Returns its objects, the face first."""
+def import_face(crowd, face, level, parent, weld=False):
+    """A new collection below `parent` with one face. Returns its objects, the face first.
+
+    `weld` merges vertices that GLB files split at texture seams. The order of vertices is then another in each face.
+    """
     file = crowd.mesh(face, level)
     if not file:
         raise Problem(f"{crowd.folder} has no GLB file of {face}" + (f" at level {level}" if level else ""))
-    items = _import_glb(file)
-    items[0][CROWD], items[0][FACE], items[0][LEVEL] = crowd.folder, face, level
+    items = _import_glb(file, weld)
+    items[0][CROWD], items[0][FACE], items[0][LEVEL], items[0][WELD] = crowd.folder, face, level, weld
     collection = bpy.data.collections.new(items[0].name)
     parent.children.link(collection)
     _fill(collection, items)
@@ -75,7 +78,7 @@ def name_of(crowd):
     return os.path.basename(crowd.folder) + " faces"
 
 
-def place_faces(context, crowd, ids, levels, places):
+def place_faces(context, crowd, ids, levels, places, weld=False):
     """Imports a face for each place; if there are more places than faces, faces repeat as linked duplicates.
 
     Levels of detail other than the first of `levels` get a hidden collection each. Returns the faces' objects.
@@ -87,7 +90,7 @@ def place_faces(context, crowd, ids, levels, places):
         imported = []
         for number, place in enumerate(places):
             if number < len(ids):
-                items = import_face(crowd, ids[number], level, parent)
+                items = import_face(crowd, ids[number], level, parent, weld)
                 imported.append((items, items[0].matrix_basis.copy()))
             else:
                 items = _duplicate(imported[number % len(ids)][0], parent)
@@ -123,11 +126,12 @@ def replace(context, crowd, ids):
     old = [item for item in context.scene.objects if item.get(CROWD) == crowd.folder and item.get(FACE) in ids]
     replaced = []
     for item in old:
-        collection, face, level, place = item.users_collection[0], item[FACE], item[LEVEL], item.matrix_basis.copy()
+        collection, place = item.users_collection[0], item.matrix_basis.copy()
+        face, level, weld = item[FACE], item[LEVEL], bool(item[WELD])
         parent = next(c for c in [context.scene.collection, *bpy.data.collections] if collection.name in c.children)
         for part in list(collection.objects):
             bpy.data.objects.remove(part)
         bpy.data.collections.remove(collection)
-        import_face(crowd, face, level, parent)[0].matrix_basis = place
+        import_face(crowd, face, level, parent, weld)[0].matrix_basis = place
         replaced.append(face)
     return replaced

@@ -74,6 +74,7 @@ class CROWDFACE_PT_browse(Panel):
         if crowd.levels():
             column.prop(state, "level")
             column.prop(state, "all_levels")
+        column.prop(state, "weld")
         if "glb" in crowd.formats():
             self.layout.operator("crowdface.import_faces", icon='IMPORT')
         else:

@@ -112,6 +112,8 @@ class CrowdfaceBrowse(bpy.types.PropertyGroup):
     columns: IntProperty(name="Columns", default=6, min=1)
     spacing: FloatProperty(name="Spacing", default=0.3, min=0, subtype='DISTANCE')
     level: IntProperty(name="Level", default=0, min=0, max=8, description="Level of detail; 0 is the whole face")
+    weld: BoolProperty(name="Weld seams", description="Merge vertices that GLB files split at texture seams; "
+                       "vertices then have another order in each face")
     all_levels: BoolProperty(name="All levels", description="Import coarser levels too, each in a hidden collection")
 
     def path(self):

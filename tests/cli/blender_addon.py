@@ -241,6 +241,15 @@ def test_levels(browse):
     assert 0.4 < len(half.data.polygons) / len(whole.data.polygons) < 0.6
     assert whole.visible_get() and not half.visible_get()
     browse.all_levels = False
+    places = set(map(tuple, points(whole)))
+    clear()
+    browse.weld = True
+    bpy.ops.crowdface.import_faces()
+    (welded,) = imported()
+    assert set(map(tuple, points(welded))) == places
+    assert len(welded.data.vertices) == len(places) == len(bpy.data.objects[HEADS[0]].data.vertices)
+    assert [key.name for key in welded.data.shape_keys.key_blocks] == ["Basis", "smile"]
+    browse.weld = False
     clear()
 
 
