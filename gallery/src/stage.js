@@ -81,9 +81,17 @@ export function paintEyes(material, geometry, places, eyes) {
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', `#include <common>\n${eyeShader.fragment}`)
       .replace('#include <color_fragment>', `#include <color_fragment>
-        #ifndef USE_MAP
-          if (isEye()) diffuseColor.rgb = eyeballColour();
-        #endif`);
+        if (isEye() && !hasPicture()) diffuseColor.rgb = eyeballColour();`)
+      .replace('#include <color_pars_fragment>', `#include <color_pars_fragment>
+        bool hasPicture() {
+          #if !defined(USE_MAP)
+            return false;
+          #elif defined(SOME_TEXTURED)
+            return vTextured > 0.5;
+          #else
+            return true;
+          #endif
+        }`);
     surfaceWhere(shader, 'isEye()', 'eye');
   });
 }
@@ -100,13 +108,31 @@ export function roughAtVertices(material) {
   });
 }
 
+/// Whether the browser draws without a graphics card.
+export function drawsInSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+const rest = 120; // ms without a move, after which all is drawn in full
+const calm = 600; // ms more, after which hair is, too
+const slow = 33; // ms of a frame while something moves
+const fast = 16;
+
 /// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
 export class Stage {
   /// \throws if the browser has no WebGL.
-  constructor({ pan = false, antialias = true } = {}) {
+  constructor({ pan = false, software = drawsInSoftware(), antialias = true } = {}) {
     this.renderer = new WebGLRenderer({ antialias, alpha: true });
+    this.software = software;
     this.renderer.outputColorSpace = SRGBColorSpace;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.fullRatio = Math.min(devicePixelRatio, 2);
+    this.movingRatio = this.fullRatio;
+    this.setRatio(this.fullRatio);
+    this.moving = false;
     this.node = this.renderer.domElement;
     this.node.className = 'turntable';
     this.scene = new Scene();
@@ -120,7 +146,38 @@ export class Stage {
     this.controls.minDistance = pan ? 0.8 : 2.2;
     this.controls.maxDistance = 14;
     this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('start', () => this.setMoving(true));
+    this.controls.addEventListener('end', () => this.setMoving(false));
     this.frames = 0;
+  }
+
+  setRatio(ratio) {
+    this.ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
+  }
+
+  /// Without a graphics card what moves is drawn in a cheap form and with as few pixels as its speed asks for; once it
+  /// rests, in full.
+  setMoving(on) {
+    if (!this.software) return;
+    clearTimeout(this.resting);
+    if (on && !this.moving) this.drawCheaply(true);
+    else if (!on && this.moving) this.resting = setTimeout(() => this.drawCheaply(false), rest);
+    else if (!on && this.worn?.cheap) this.resting = setTimeout(() => this.drawHair(), calm);
+  }
+
+  drawCheaply(on) {
+    this.moving = on;
+    if (on) this.worn?.setCheap(true);
+    else this.resting = setTimeout(() => this.drawHair(), calm);
+    this.setRatio(on ? this.movingRatio : this.fullRatio);
+    this.draw();
+  }
+
+  /// Hair takes longest: in full it comes last.
+  drawHair() {
+    this.worn?.setCheap(false);
+    this.draw();
   }
 
   stand({ up, front, box: [low, high] }) {
@@ -198,7 +255,18 @@ export class Stage {
   }
 
   draw() {
+    const began = performance.now();
+    if (this.moving && this.ratio !== this.movingRatio && !this.silent) this.setRatio(this.movingRatio);
+    if (this.worn?.cheap) this.worn.shade(this.camera, this.group);
     this.renderer.render(this.scene, this.camera);
     this.frames += 1;
+    if (!this.moving && !this.onframe) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+    this.frameMs = performance.now() - began;
+    this.onframe?.(this.frameMs);
+    if (!this.moving) return;
+    if (this.frameMs > slow && this.movingRatio > 0.3 * this.fullRatio) this.movingRatio *= 0.85;
+    else if (this.frameMs < fast && this.movingRatio < this.fullRatio) this.movingRatio = Math.min(this.fullRatio, 1.1 * this.movingRatio);
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light of contact sheets (src/crowdface/render/studio.cpp, shading.cpp and light.cpp), so that a face in a page
 // looks as it does there.
-import { MeshStandardMaterial, ShaderChunk, Vector3 } from 'three';
+import { Matrix3, MeshStandardMaterial, ShaderChunk, Vector3 } from 'three';
 
 const mostShaded = 0.85; // what sees more of the sky lies in no shadow
 const hairSky = 0.72; // the sky that hair sees, most of which lies under other hair
@@ -35,7 +35,7 @@ export function shoulder(x) {
 }
 
 /// Diffuse light from a lamp past the terminator.
-export function wrapped(cosine, wrap) {
+function wrapped(cosine, wrap) {
   const lit = Math.max((cosine + wrap) / (1 + wrap), 0);
   return (0.5 * (lit * lit + lit)) / (1 + wrap);
 }
@@ -52,12 +52,36 @@ export function withBounces(sky, albedo) {
   return Math.min(Math.max(sum, sky), 1);
 }
 
+/// The diffuse light of the studio in the axes of what turns: lamps stand elsewhere there whenever the camera moves.
+/// \return  (x, y, z, sky, key, open, sum): adds up in `sum` what reaches a white surface with the normal x, y, z
+export function lightIn(camera, group, kind) {
+  const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse.clone().multiply(group.matrixWorld)).transpose();
+  const local = ({ way, colour }) => ({ way: way.clone().applyMatrix3(turn).normalize(), colour });
+  const [key, fill, right, left] = [lamps.key, lamps.fill, ...lamps.rims].map(local);
+  const up = local({ way: new Vector3(0, 1, 0) }).way;
+  const { above, below } = lamps;
+  const { wrap } = surfaces[kind];
+  return (x, y, z, sky, keyPart, open, sum) => {
+    const facing = (way) => x * way.x + y * way.y + z * way.z;
+    const high = 0.5 + 0.5 * facing(up);
+    const toKey = facing(key.way);
+    const toFill = facing(fill.way);
+    const fromRight = sky * Math.max(facing(right.way), 0);
+    const fromLeft = sky * Math.max(facing(left.way), 0);
+    for (let c = 0; c < 3; c += 1) {
+      sum[c] = open * (below[c] + high * (above[c] - below[c]) + fill.colour[c] * wrapped(toFill, wrap[c])) +
+        keyPart * key.colour[c] * wrapped(toKey, wrap[c]) + right.colour[c] * fromRight + left.colour[c] * fromLeft;
+    }
+  };
+}
+
 /// Numbers as a vector of shaders.
 const text = (numbers) => `vec3(${[...numbers].map((number) => number.toFixed(6)).join(', ')})`;
 const lamp = ({ way, colour }) => `${text(way)}, ${text(colour)}`;
 
+/// For shaders: inStudio(albedo, normal, to the eye, surface, share of the sky, share of the key light).
 const shading = `
-  struct Surface { vec3 wrap; float roughness, reflectance, specular; };
+  struct Surface { vec3 wrap; float roughness, reflectance, specular, sky; };
   vec3 wrapped(float cosine, vec3 wrap) {
     vec3 lit = max((cosine + wrap) / (1.0 + wrap), 0.0);
     return 0.5 * (lit * lit + lit) / (1.0 + wrap);
@@ -100,6 +124,12 @@ const shading = `
 /// ones that just turn away at a jaw's edge would be lit as if from behind: bright specks.
 const faceDirection = ShaderChunk.normal_fragment_begin.replace('gl_FrontFacing', '!isInside()');
 
+/// A surface of shaders.
+function surfaceText(kind, roughness = surfaces[kind].roughness.toFixed(3)) {
+  const { wrap, reflectance, specular, sky } = surfaces[kind];
+  return `Surface(${text(wrap)}, ${roughness}, ${[reflectance, specular, sky].map((number) => number.toFixed(3)).join(', ')})`;
+}
+
 /// Adds to what the material's shaders do. \param change  (shader) => shader with other text
 export function extend(material, change) {
   const before = material.onBeforeCompile;
@@ -113,7 +143,7 @@ export function extend(material, change) {
 /// \param options   of three.js
 /// \param skin      {lightness: {value}}: how light a texture's skin is; darker texels are painted hair
 export function studioMaterial(kind, options, skin = { value: 0 }) {
-  const { wrap, roughness, reflectance, specular, darkens, sky } = surfaces[kind];
+  const { roughness, darkens } = surfaces[kind];
   const material = new MeshStandardMaterial({ roughness, ...options });
   extend(material, (shader) => {
     shader.uniforms.skinLightness = skin;
@@ -140,18 +170,17 @@ export function studioMaterial(kind, options, skin = { value: 0 }) {
       .replace('#include <lights_physical_fragment>', '').replace('#include <lights_fragment_begin>', '')
       .replace('#include <lights_fragment_maps>', '').replace('#include <lights_fragment_end>', '')
       .replace('#include <opaque_fragment>', `
-        Surface surface = Surface(${text(wrap)}, roughnessFactor, ${reflectance.toFixed(3)}, ${specular.toFixed(3)});
+        Surface surface = ${surfaceText(kind, 'roughnessFactor')};
         vec3 eyeWay = normalize(vViewPosition);
         float brightness = dot(diffuseColor.rgb, vec3(1.0 / 3.0));
         ${darkens ? `surface.reflectance *= clamp(brightness / 0.055, 0.25, 1.0);
         if (skinLightness > 0.0) surface.specular *= mix(0.12, 1.0, clamp((brightness / skinLightness - 0.15) / 0.55, 0.0, 1.0));` : ''}
-        float skyShare = ${sky.toFixed(2)};
         #ifdef HAS_SKY
-          skyShare = vSky;
+          surface.sky = vSky;
         #endif
         // <surface>
         normal = dot(normal, eyeWay) < 0.0 ? normalize(normal - dot(normal, eyeWay) * eyeWay) : normal;
-        outgoingLight = inStudio(diffuseColor.rgb, normal, eyeWay, surface, skyShare, keyShare(skyShare));
+        outgoingLight = inStudio(diffuseColor.rgb, normal, eyeWay, surface, surface.sky, keyShare(surface.sky));
         if (isInside()) outgoingLight *= 0.3;
         outgoingLight = shoulder(outgoingLight);
         #include <opaque_fragment>`);
@@ -161,7 +190,10 @@ export function studioMaterial(kind, options, skin = { value: 0 }) {
 
 /// Other numbers of the surface where a condition of the shader holds.
 export function surfaceWhere(shader, condition, kind) {
-  const { wrap, roughness, reflectance, specular } = surfaces[kind];
   shader.fragmentShader = shader.fragmentShader.replace('// <surface>', `// <surface>
-        if (${condition}) surface = Surface(${text(wrap)}, ${roughness.toFixed(3)}, ${reflectance.toFixed(3)}, ${specular.toFixed(3)});`);
+        if (${condition}) {
+          float seen = surface.sky;
+          surface = ${surfaceText(kind)};
+          surface.sky = seen;
+        }`);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far faces in the gallery's 3D view differ in colour from the same faces in the sheet's renders: the mean
-// colours of the middle of the face, as CIE76 ΔE.
-//   node agreement.mjs GALLERY_FOLDER COUNT MOST [PICTURES_FOLDER]
+// How far faces in the gallery's 3D view, and in the editor if there is an address, differ in colour from the same
+// faces in the sheet's renders: the mean colours of the middle of the face, as CIE76 ΔE.
+//   node agreement.mjs GALLERY_FOLDER COUNT MOST [PICTURES_FOLDER] [EDITOR_ADDRESS]
 // Prints each face's difference and fails if one is above MOST. Writes both pictures of each face side by side. The
 // last line says "all right".
 import assert from 'node:assert/strict';
@@ -10,13 +10,13 @@ import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { openPage } from './open_page.mjs';
 
-const [folder, count, most, pictures] = process.argv.slice(2);
-if (!most) throw new Error('usage: node agreement.mjs GALLERY_FOLDER COUNT MOST [PICTURES]');
+const [folder, count, most, pictures, address] = process.argv.slice(2);
+if (!most) throw new Error('usage: node agreement.mjs GALLERY_FOLDER COUNT MOST [PICTURES] [ADDRESS]');
 
-const { browser, page, problems } = await openPage({ width: 1440, height: 900, own: 'file:' });
+const { browser, page, problems } = await openPage({ width: 1440, height: 900 });
 await page.goto(pathToFileURL(join(resolve(folder), 'index.html')).href);
 await page.waitForSelector('.cell');
-await page.evaluate(() => {
+const provideCompare = () => page.evaluate(() => {
   const pixels = (source, size) => {
     const canvas = document.createElement('canvas');
     [canvas.width, canvas.height] = [size, size];
@@ -58,7 +58,7 @@ await page.evaluate(() => {
     sheet.src = address;
     await sheet.decode();
     const size = sheet.height;
-    const { turntable } = window.crowdface.page.face;
+    const turntable = window.crowdface.editor?.view ?? window.crowdface.page.face.turntable;
     turntable.renderer.setPixelRatio(1);
     turntable.renderer.setSize(size, size, false);
     turntable.camera.aspect = 1;
@@ -105,20 +105,40 @@ await page.evaluate(() => {
   };
 });
 const ids = await page.evaluate((n) => window.crowdface.page.crowd.faces.slice(0, n).map(({ id }) => id), Number(count));
-const differences = [];
-for (const id of ids) {
+/// \param show  shows a face of an id
+async function compareAll(where, show) {
+  await provideCompare();
+  const differences = [];
+  for (const id of ids) {
+    await show(id);
+    const render = readFileSync(join(folder, '..', 'renders', `${id}.png`)).toString('base64');
+    const { means, difference, both } = await page.evaluate((url) => window.compare(url), `data:image/png;base64,${render}`);
+    differences.push(difference);
+    console.log(`${id}: ΔE ${difference.toFixed(2)}; sheet ${means[0].map((v) => v.toFixed(1))}, page ${means[1].map((v) => v.toFixed(1))}`);
+    if (!pictures) continue;
+    mkdirSync(pictures, { recursive: true });
+    writeFileSync(join(pictures, `${where}_${id}.png`), Buffer.from(both.split(',')[1], 'base64'));
+  }
+  const mean = differences.reduce((a, b) => a + b, 0) / ids.length;
+  console.log(`ΔE of ${ids.length} faces in the ${where}: mean ${mean.toFixed(2)}, most ${Math.max(...differences).toFixed(2)}`);
+  assert.ok(differences.every((difference) => difference <= Number(most)), `a face differs by more than ΔE ${most}`);
+}
+await compareAll('gallery', async (id) => {
   await page.evaluate((name) => { location.hash = `#/face/${name}`; }, id);
   await page.waitForFunction((name) => window.crowdface.page.face.turntable?.shown === name, id);
-  const render = readFileSync(join(folder, '..', 'renders', `${id}.png`)).toString('base64');
-  const { means, difference, both } = await page.evaluate((address) => window.compare(address), `data:image/png;base64,${render}`);
-  differences.push(difference);
-  console.log(`${id}: ΔE ${difference.toFixed(2)}; sheet ${means[0].map((v) => v.toFixed(1))}, page ${means[1].map((v) => v.toFixed(1))}`);
-  if (!pictures) continue;
-  mkdirSync(pictures, { recursive: true });
-  writeFileSync(join(pictures, `${id}.png`), Buffer.from(both.split(',')[1], 'base64'));
+});
+if (address) {
+  await page.goto(address);
+  await page.waitForFunction(() => window.crowdface?.editor?.ready && window.crowdface.editor.view.skin);
+  await compareAll('editor', async (id) => {
+    await page.getByLabel('Open a face').selectOption(`face ${id}`);
+    await page.waitForFunction((name) => { // until its own skin and what it wears are there
+      const { editor: it } = window.crowdface;
+      return it.document.face === name && !it.pending && it.exactOf === it.document && !it.skin.running && it.view.worn.node.visible;
+    }, id);
+    await page.waitForTimeout(500);
+  });
 }
-console.log(`ΔE of ${ids.length} faces: mean ${(differences.reduce((a, b) => a + b, 0) / ids.length).toFixed(2)}, most ${Math.max(...differences).toFixed(2)}`);
-assert.ok(differences.every((difference) => difference <= Number(most)), `a face differs by more than ΔE ${most}`);
 assert.deepEqual(problems, []);
 await browser.close();
 console.log('all right');

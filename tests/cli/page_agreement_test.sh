@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The gallery's 3D view shows faces in the colours of the sheet's renders. Skipped (77) where there is no Chromium or
+# The 3D views of the gallery and of the editor show faces in the colours of the sheet's renders. Skipped (77) where there is no Chromium or
 # the page was not built.
 #   page_agreement_test.sh PROGRAM ROOT
 set -euo pipefail
@@ -15,4 +15,5 @@ attachments: {from: heads/attachments}
 output: {directory: out, meshes: [glb], contact_sheet: {cell: 256}}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
-browse agreement.mjs "$folder/out/gallery" 4 3 "${PICTURES-}"
+serve edit "$folder/config.yaml" --cache "$folder/cache" --no-browser
+browse agreement.mjs "$folder/out/gallery" 4 3 "${PICTURES-}" "$address"

@@ -2,8 +2,8 @@
 // Skin that moves where no graphics card draws. Shaders run on the processor there, and for a vertex
 // again and again as triangles come by; so colour and light are computed once a vertex in typed
 // arrays, and the shader does no more than to place it.
-import { BufferAttribute, FrontSide, Matrix3, ShaderMaterial, Vector3 } from 'three';
-import { keyShare, lamps, shoulder, surfaces, withBounces, wrapped } from '../studio.js';
+import { BufferAttribute, FrontSide, ShaderMaterial } from 'three';
+import { keyShare, lightIn, shoulder, withBounces } from '../studio.js';
 
 function toneOf(light) {
   const y = Math.min(shoulder(light), 1);
@@ -18,12 +18,10 @@ const tones = Uint8Array.from({ length: steps + 1 }, (_, i) => Math.round(255 * 
 export class Draft {
   /// \param geometry  with regionColour; \param colours  linear light, three a vertex;
   /// \param palette   colours of distances, near to far.
-  /// \param sky       share of the sky that each vertex sees, or nothing
-  constructor(geometry, blender, colours, palette, sky) {
-    Object.assign(this, { geometry, blender, colours, palette });
-    this.sky = sky ?? new Float32Array(colours.length / 3).fill(1);
-    this.lit = this.sky.map(keyShare);
-    this.open = this.sky.map((share) => withBounces(share, typicalAlbedo));
+  /// \param textured  which vertices have a place in the map
+  constructor(geometry, blender, colours, textured, palette) {
+    Object.assign(this, { geometry, blender, colours, textured, palette });
+    this.setSky(new Float32Array(colours.length / 3).fill(1));
     this.count = colours.length / 3;
     this.points = new BufferAttribute(blender.points, 4);
     this.shades = new BufferAttribute(new Uint8Array(4 * this.count), 4, true);
@@ -34,34 +32,41 @@ export class Draft {
       uniforms: { map: { value: null } },
       vertexShader: `
         attribute vec4 facePoint, shade;
-        varying vec3 vShade;
+        varying vec4 vShade;
         #ifdef TEXTURED
           varying vec2 vPlace;
         #endif
         void main() {
-          vShade = shade.rgb;
+          vShade = shade;
           #ifdef TEXTURED
             vPlace = uv;
           #endif
           gl_Position = projectionMatrix * modelViewMatrix * vec4(facePoint.xyz, 1.0);
         }`,
       fragmentShader: `
-        varying vec3 vShade;
+        varying vec4 vShade;
         #ifdef TEXTURED
           uniform sampler2D map;
           varying vec2 vPlace;
         #endif
         void main() {
           #ifdef TEXTURED
-            vec3 light = 2.0 * vShade * texture2D(map, vPlace).rgb;
+            vec3 light = 2.0 * vShade.rgb * mix(vec3(1.0), texture2D(map, vPlace).rgb, vShade.a);
             vec3 over = max(light - 0.6, 0.0) / 0.4;
             gl_FragColor = vec4(min(light, 0.6) + 0.4 * over / (1.0 + 0.55 * over), 1.0);
             #include <colorspace_fragment>
           #else
-            gl_FragColor = vec4(vShade, 1.0);
+            gl_FragColor = vec4(vShade.rgb, 1.0);
           #endif
         }`,
     });
+  }
+
+  /// \param sky  share of the sky that each vertex sees
+  setSky(sky) {
+    this.sky = sky;
+    this.lit = sky.map(keyShare);
+    this.open = sky.map((share) => withBounces(share, typicalAlbedo));
   }
 
   setMap(map) {
@@ -78,32 +83,23 @@ export class Draft {
 
   /// \param show  as HeadView.setShow; \param farthest  distance of the palette's end.
   shade(camera, group, show, farthest) {
-    // Lamps go with the camera: in the head's axes they stand elsewhere whenever it turns.
-    const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse.clone().multiply(group.matrixWorld)).transpose();
-    const local = (way) => way.applyMatrix3(turn).normalize().toArray();
-    const [key, fill, ...rims] = [lamps.key, lamps.fill, ...lamps.rims].map(({ way, colour }) => ({ way: local(way.clone()), colour }));
-    const up = local(new Vector3(0, 1, 0));
-    const { above, below } = lamps;
-    const { wrap } = surfaces.skin;
+    const light = lightIn(camera, group, 'skin');
     const { points, normals } = this.blender;
     const shades = this.shades.array;
     const regions = this.geometry.getAttribute('regionColour').array;
     const surface = [0, 0, 0];
+    const hasMap = this.material.uniforms.map.value !== null;
     const sum = [0, 0, 0];
     for (let v = 0; v < this.count; v += 1) {
-      const [x, y, z] = [normals[4 * v], normals[4 * v + 1], normals[4 * v + 2]];
-      const facing = ({ way }) => x * way[0] + y * way[1] + z * way[2];
-      const high = 0.5 + 0.5 * (x * up[0] + y * up[1] + z * up[2]);
-      const [toKey, toFill, right, left] = [facing(key), facing(fill), this.sky[v] * Math.max(facing(rims[0]), 0), this.sky[v] * Math.max(facing(rims[1]), 0)];
-      for (let c = 0; c < 3; c += 1) {
-        sum[c] = this.open[v] * (below[c] + high * (above[c] - below[c]) + fill.colour[c] * wrapped(toFill, wrap[c])) +
-          this.lit[v] * key.colour[c] * wrapped(toKey, wrap[c]) + rims[0].colour[c] * right + rims[1].colour[c] * left;
-      }
-      if (show === 'texture') {
-        for (let c = 0; c < 3; c += 1) shades[4 * v + c] = Math.min(127.5 * sum[c], 255);
+      light(normals[4 * v], normals[4 * v + 1], normals[4 * v + 2], this.sky[v], this.lit[v], this.open[v], sum);
+      const isTextured = hasMap && this.textured[v];
+      if (isTextured) surface.fill(1);
+      else this.surfaceAt(v, show, points[4 * v + 3] / farthest, regions, surface);
+      if (hasMap) {
+        shades[4 * v + 3] = isTextured ? 255 : 0;
+        for (let c = 0; c < 3; c += 1) shades[4 * v + c] = Math.min(127.5 * sum[c] * surface[c], 255);
         continue;
       }
-      this.surfaceAt(v, show, points[4 * v + 3] / farthest, regions, surface);
       for (let c = 0; c < 3; c += 1) {
         shades[4 * v + c] = tones[Math.min(steps, Math.round((sum[c] * surface[c] * steps) / brightest))];
       }

@@ -2,10 +2,11 @@
 // The face in 3D: blended on the card or on the processor, whichever a measurement finds faster,
 // shown with its surfaces' colours, a texture, its distance to the target, or its regions.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Sphere,
-  SRGBColorSpace, TextureLoader, Vector3,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Sphere, SRGBColorSpace, Texture,
+  TextureLoader, Vector3,
 } from 'three';
-import { linearColours, paintEyes, skinMaterial, Stage } from '../stage.js';
+import { drawsInSoftware, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from '../stage.js';
+import { extend, surfaces } from '../studio.js';
 import { CardBlend, fitsOnCard } from './card_blend.js';
 import { Draft } from './draft.js';
 import { ProcessorBlend } from './processor_blend.js';
@@ -17,20 +18,9 @@ const shows = ['surface', 'texture', 'distance', 'regions'];
 /// Viridis, by Smith and van der Walt, at six steps: dark is near, light is far.
 export const distanceColours = ['#440154', '#414487', '#2a788e', '#22a884', '#7ad151', '#fde725'];
 
-/// Whether the browser draws without a graphics card.
-function drawsInSoftware() {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  const names = gl?.getExtension('WEBGL_debug_renderer_info');
-  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
-  gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
-}
-
 /// Points and normals come from the blend's textures in place of attributes.
 function fetchFace(material, uniforms, layout) {
-  const before = material.onBeforeCompile;
-  material.onBeforeCompile = (shader, renderer) => {
-    before.call(material, shader, renderer);
+  extend(material, (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', `#include <common>
@@ -61,15 +51,41 @@ function fetchFace(material, uniforms, layout) {
         } else if (faceShow == 3) {
           diffuseColor.rgb = mix(diffuseColor.rgb, vRegion, 0.72);
         }`);
-  };
+  });
+}
+
+/// Where no texture is, vertices keep their colours.
+function mapWhereTextured(material) {
+  material.defines.SOME_TEXTURED = '';
+  extend(material, (shader) => {
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', '#include <common>\nattribute float textured;\nvarying float vTextured;')
+      .replace('#include <project_vertex>', 'vTextured = textured;\n#include <project_vertex>');
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', '#include <common>\nvarying float vTextured;')
+      .replace('#include <map_fragment>', `
+        #ifdef USE_MAP
+          diffuseColor *= mix(vec4(1.0), texture2D(map, vMapUv), vTextured);
+        #endif`);
+  });
+}
+
+async function textureOf(bytes, { colours }) {
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/jpeg' }), { imageOrientation: 'flipY' });
+  const texture = new Texture(bitmap);
+  texture.flipY = false; // the bitmap is
+  if (colours) texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 export class HeadView extends Stage {
   /// \param job  of the server; \param mesh  api/mesh.
   constructor(job, mesh) {
     const software = drawsInSoftware();
-    super({ pan: true, antialias: !software });
-    Object.assign(this, { job, mesh, software, show: 'surface', showMm: 6, textures: new Map(), loaded: [] });
+    super({ pan: true, software, antialias: !software });
+    Object.assign(this, { job, mesh, show: 'surface', showMm: 6, textures: new Map(), loaded: [] });
     this.uniforms = {
       facePoints: { value: null },
       faceNormals: { value: null },
@@ -79,13 +95,16 @@ export class HeadView extends Stage {
     };
     this.blender = new ProcessorBlend(mesh, job.regions.length);
     this.geometry = this.makeGeometry();
-    this.material = skinMaterial();
+    this.skinLightness = { value: 0 };
+    this.material = skinMaterial({ sky: true, lightness: this.skinLightness });
     const layout = layoutOf(mesh.vertices);
+    mapWhereTextured(this.material);
     fetchFace(this.material, this.uniforms, layout);
     if (mesh.eyes) paintEyes(this.material, this.geometry, mesh.eyes, mesh.head.eyes);
+    roughAtVertices(this.material);
     // Skin and parts are drawn apart: while skin moves as a draft, the few triangles of eyes stay painted.
     this.object = new Mesh(this.geometry, [this.material, this.material]);
-    if (software) this.prepareDraft();
+    if (this.software) this.prepareDraft();
     this.object.frustumCulled = false;
     const lines = new MeshBasicMaterial({
       color: 0x101214, wireframe: true, transparent: true, opacity: 0.55, side: DoubleSide, toneMapped: false,
@@ -101,11 +120,6 @@ export class HeadView extends Stage {
     this.group.add(this.object, this.lines, this.worn.node);
     this.stand({ up: job.up, front: job.front, box: [mesh.low, mesh.high] });
     this.take(this.blender);
-    this.fullRatio = Math.min(devicePixelRatio, 2);
-    this.ratio = this.fullRatio;
-    this.draftRatio = this.fullRatio;
-    this.controls.addEventListener('start', () => this.setMoving(true));
-    this.controls.addEventListener('end', () => this.setMoving(false));
     this.view('front');
   }
 
@@ -124,7 +138,13 @@ export class HeadView extends Stage {
       geometry.addGroup(first, filled - first, wanted);
     }
     geometry.setIndex(new BufferAttribute(index, 1));
-    geometry.setAttribute('color', new BufferAttribute(linearColours(mesh.colours), 3));
+    const { vertices } = mesh;
+    this.isTextured = mesh.textured ?? new Uint8Array(vertices);
+    geometry.setAttribute('textured', new BufferAttribute(this.isTextured, 1));
+    geometry.setAttribute('rough', new BufferAttribute(new Float32Array(vertices).fill(surfaces.skin.roughness), 1));
+    geometry.setAttribute('sky', new BufferAttribute(new Float32Array(vertices).fill(1), 1));
+    this.surfaceColours = linearColours(mesh.colours);
+    geometry.setAttribute('color', new BufferAttribute(this.surfaceColours.slice(), 3));
     if (mesh.uv) geometry.setAttribute('uv', new BufferAttribute(mesh.uv, 2));
     // Wireframes and bounds are made from positions; what is drawn comes from the textures.
     geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * mesh.vertices), 3));
@@ -134,8 +154,31 @@ export class HeadView extends Stage {
   }
 
   prepareDraft() {
-    this.draft = new Draft(this.geometry, this.blender, this.geometry.getAttribute('color').array,
+    this.draft = new Draft(this.geometry, this.blender, this.surfaceColours, this.isTextured,
       this.uniforms.distanceColours.value);
+  }
+
+  /// \param light  per vertex the root of the sky's share that it sees, in 255ths
+  setLight(light) {
+    const sky = Float32Array.from(light, (root) => (root / 255) ** 2);
+    this.geometry.setAttribute('sky', new BufferAttribute(sky, 1));
+    this.draft?.setSky(sky);
+    this.draw();
+  }
+
+  /// The face's own skin. \param skin  {picture, normals, rough, colours}, each perhaps: JPEG files of the atlas, and
+  ///                                   numbers per vertex
+  async setSkin({ picture, normals, rough, colours }) {
+    const [map, relief] = await Promise.all([picture ? textureOf(picture, { colours: true }) : null,
+      normals ? textureOf(normals, { colours: false }) : null]);
+    for (const texture of [this.skin?.map, this.skin?.relief]) texture?.dispose();
+    this.skin = { map, relief };
+    if (map) this.skinLightness.value = skinLightness(map.image);
+    if (colours) this.surfaceColours.set(linearColours(colours));
+    if (rough) {
+      this.geometry.setAttribute('rough', new BufferAttribute(Float32Array.from(rough, (value) => value / 255), 1));
+    }
+    if (this.show === 'surface') this.setShow('surface');
   }
 
   colourRegions(geometry = this.geometry) {
@@ -225,34 +268,16 @@ export class HeadView extends Stage {
     this.draw();
   }
 
-  /// While something moves, what draws without a card leaves gloss away, and pixels where that is
-  /// not enough.
-  setMoving(on) {
-    if (!this.draft || this.moving === on) return;
-    this.moving = on;
-    this.last = null;
-    this.object.material = on ? [this.draft.material, this.material] : [this.material, this.material];
-    this.setRatio(on ? this.draftRatio : this.fullRatio);
-    this.draw();
-  }
-
-  setRatio(ratio) {
-    this.ratio = ratio;
-    this.renderer.setPixelRatio(ratio);
+  /// While something moves, what draws without a card leaves gloss away.
+  drawCheaply(on) {
+    if (this.draft) this.object.material = on ? [this.draft.material, this.material] : [this.material, this.material];
+    super.drawCheaply(on);
   }
 
   draw() {
     if (!this.object || this.silent) return;
-    if (this.moving) this.draft.shade(this.camera, this.group, this.show, this.uniforms.farthest.value);
+    if (this.moving) this.draft?.shade(this.camera, this.group, this.show, this.uniforms.farthest.value);
     super.draw();
-    if (!this.moving) return;
-    const now = performance.now();
-    const elapsed = now - (this.last ?? now);
-    this.last = now;
-    if (elapsed > 40 && elapsed < 400 && this.draftRatio > 0.4 * this.fullRatio) {
-      this.draftRatio *= 0.85;
-      this.setRatio(this.draftRatio);
-    }
   }
 
   setShow(show, mm = this.showMm) {
@@ -260,14 +285,22 @@ export class HeadView extends Stage {
     this.showMm = mm;
     this.uniforms.faceShow.value = shows.indexOf(show);
     this.uniforms.farthest.value = mm / this.job.mm_per_unit;
-    this.material.vertexColors = show !== 'texture';
-    this.setMap(show === 'texture' ? this.material.map : null);
+    if (show === 'texture') this.setMap(this.material.map, null);
+    else if (show === 'surface' && this.skin) this.setMap(this.skin.map, this.skin.relief);
+    else this.setMap(null, null);
     this.draw();
   }
 
-  setMap(map) {
-    this.material.map = map;
-    this.material.needsUpdate = true;
+  /// \param map, relief  colours and normals of the atlas, or null
+  setMap(map, relief) {
+    const { material } = this;
+    if (Boolean(material.map) !== Boolean(map) || Boolean(material.normalMap) !== Boolean(relief)) material.needsUpdate = true;
+    material.map = map;
+    material.normalMap = relief;
+    const colours = this.geometry.getAttribute('color');
+    colours.array.set(this.surfaceColours);
+    if (map) this.isTextured.forEach((is, v) => { if (is) colours.array.fill(1, 3 * v, 3 * v + 3); });
+    colours.needsUpdate = true;
     this.draft?.setMap(map);
   }
 
@@ -289,7 +322,7 @@ export class HeadView extends Stage {
     }
     const texture = await this.textures.get(h);
     if (this.show !== 'texture' || this.wanted !== h) return;
-    this.setMap(texture);
+    this.setMap(texture, null);
     this.draw();
   }
 

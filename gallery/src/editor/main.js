@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `crowdface edit`: one face, directed by hand.
-import { getBinary, getJson, post, postForBlob, put } from '../api.js';
+import { getBinary, getJson, post, postForBinary, postForBlob, put } from '../api.js';
 import { showKeys } from '../dialog.js';
 import { el, short } from '../dom.js';
 import { History } from '../history.js';
 import { showElsewhere, showGenerate, showPutBack, showReplace } from './dialogs.js';
 import { Exact } from './exact.js';
-import { LiveMeasures } from './live_measures.js';
+import { Newest } from './newest.js';
 import { HeadView } from './head_view.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
@@ -50,8 +50,14 @@ class Editor extends ProgramPage {
       fail: (error) => this.say(error.message, true),
       waiting: (waits) => this.status?.classList.toggle('waits', waits && !this.passing),
     });
-    this.measures = new LiveMeasures({
+    this.measures = new Newest({
+      ask: (asked) => post('measures', asked),
       show: (measures) => { if (this.exactOf !== this.document) this.tell(measures); },
+      fail: (error) => this.say(error.message, true),
+    });
+    this.skin = new Newest({
+      ask: (asked) => postForBinary('skin', asked),
+      show: (skin) => this.view.setSkin(skin),
       fail: (error) => this.say(error.message, true),
     });
     this.build();
@@ -203,6 +209,7 @@ class Editor extends ProgramPage {
     this.exactFace = face;
     this.tell(face);
     this.attempt(() => this.showWorn(face));
+    this.skin.ask({ recipe: wire(this.job, document) });
   }
 
   /// What the program has put on the face, at its places.
@@ -543,6 +550,7 @@ class Editor extends ProgramPage {
     this.ready = true;
     this.refresh();
     this.offerPainting();
+    this.view.setLight((await getBinary('light')).light);
   }
 
   // -- keys --

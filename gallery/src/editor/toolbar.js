@@ -85,7 +85,7 @@ const views = [['front', 'Front', 'F'], ['three_quarter', 'Three-quarter', 'Q'],
 export function viewBar(editor) {
   const { job, view } = editor;
   const textures = job.heads.map((head, h) => [head, h]).filter(([head]) => head.texture);
-  const options = [['surface', 'Surfaces'], ['distance', 'Distance to target'], ['regions', 'Regions'],
+  const options = [['surface', 'Own skin'], ['distance', 'Distance to target'], ['regions', 'Regions'],
     ...(textures.length > 0 ? [['texture', 'Texture: target’s'],
       ...textures.map(([head, h]) => [`texture ${h}`, `Texture: ${head.name}`])] : [])];
   const show = el('select', {

@@ -17,7 +17,7 @@ export class MeshView extends Stage {
   /// \param stands  {up, front}
   constructor(kind, mesh, stands, colour) {
     super({ pan: true });
-    Object.assign(this, { kind, mesh, stands, markers: new Map(), ratio: Math.min(devicePixelRatio, 2) });
+    Object.assign(this, { kind, mesh, stands, markers: new Map() });
     this.middle = new Vector3(...mesh.head.origin);
     const geometry = new BufferGeometry();
     geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
@@ -35,12 +35,6 @@ export class MeshView extends Stage {
     this.node.setAttribute('role', 'img');
     this.node.addEventListener('pointerdown', (event) => { this.pressed = event.button === 0 ? [event.clientX, event.clientY] : null; });
     this.node.addEventListener('pointerup', (event) => this.released(event));
-    // While it moves fewer pixels are drawn: without a graphics card each takes its time.
-    this.controls.addEventListener('start', () => this.renderer.setPixelRatio(0.6 * this.ratio));
-    this.controls.addEventListener('end', () => {
-      this.renderer.setPixelRatio(this.ratio);
-      this.draw();
-    });
     this.view('front');
   }
 

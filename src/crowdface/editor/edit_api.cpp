@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/recipe_json.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/page/answer_request.h"
 #include "crowdface/page/binary_answer.h"
 #include "crowdface/pictures/gallery_page.h"
@@ -36,9 +37,11 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
   };
   static const std::vector<Route> routes = {{"GET", "api/job", &EditApi::job},
                                             {"GET", "api/mesh", &EditApi::mesh},
+                                            {"GET", "api/light", &EditApi::light},
                                             {"GET", "api/heads/", &EditApi::head},
                                             {"GET", "api/attachments/", &EditApi::attachment},
                                             {"POST", "api/face", &EditApi::face},
+                                            {"POST", "api/skin", &EditApi::skin},
                                             {"POST", "api/measures", &EditApi::measures},
                                             {"POST", "api/draw", &EditApi::draw},
                                             {"GET", "api/state", &EditApi::state},
@@ -78,6 +81,10 @@ HttpAnswer EditApi::mesh(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(building_);
   painting_.apply();
   return binary_answer(session_.mesh());
+}
+
+HttpAnswer EditApi::light(const HttpRequest&, const std::string&) {
+  return binary_answer(session_.light());
 }
 
 HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
@@ -218,6 +225,31 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (body.contains("measure") && body["measure"] == true) {
     answer.head.update(told(session_.measure(face, positions, opened)));
+  }
+  return binary_answer(answer.bytes());
+}
+
+/// The face's own skin: {"picture", "normals"} as JPEG files in the layout of the atlas, {"rough",
+/// "colours"} at the preview's vertices, each if faces have it.
+HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
+  const FacePlan face = face_of(body_of(request));
+  BinaryAnswer answer;
+  const auto add = [&](std::string_view name, std::string_view bytes) {
+    answer.add(name, std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+  };
+  const auto texture_set = pictures_.textures_of(face.recipe);
+  if (texture_set && !texture_set->textures.empty()) {
+    add("picture", session_.textures().colours(*texture_set));
+  }
+  if (texture_set && !texture_set->slopes.textures.empty()) {
+    add("normals", session_.textures().normals(texture_set->slopes));
+  }
+  const auto rough = texture_set ? session_.roughness(*texture_set) : std::vector<std::uint8_t>();
+  if (!rough.empty()) answer.add("rough", std::span(rough));
+  const ColourRows colours = pictures_.textures().vertex_colours(face.recipe);
+  if (colours.rows() > 0) {
+    const ColourRows shown = colours(session_.preview().vertices, kAllColumns);
+    answer.add("colours", std::span(shown.data(), static_cast<std::size_t>(shown.size())));
   }
   return binary_answer(answer.bytes());
 }

@@ -44,7 +44,7 @@ class EditApi {
   using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
   // Requests about the job and its faces.
-  Handler job, mesh, head, attachment, face, measures, draw;
+  Handler job, mesh, light, head, attachment, face, skin, measures, draw;
   // Requests that save or write files.
   Handler state, take_over, keep_state, save, picture, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/edit_pictures.h"
 
+#include "crowdface/core/parallel.h"
+
 namespace crowdface {
 namespace {
 
@@ -31,6 +33,19 @@ const FaceTextures& EditPictures::textures() {
   const std::lock_guard lock(mutex_);
   if (!textures_) textures_ = std::make_unique<FaceTextures>(job_.config, job_.inputs);
   return *textures_;
+}
+
+std::optional<TextureSet> EditPictures::textures_of(const Recipe& recipe) {
+  constexpr int kMaxTexels = 1024;
+  const Inputs& inputs = job_.inputs;
+  if (!inputs.textures.blend() && !any_is_shown(inputs.maps)) {
+    return texture_set_of_head(inputs.textures, recipe.target, kMaxTexels);
+  }
+  FaceTextureSet own(inputs.textures, inputs.maps, recipe.target, kMaxTexels);
+  const FaceTextures& blended = textures();
+  parallel_for_each(blended.picture_count(),
+                    [&](std::size_t p) { own.add(p, blended.blend(recipe, p)); });
+  return own.texture_set();
 }
 
 std::string EditPictures::picture(const Recipe& recipe, const Positions& positions, View view,

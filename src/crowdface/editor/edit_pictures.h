@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "crowdface/heads/face_textures.h"
@@ -24,6 +25,8 @@ class EditPictures {
   /// \param size  width and height in pixels.
   std::string picture(const Recipe& recipe, const Positions& positions, View view, int size);
   const FaceTextures& textures();
+  /// The textures of a face, as contact sheets show them; nothing if faces have no textures.
+  std::optional<TextureSet> textures_of(const Recipe& recipe);
 
  private:
   const Job& job_;

@@ -9,6 +9,9 @@
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/pictures/surfaces.h"
+#include "crowdface/pictures/vertex_finish.h"
+#include "crowdface/render/studio.h"
+#include "crowdface/render/visibility.h"
 
 namespace crowdface {
 namespace {
@@ -104,7 +107,12 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
                                    ? judging_.get().where->space.head_distances()
                                    : Eigen::MatrixXd())),
       preview_(reducing_.get()),
-      around_(job_.inputs.faces.topology) {
+      around_(job_.inputs.faces.topology),
+      open_(std::async(std::launch::async, [this] {
+              return vertex_visibility(job_.inputs.faces.topology,
+                                       surfaces_of(job_.config, job_.inputs).kinds,
+                                       mean_head(job_.inputs.faces), preview_.vertices);
+            }).share()) {
   if (job_.config.smoothing.levels == Levels::kExact) {
     fitted_ = prepare(with_fitted_levels(job_.config), job_.inputs, job_.smoothing, cache);
   }
@@ -215,6 +223,19 @@ std::vector<float> EditSession::points(const Positions& face) const {
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> shown =
       face(preview_.vertices, kAllColumns).cast<float>();
   return {shown.data(), shown.data() + shown.size()};
+}
+
+std::vector<std::uint8_t> EditSession::roughness(const TextureSet& texture_set) const {
+  std::vector<std::uint8_t> roughness;
+  if (texture_set.roughness.of_face.empty()) return roughness;
+  const float plain = material_of(SurfaceKind::kSkin).roughness;
+  for (std::size_t v = 0; v < preview_.vertices.size(); ++v) {
+    const Eigen::Vector2f uv = textures_.in_cell({preview_.uvs[2 * v], preview_.uvs[2 * v + 1]});
+    const float rough =
+        roughness_at(texture_set, {static_cast<Index>(preview_.faces[v]), uv}).value_or(plain);
+    roughness.push_back(static_cast<std::uint8_t>(std::lround(255 * rough)));
+  }
+  return roughness;
 }
 
 std::vector<float> EditSession::normals(const Positions& face) const {

@@ -67,6 +67,9 @@ class EditSession {
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
   std::string mesh() const;
+  /// How much light reaches the preview's vertices on the mean head: the square root of the visible
+  /// fraction of the sky, as a BinaryAnswer. Waits for the computation.
+  std::string light() const;
   /// Positions of a head at the preview's vertices, its fields and their functions, as a
   /// BinaryAnswer.
   std::string head(Index head) const;
@@ -92,6 +95,8 @@ class EditSession {
   std::vector<FacePlan> draw(const DrawRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.
   std::vector<float> normals(const Positions& face) const;
+  /// Roughness of a face at the preview's vertices, in 255ths; empty if there is no roughness map.
+  std::vector<std::uint8_t> roughness(const TextureSet& texture_set) const;
   /// Positions at the preview's vertices, #preview by 3.
   std::vector<float> points(const Positions& face) const;
 
@@ -126,6 +131,8 @@ class EditSession {
   CastingOptions casting_;
   PreviewMesh preview_;
   VertexFaces around_;
+  /// The visible fraction of the sky at the preview's vertices; takes about a second to compute.
+  std::shared_future<std::vector<float>> open_;
 };
 
 }  // namespace crowdface

@@ -179,7 +179,7 @@ std::string EditSession::mesh() const {
   for (const Part& part : job_.inputs.parts.parts) {
     for (const std::uint32_t v : part.vertices) is_part[v] = true;
   }
-  std::vector<std::uint8_t> colours, parts;
+  std::vector<std::uint8_t> colours, parts, textured;
   std::vector<float> masks;
   for (const std::uint32_t v : preview_.vertices) {
     for (int c = 0; c < 3; ++c) {
@@ -188,6 +188,7 @@ std::string EditSession::mesh() const {
     for (Index k = 0; k < alpha.cols(); ++k) masks.push_back(static_cast<float>(alpha(v, k)));
     parts.push_back(is_part[v] ? 1 : 0);
   }
+  for (const std::uint32_t face : preview_.faces) textured.push_back(textures_.shows(face) ? 1 : 0);
   Eigen::Array3d low = mean.row(0).array(), high = low;
   for (const Head& head : faces.heads) {
     low = low.min(head.positions.colwise().minCoeff().transpose().array());
@@ -206,6 +207,7 @@ std::string EditSession::mesh() const {
   if (!preview_.uvs.empty()) add("uv", preview_.uvs);
   add("twin", preview_.twins);
   add("part", parts);
+  add("textured", textured);
   if (const auto eyes = eye_coordinates(faces.topology, surfaces, mean, job_.config.faces.front)) {
     answer.head["eyes"] = {{"pupil", kPupilRadius},
                            {"iris", kIrisRadius},
@@ -218,6 +220,16 @@ std::string EditSession::mesh() const {
     }
     add("eyes", places);
   }
+  return answer.bytes();
+}
+
+std::string EditSession::light() const {
+  std::vector<std::uint8_t> roots;
+  for (const float share : open_.get()) {
+    roots.push_back(static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share))));
+  }
+  BinaryAnswer answer;
+  answer.add("light", std::span(std::as_const(roots)));
   return answer.bytes();
 }
 

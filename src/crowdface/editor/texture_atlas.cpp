@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "crowdface/io/image.h"
+#include "crowdface/pictures/page_pictures.h"
 #include "crowdface/render/shading.h"
 
 namespace crowdface {
@@ -14,8 +15,17 @@ namespace {
 // Width or height of a head's picture, and of the atlas.
 constexpr int kMaxTexels = 2048, kMaxOfAll = 4096;
 
-void append(std::vector<std::uint8_t>& pixels, const Light& texel) {
-  for (const std::uint8_t value : to_srgb8(texel)) pixels.push_back(value);
+std::array<std::uint8_t, 3> colour_texel(const Light& light) {
+  return {srgb_byte(light[0]), srgb_byte(light[1]), srgb_byte(light[2])};
+}
+
+std::array<std::uint8_t, 3> normal_texel(const Light& slopes) {
+  const Eigen::Vector3f normal = Eigen::Vector3f(slopes[0], slopes[1], 1).normalized();
+  std::array<std::uint8_t, 3> texel{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    texel[c] = static_cast<std::uint8_t>(std::lround(127.5F * (1 + normal[static_cast<Index>(c)])));
+  }
+  return texel;
 }
 
 }  // namespace
@@ -83,19 +93,35 @@ bool TextureAtlas::has(Index head) const {
 
 std::optional<std::string> TextureAtlas::picture(Index head) const {
   if (!has(head)) return std::nullopt;
-  const TextureSet texture_set = *texture_set_of_head(inputs_.textures, head, cell_px_);
+  return colours(*texture_set_of_head(inputs_.textures, head, cell_px_));
+}
+
+std::string TextureAtlas::colours(const TextureLayer& layer) const {
+  return encoded(layer, albedo_of(SurfaceKind::kSkin), colour_texel);
+}
+
+std::string TextureAtlas::normals(const TextureLayer& slopes) const {
+  return encoded(slopes, Light::Zero(), normal_texel);
+}
+
+std::string TextureAtlas::encoded(const TextureLayer& layer, const Light& elsewhere,
+                                  Texel (*texel_of)(const Light&)) const {
   std::vector<std::uint8_t> pixels;
-  if (cells_ == 1 && texture_set.textures.size() == 1) {
-    const Texture& texture = *texture_set.textures.front();
-    for (const Light& texel : texture.texels) append(pixels, texel);
+  const auto append = [&](const Light& light) {
+    const Texel texel = texel_of(light);
+    pixels.insert(pixels.end(), texel.begin(), texel.end());
+  };
+  if (cells_ == 1 && layer.textures.size() == 1) {
+    const Texture& texture = *layer.textures.front();
+    for (const Light& light : texture.texels) append(light);
     return encode_jpeg(texture.width, texture.height, pixels);
   }
   std::vector<const Texture*> shown(cells_, nullptr);
-  for (std::size_t f = 0; f < texture_set.of_face.size(); ++f) {
-    if (texture_set.of_face[f] == TextureSet::kNone || cell_of_face_[f] == TextureSet::kNone)
+  for (std::size_t f = 0; f < layer.of_face.size(); ++f) {
+    if (layer.of_face[f] == TextureLayer::kNone || cell_of_face_[f] == TextureLayer::kNone)
       continue;
     const Texture*& texture = shown[cell_of_face_[f]];
-    if (texture == nullptr) texture = texture_set.textures[texture_set.of_face[f]].get();
+    if (texture == nullptr) texture = layer.textures[layer.of_face[f]].get();
   }
   const int width = columns_ * cell_px_, height = rows_ * cell_px_;
   const auto side = static_cast<float>(cell_px_);
@@ -105,7 +131,7 @@ std::optional<std::string> TextureAtlas::picture(Index head) const {
       const Texture* texture = cell < shown.size() ? shown[cell] : nullptr;
       const Eigen::Vector2f uv((static_cast<float>(x % cell_px_) + 0.5F) / side,
                                1 - (static_cast<float>(y % cell_px_) + 0.5F) / side);
-      append(pixels, texture != nullptr ? colour_at(*texture, uv) : albedo_of(SurfaceKind::kSkin));
+      append(texture != nullptr ? colour_at(*texture, uv) : elsewhere);
     }
   }
   return encode_jpeg(width, height, pixels);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,10 +21,26 @@ class TextureAtlas {
   /// Coordinates in the atlas of the heads' texture coordinates, #uvs by 2.
   TextureCoordinates coordinates() const;
   bool has(Index head) const;
+  /// Texture coordinates of a place in the atlas; only their fractional parts count.
+  Eigen::Vector2f in_cell(const Eigen::Vector2f& uv) const {
+    return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
+  }
+  /// Whether a polygon has a place in the atlas.
+  bool shows(std::uint32_t face) const {
+    return !cell_of_face_.empty() && cell_of_face_[face] != TextureLayer::kNone;
+  }
   /// The atlas of a head as a JPEG file; nothing if the head has no texture.
   std::optional<std::string> picture(Index head) const;
+  /// Colour textures as a JPEG file of the atlas.
+  std::string colours(const TextureLayer& layer) const;
+  /// Slopes as a JPEG file of the atlas: a tangent-space normal map, y upwards.
+  std::string normals(const TextureLayer& slopes) const;
 
  private:
+  using Texel = std::array<std::uint8_t, 3>;
+  std::string encoded(const TextureLayer& layer, const Light& elsewhere,
+                      Texel (*texel_of)(const Light&)) const;
+
   const Inputs& inputs_;
   std::vector<std::uint32_t> cell_of_face_;  ///< or TextureSet::kNone; empty: no head has textures
   std::uint32_t cells_ = 0;

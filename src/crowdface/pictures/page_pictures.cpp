@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "crowdface/core/text.h"
@@ -20,7 +19,12 @@ Texture small_texture(const Texture& texture, int max_px) {
   });
 }
 
-/// Converts light in [0, 1] to an sRGB byte with a table, because a texture has a million texels.
+std::string address_of(std::string_view type, std::string_view bytes) {
+  return concat("data:image/", type, ";base64,", base64(bytes));
+}
+
+}  // namespace
+
 std::uint8_t srgb_byte(float light) {
   constexpr std::size_t kSteps = 4096;  // steps of the square root, which resembles the sRGB curve
   static const std::vector<std::uint8_t> bytes = [] {
@@ -35,12 +39,6 @@ std::uint8_t srgb_byte(float light) {
   const float root = std::sqrt(std::clamp(light, 0.0F, 1.0F));
   return bytes[std::min(static_cast<std::size_t>(kSteps * root), kSteps - 1)];
 }
-
-std::string address_of(std::string_view type, std::string_view bytes) {
-  return concat("data:image/", type, ";base64,", base64(bytes));
-}
-
-}  // namespace
 
 std::string colour_picture(const Texture& texture, int max_px) {
   const bool fits = std::max(texture.width, texture.height) <= max_px;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "crowdface/render/texture.h"
 
 namespace crowdface {
+
+/// Converts light in [0, 1] to an sRGB byte with a table, because a texture has a million texels.
+std::uint8_t srgb_byte(float light);
 
 /// Pictures encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
 /// load textures from files. Larger pictures are reduced to `max_px` texels a side.
