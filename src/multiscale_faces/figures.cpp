@@ -97,7 +97,7 @@ struct Lender {
   std::vector<double> vertex_weights = {};
 };
 
-/// A face of the other method. \return the whole head, #V by 3.
+/// Builds a face with the method of Yoon, Lewis and Rhee. \return the whole head, #V by 3.
 Positions make_face(Heads& heads, int target, int base, const std::vector<Lender>& lenders) {
   std::vector<Details> details;
   for (const Lender& of : lenders) heads.face(of.head, base);

@@ -36,7 +36,7 @@ struct FacePlan {
   std::optional<double> age;  ///< −1 … 1, if the face was aged
   /// mother and father, if the family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
-  /// if there are parents, #regions by #bands: the origin of the detail
+  /// #regions by #bands: which parent the detail comes from; empty without parents
   std::vector<std::string> inherits;
   double mother_share = 0;  ///< mother's fraction of the coarse shape, if the face inherits it
   std::vector<std::string> attachments;  ///< names

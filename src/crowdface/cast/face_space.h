@@ -88,7 +88,7 @@ class FaceSpace {
     return head < head_count() ? heads_ : *heads_.image;
   }
   std::size_t in_side(Index head) const { return static_cast<std::size_t>(head % head_count()); }
-  /// Returns the sample of row i; rows exist only for samples of nonzero weight.
+  /// Returns the index of the sample in row i. Samples of weight zero have no row.
   Index sample_at(Index i) const { return counting_[static_cast<std::size_t>(i)]; }
   void choose_counting(const std::vector<double>& weights);
   SpanBasis level_modes() const;

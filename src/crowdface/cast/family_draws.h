@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// A cast family.
+/// A family of the plan: its founder, and the range of its members in the crowd.
 struct FamilyPlan {
   std::string name;
   FacePlan founder;  ///< not in the crowd

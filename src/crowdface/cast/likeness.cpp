@@ -105,7 +105,7 @@ std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   return static_cast<std::size_t>(std::max_element(mm.begin(), mm.end()) - mm.begin());
 }
 
-/// \param near  For each face, its nearest faces: any of these is nearer than every other face.
+/// \param near  For each face, its nearest faces. Every face that is not listed is farther away.
 std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
                               const std::vector<std::vector<Neighbour>>& near) {
   std::vector<bool> gone(points.size(), false);

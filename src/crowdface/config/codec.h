@@ -24,8 +24,8 @@ struct WriteContext {
   std::string head(Eigen::Index index) const;
 };
 
-/// Converts values between YAML and C++. `read` returns nothing after it has added a complaint.
-/// `write` returns text for entry(); an empty text leaves the key out.
+/// Converts values between YAML and C++. If `read` returns nothing, it has added a complaint.
+/// `write` returns text for entry(); if the text is empty, the key is left out of the file.
 template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;

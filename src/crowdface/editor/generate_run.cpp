@@ -86,7 +86,7 @@ void GenerateRun::start() {
   ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log_.c_str(), O_WRONLY | O_APPEND, 0);
   ::posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-  // Closes the connections to the page in the run's process.
+  // The run's process must not hold the editor's connections to the page open.
   ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
   // Puts the run into its own process group. Keys such as Ctrl+C in the editor's terminal then
   // reach only the editor, which stops the run itself.

@@ -41,7 +41,7 @@ class SkinCheck {
   /// Compares positions with a target.
   /// \param target  one of the targets passed to the constructor.
   SkinDefects compare(const Positions& positions, Index target) const;
-  /// Compares positions with any target, such as a mixture of heads; twice the work.
+  /// Compares positions with any target, such as a mixture of heads. Takes twice as long.
   SkinDefects compare(const Positions& positions, const Positions& target) const;
 
   /// Memory of this object in bytes.
