@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The build backend of `pip install .` (PEP 517): builds the release preset and packs the module.
 
-It needs the Debian packages of scripts/install_dependencies.sh --test, and no network.
+It needs the Debian packages of scripts/install_dependencies.sh --package, and no network.
 """
 
 import base64

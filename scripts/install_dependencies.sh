@@ -6,6 +6,7 @@
 #
 #   scripts/install_dependencies.sh          what building needs, and most tests
 #   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, Doxygen, and what the Python module needs
+#   scripts/install_dependencies.sh --package  and what scripts/package.sh and the Python module need
 #   scripts/install_dependencies.sh --farm   only what the tests of farms start: Slurm, GNU parallel, sshd
 #   scripts/install_dependencies.sh --docs   and what scripts/docs.sh needs
 #   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
@@ -29,18 +30,20 @@ packages=(
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev libcpp-httplib-dev
 )
+python=(pybind11-dev python3-dev python3-numpy)
 # The gallery's page; node may have come from elsewhere, with npm in it.
 command -v npm >/dev/null || packages+=(nodejs npm)
 case "${1-}" in
   "") ;;
-  --test) packages+=(chromium doxygen pybind11-dev python3-dev python3-numpy python3-pytest mypy) ;;
+  --test) packages+=(chromium doxygen "${python[@]}" python3-pytest mypy) ;;
+  --package) packages+=("${python[@]}" dpkg-dev) ;;
   --docs) packages+=(doxygen) ;;
   --check) packages+=(clang-format clang-tidy) ;;
   --farm) packages=(slurmctld slurmd slurm-client munge parallel openssh-server openssh-client) ;;
   --fuzz) packages+=(clang llvm libclang-rt-dev) ;;
   --releases) packages=(mmdebstrap debian-archive-keyring) ;;
   --list) printf '%s\n' "${packages[@]}"; exit 0 ;;
-  *) echo "usage: scripts/install_dependencies.sh [--test | --farm | --docs | --check | --fuzz | --releases | --list]" >&2; exit 64 ;;
+  *) echo "usage: scripts/install_dependencies.sh [--test | --package | --farm | --docs | --check | --fuzz | --releases | --list]" >&2; exit 64 ;;
 esac
 
 # Says what crowdface needs in words that hold on every system.

@@ -208,10 +208,6 @@ void bind_job(py::module_& module) {
                              [](const PythonJob& job) { return job.job().inputs.warnings; })
       .def_property_readonly("shape_names",
                              [](const PythonJob& job) { return job.job().config.shapes.names; })
-      .def("config_text",
-           [](const PythonJob& job) {
-             return effective_config(job.job().config, fs::current_path());
-           })
       .def(
           "cast",
           [](PythonJob& job, const py::object& progress) {
@@ -260,21 +256,20 @@ void bind_job(py::module_& module) {
 
   module.def(
       "run",
-      [](const Source& source, const fs::path& cache, bool force, bool dry_run,
+      [](const Source& source, const fs::path& cache, bool force,
          const std::pair<std::uint64_t, std::uint64_t>& shard, std::uint64_t memory, bool only_plan,
          const py::object& progress) {
         GenerateOptions options;
         options.cache = cache;
         options.replace = force ? Replace::kForce : Replace::kRefuse;
-        options.dry_run = dry_run;
         options.memory = memory;
         options.shard = {shard.first, shard.second};
         fs::path folder;
         long_call(progress, [&] { folder = run(source, options, only_plan); });
         return folder;
       },
-      py::arg("source"), py::arg("cache"), py::arg("force"), py::arg("dry_run"), py::arg("shard"),
-      py::arg("memory"), py::arg("only_plan"), py::arg("progress"));
+      py::arg("source"), py::arg("cache"), py::arg("force"), py::arg("shard"), py::arg("memory"),
+      py::arg("only_plan"), py::arg("progress"));
   module.def(
       "wrap",
       [](const std::map<std::string, std::string>& texts, bool picture, bool estimate,

@@ -245,7 +245,7 @@ def _run(
 ) -> Crowd:
     source = _source(config, settings, out, review, without_reviews)
     folder = _crowdface.run(
-        source, _cache(cache), force, False, shard, memory, only_plan, progress
+        source, _cache(cache), force, shard, memory, only_plan, progress
     )
     return Crowd(folder)
 

@@ -110,7 +110,6 @@ def run(
     source: Source,
     cache: Path,
     force: bool,
-    dry_run: bool,
     shard: Tuple[int, int],
     memory: int,
     only_plan: bool,
