@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# From scans in another topology to a crowd: four synthetic heads stand for scans (of other vertices than the
-# template, landmarks picked on both), are wrapped by a fifth, and give a crowd. May be run again at any time.
+# From coloured scans in another topology to a coloured crowd: four synthetic heads stand for scans (of other
+# vertices than the template, with textures, landmarks picked on both), are wrapped by a fifth, and give a crowd.
+# May be run again at any time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,15 +11,15 @@ crowdface=build/release/bin/crowdface
 out=out/demo_wrap
 mkdir -p "$out"
 
-"$crowdface" synth -o "$out/template" --count 1 --vertices 20000 --seed 1 --quiet
-"$crowdface" synth -o "$out/scans" --count 5 --vertices 12000 --seed 1 --quiet
+"$crowdface" synth -o "$out/template" --count 1 --vertices 20000 --seed 1 --textures 1024 --quiet
+"$crowdface" synth -o "$out/scans" --count 5 --vertices 12000 --seed 1 --textures 1024 --quiet
 # The first head is the template's own person: a scan of it would be too easy.
-rm -f "$out/scans/synth_01.obj"
+rm -f "$out"/scans/synth_01*
 
 # Heads of one seed are the same persons at every resolution, so vertex 1000 of the coarse mean is found on
 # the fine template by its place: landmarks are the places of some vertices of the template's person.
 vertices="300 900 1500 2100 2700 3300 4200 5100 6000 7000 8000 9000"
-"$crowdface" synth -o "$out/landmarks" --count 1 --vertices 12000 --seed 1 --quiet
+"$crowdface" synth -o "$out/landmarks" --count 1 --vertices 12000 --seed 1 --textures 64 --quiet
 place() { grep '^v ' "$1" | sed -n "$(($2 + 1))s/^v \([^ ]*\) \([^ ]*\) \([^ ]*\).*/[\1, \2, \3]/p"; }
 {
   echo "template:"
@@ -32,11 +33,11 @@ for scan in "$out"/scans/*.obj; do
 done
 
 "$crowdface" wrap --batch "$out/scans" --template "$out/template/synth_01.obj" \
-  --landmarks "$out/template.yaml" -o "$out/heads"
-cp "$out/template/synth_01.obj" "$out/heads/template.obj"
+  --landmarks "$out/template.yaml" --texture 1024 -o "$out/heads"
+cp "$out"/template/synth_01* "$out/heads"
 "$crowdface" init "$out/heads" -o "$out/crowd.yaml" --force
 "$crowdface" generate "$out/crowd.yaml" --set crowd.count=6 --set believability=none --out "$out/crowd" --force
 
 echo
-echo "  wrapped heads  $PWD/$out/heads/, what came of each scan in reports/"
+echo "  wrapped heads  $PWD/$out/heads/, with textures; what came of each scan in reports/"
 echo "  a crowd        $PWD/$out/crowd/sheets/"

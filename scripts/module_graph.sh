@@ -50,6 +50,7 @@ crowd 6
 pick 7
 heads 7
 pictures 8
+bake 8
 run 9
 editor 10
 cli 11

@@ -120,6 +120,61 @@ TEST_F(Wrap, AFaceThatTheReliefShowsNeedsNoLandmarks) {
   EXPECT_TRUE(fs::exists(out));
 }
 
+TEST_F(Wrap, BakesTexturesThatTheMaterialFileNames) {
+  const fs::path coloured = folder_ / "coloured";
+  crowdface(0, {"synth", "-o", coloured.string(), "--count", "2", "--vertices", "5000",
+                "--textures", "128", "--quiet"});
+  fs::create_directories(folder_ / "both");
+  for (const char* name : {"synth_02.obj", "synth_02.mtl", "synth_02_albedo.png"}) {
+    fs::copy(coloured / name, folder_ / "both" / name);
+  }
+  folder_.write("both/synth_02.yaml", concat("scan: ", kPlaces));
+  const std::vector<std::string> batch = {"wrap",
+                                          "--batch",
+                                          (folder_ / "both").string(),
+                                          "--template",
+                                          (coloured / "synth_01.obj").string(),
+                                          "--landmarks",
+                                          landmarks_.string(),
+                                          "-o",
+                                          folder_ / "out",
+                                          "--no-pictures",
+                                          "--texture",
+                                          "256"};
+  crowdface(0, batch, {"synth_02.obj", "mm from the scan"});
+  const std::string head = read_file(folder_ / "out/synth_02.obj");
+  EXPECT_THAT(head, ::testing::HasSubstr("\nmtllib synth_02.mtl\n"));
+  EXPECT_THAT(head, ::testing::Not(::testing::HasSubstr("synth_01.mtl")));
+  const std::string materials = read_file(folder_ / "out/synth_02.mtl");
+  EXPECT_THAT(materials,
+              ::testing::HasSubstr("newmtl skin\nKd 1 1 1\nmap_Kd synth_02.colour.png\n"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/synth_01_roughness.png"));  // which the head keeps
+  EXPECT_FALSE(fs::exists(folder_ / "out/synth_01_albedo.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/synth_02.colour.png"));
+  EXPECT_THAT(read_file(folder_ / "out/reports/synth_02.wrap.json"),
+              ::testing::HasSubstr("\"textures_filled\": 0."));
+  // A missing texture, and a change of the scan's, are baked again; nothing else is.
+  crowdface(0, batch, {"1 of 1 scans are already wrapped"});
+  fs::remove(folder_ / "out/reports/synth_02.filled.png");
+  crowdface(0, batch, {"mm from the scan"});
+  EXPECT_TRUE(fs::exists(folder_ / "out/reports/synth_02.filled.png"));
+  fs::copy_file(coloured / "synth_01_albedo.png", folder_ / "both/synth_02_albedo.png",
+                fs::copy_options::overwrite_existing);
+  crowdface(0, batch, {"mm from the scan"});
+}
+
+TEST_F(Wrap, RefusesTexturesOfScansWithoutColours) {
+  auto command = single(landmarks_, folder_ / "head.obj");
+  command.insert(command.end(), {"--texture", "64"});
+  crowdface(65, command, {"synth_02.obj", "--texture", "a texture or colours at vertices"});
+  EXPECT_FALSE(fs::exists(folder_ / "head.obj"));
+  command.back() = "8";
+  crowdface(64, command, {"--texture", "from 64 to 16384", "8"});
+  command.resize(command.size() - 2);
+  command.emplace_back("--delight");
+  crowdface(64, command, {"--delight", "--texture"});
+}
+
 // The heads of a model, scans and template were replaced without a word.
 TEST_F(Wrap, WritesOverNoneOfItsInputs) {
   fs::copy(head(2), scans_ / "synth_02.obj");

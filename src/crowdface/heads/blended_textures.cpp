@@ -13,6 +13,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/picture_layout.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/tile_files.h"
 
@@ -22,68 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLargestUnasked = 4096;
-
-/// Where an image of the layout is first used.
-struct FirstAttachmentHit {
-  std::size_t head = 0;
-  std::uint32_t row = 0;  ///< index of the head's file
-  Index face = 0;
-};
-
-/// Assigns an image to each polygon: that of the first head with a texture there.
-std::vector<FirstAttachmentHit> lay_out(const HeadsTextures& found, TextureLayout& layout) {
-  layout.tile = found.tile;
-  layout.of_face.assign(found.tile.size(), kNoIndex);
-  std::vector<FirstAttachmentHit> first;
-  std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> known;
-  for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
-    for (std::size_t h = 0; h < found.heads.size(); ++h) {
-      const std::uint32_t row = found.heads[h].of_face[f];
-      if (row == kNoIndex) continue;
-      const auto [picture, is_new] =
-          known.emplace(std::pair(h, row), static_cast<std::uint32_t>(first.size()));
-      if (is_new) first.push_back({h, row, static_cast<Index>(f)});
-      layout.of_face[f] = picture->second;
-      break;
-    }
-  }
-  return first;
-}
-
-/// Letters and digits of a material's name, for use in file names.
-std::string part_name(const std::string& material) {
-  std::string name;
-  for (const char c : material) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (plain || c == '-' || c == '_') name += c;
-  }
-  return name.substr(0, 40);
-}
-
-std::vector<PictureName> picture_names(const HeadsTextures& found,
-                                       const std::vector<FirstAttachmentHit>& pictures,
-                                       const FaceMaterials& materials) {
-  std::map<fs::path, std::string> parts;
-  std::set<std::string> taken;
-  for (const FirstAttachmentHit& picture : pictures) {
-    const fs::path& file = found.heads[picture.head].files[picture.row].name;
-    if (parts.contains(file)) continue;
-    const auto face = static_cast<std::size_t>(picture.face);
-    std::string part = part_name(materials.names[materials.of_face[face]]);
-    if (part.empty() || taken.contains(part)) part += std::to_string(parts.size() + 1);
-    taken.insert(part);
-    parts.emplace(file, part);
-  }
-  std::vector<PictureName> names;
-  for (const FirstAttachmentHit& picture : pictures) {
-    const fs::path& file = found.heads[picture.head].files[picture.row].name;
-    const auto& tile = found.tile[static_cast<std::size_t>(picture.face)];
-    const bool tiled = file.native().find(kTileWord) != std::string::npos;
-    names.push_back({parts.size() > 1 ? parts.at(file) : "",
-                     tiled ? tile_number(tile[0], tile[1]) : 0, found.kind});
-  }
-  return names;
-}
 
 /// For each image, the head's files from which it is composed; none if some polygon of the image
 /// has no texture on this head.
@@ -273,8 +212,7 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
                                    const fs::path& scratch) {
   HeadTextures result;
   TextureLayout& layout = result.blended.layout;
-  const std::vector<FirstAttachmentHit> pictures = lay_out(found, layout);
-  layout.pictures.resize(pictures.size());
+  const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);
   result.names = picture_names(found, pictures, materials);
 
   std::vector<std::vector<std::vector<std::uint32_t>>> rows;

@@ -2,7 +2,6 @@
 #include "crowdface/heads/read_heads.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
+#include "crowdface/core/scratch_folder.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached.h"
 #include "crowdface/heads/common_mesh.h"
@@ -154,28 +154,8 @@ void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
 
 /// A folder outside the cache, removed when the program ends.
 const fs::path& scratch_folder() {
-  struct Scratch {
-    fs::path path;
-    Scratch() {
-      std::error_code error;
-      std::string name = (fs::temp_directory_path(error) / "crowdface-XXXXXX").string();
-      if (error) {
-        throw CannotCreate(concat("no folder for temporary files: ", error.message(),
-                                  "; set TMPDIR to one that exists"));
-      }
-      if (::mkdtemp(name.data()) == nullptr)
-        throw_with_reason<CannotCreate>(name, "cannot be created");
-      path = name;
-    }
-    ~Scratch() {
-      std::error_code ignored;
-      fs::remove_all(path, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-  };
-  static const Scratch scratch;
-  return scratch.path;
+  static const ScratchFolder scratch;
+  return scratch.path();
 }
 
 /// Stores the textures embedded in a mesh file as image files next to a material file, as for OBJ

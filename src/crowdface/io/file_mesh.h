@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +33,11 @@ struct FileMesh : Mesh {
   std::vector<std::uint32_t>
       vertex_ids;  ///< #V: vertex ids before the split; empty if the file does not store them
   std::vector<MeshTexture> textures;  ///< textures of the materials
-  std::vector<std::string> notes;     ///< repairs and omissions, one sentence each
+  /// Base colours of materials in linear light, for formats without material files.
+  std::map<std::string, std::array<float, 3>> material_colours;
+  /// Material files that an OBJ file names; other formats hold `textures` instead.
+  std::vector<std::string> material_libraries;
+  std::vector<std::string> notes;  ///< repairs and omissions, one sentence each
 };
 
 /// Gives a mesh its vertices, texture coordinates and vertex colours. Without texture coordinates,

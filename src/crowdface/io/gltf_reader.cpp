@@ -293,8 +293,11 @@ class GltfMeshReader {
       const std::string name = material.value("name", concat("material_", m));
       if (!used.contains(name)) continue;
       if (material.contains("pbrMetallicRoughness")) {
-        add_texture(material["pbrMetallicRoughness"], "baseColorTexture", name,
-                    TextureKind::kColour);
+        const GltfJson& look = material["pbrMetallicRoughness"];
+        const auto factor = look.value("baseColorFactor", std::vector<float>(4, 1.0F));
+        if (factor.size() < 3) file_.fail("expected a baseColorFactor of four numbers");
+        mesh_.material_colours[material_name_of(name)] = {factor[0], factor[1], factor[2]};
+        add_texture(look, "baseColorTexture", name, TextureKind::kColour);
       }
       const char* gloss = "KHR_materials_pbrSpecularGlossiness";
       if (material.contains("extensions") && material["extensions"].contains(gloss)) {

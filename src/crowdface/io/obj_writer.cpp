@@ -7,9 +7,14 @@
 
 namespace crowdface {
 
+EncodedFile encode_obj_like(const ObjFile& target, const Topology& topology,
+                            const Positions& positions, const std::string& what) {
+  return ObjTemplate(target, topology).encode(positions, what);
+}
+
 Digest write_obj_like(const ObjFile& target, const Topology& topology, const Positions& positions,
                       const std::filesystem::path& path) {
-  const EncodedFile file = ObjTemplate(target, topology).encode(positions, path.string());
+  const EncodedFile file = encode_obj_like(target, topology, positions, path.string());
   file.write(path);
   return file.digest();
 }

@@ -12,11 +12,16 @@
 
 namespace crowdface {
 
-/// Writes a copy of the target's file with other positions (see `ObjTemplate`).
+/// Encodes a copy of the target's file with other positions (see `ObjTemplate`).
 /// \param topology  the faces, which all heads share; only used if the file has normals.
 /// \param positions  #V by 3, in the file's unit.
+/// \param what  names the mesh in messages.
+/// \throws InvalidInput if positions are not #V by 3 or not finite.
+EncodedFile encode_obj_like(const ObjFile& target, const Topology& topology,
+                            const Positions& positions, const std::string& what);
+/// Writes such a copy.
 /// \return digest of the bytes written.
-/// \throws InvalidInput if positions are not #V by 3 or not finite; CannotCreate, IoError.
+/// \throws InvalidInput like encode_obj_like; CannotCreate, IoError.
 Digest write_obj_like(const ObjFile& target, const Topology& topology, const Positions& positions,
                       const std::filesystem::path& path);
 

@@ -26,6 +26,7 @@ FileMesh mesh_of_obj(ObjFile file) {
   mesh.positions = std::move(file.positions);
   mesh.uvs = std::move(file.uvs);
   mesh.materials = std::move(file.materials);
+  mesh.material_libraries = std::move(file.material_libraries);
   mesh.notes = std::move(file.notes);
   return mesh;
 }

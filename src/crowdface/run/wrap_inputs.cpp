@@ -12,6 +12,7 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/read_mesh.h"
 #include "crowdface/mesh/vector3.h"
@@ -79,6 +80,20 @@ void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, H
     shape.skin.openness[v] *= left;
     digest.add(left);
   }
+}
+
+int texture_size_of(const WrapOptions& options) {
+  constexpr std::uint64_t kMin = 64, kMax = 16384;
+  if (options.texture.empty()) {
+    if (options.delight) throw UsageError("--delight: expected --texture SIZE, found none");
+    return 0;
+  }
+  const auto size = parse_unsigned(options.texture);
+  if (!size || *size < kMin || *size > kMax) {
+    throw UsageError(concat("--texture: expected a whole number from ", kMin, " to ", kMax,
+                            ", found ", quoted(options.texture)));
+  }
+  return static_cast<int>(*size);
 }
 
 std::optional<PoseHint> pose_hint(const WrapOptions& options) {
@@ -173,6 +188,14 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
     digest.add(text);
   }
   if (options.estimate) digest.add("--estimate");
+  inputs.texture_size = texture_size_of(options);
+  if (inputs.texture_size > 0) {
+    digest.add("--texture").add(inputs.texture_size).add(options.delight ? 1 : 0);
+    for (const MaterialFile& used :
+         find_material_files(inputs.file.material_path(), inputs.file.material_libraries).files) {
+      digest.add(hash_file(used.from).digest);
+    }
+  }
   inputs.digest = digest.digest();
   log_info(concat(options.shape, ": ", inputs.shape.skin.vertex_count(), " of ",
                   inputs.file.topology.vertex_count,

@@ -25,7 +25,8 @@ struct WrapOptions {
   std::string batch;  ///< a folder of scans; `out` is then a folder
   std::string out, landmarks, template_landmarks, model, ignore;
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
-  bool no_pictures = false, force = false, dry_run = false, estimate = false;
+  std::string texture;  ///< texels per side
+  bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
 };
 
 /// The inputs that all scans of a run share.
@@ -40,6 +41,7 @@ struct WrapInputs {
   std::size_t model_heads = 0;      ///< number of heads of the shape model
   LandmarkFile landmarks;
   std::map<std::string, std::uint32_t> proposed;  ///< detected landmarks: name, template vertex
+  int texture_size = 0;                           ///< texels per side of baked textures; 0: none
   Digest digest;                                  ///< digest of all inputs in this struct
 };
 

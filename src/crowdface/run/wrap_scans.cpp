@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
@@ -14,9 +16,12 @@
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/paint/face_marks.h"
 #include "crowdface/pick/found_landmarks.h"
 #include "crowdface/pick/suggested_places.h"
+#include "crowdface/run/wrap_inputs.h"
+#include "crowdface/run/wrap_textures.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_face.h"
 #include "crowdface/wrap/scan_file.h"
@@ -30,6 +35,7 @@ namespace fs = std::filesystem;
 /// A scan and its output files.
 struct Task {
   fs::path scan, own_landmarks, head, report, picture;
+  TextureFiles textures = {};  ///< no files without --texture
 };
 
 Task make_task(const fs::path& scan, const fs::path& head, const fs::path& reports) {
@@ -44,7 +50,7 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
   return task;
 }
 
-std::vector<Task> tasks_of(const WrapOptions& options) {
+std::vector<Task> tasks_without_textures(const WrapOptions& options) {
   if (options.batch.empty()) {
     const fs::path head = output_file(options.out);
     return {make_task(options.scan, head, head.parent_path())};
@@ -53,6 +59,15 @@ std::vector<Task> tasks_of(const WrapOptions& options) {
   for (const fs::path& scan : scans_in(options.batch)) {
     tasks.push_back(make_task(scan, fs::path(options.out) / concat(scan.stem().string(), ".obj"),
                               fs::path(options.out) / "reports"));
+  }
+  return tasks;
+}
+
+std::vector<Task> tasks_of(const WrapOptions& options, const WrapTextures* textures) {
+  std::vector<Task> tasks = tasks_without_textures(options);
+  if (textures == nullptr) return tasks;
+  for (Task& task : tasks) {
+    task.textures = textures->files_of(task.head, task.report.parent_path());
   }
   return tasks;
 }
@@ -66,6 +81,8 @@ void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<T
   for (const Task& task : tasks) {
     inputs.insert(inputs.end(), {task.scan, task.own_landmarks});
     outputs.insert(outputs.end(), {task.head, task.report, task.picture});
+    const std::vector<fs::path> textures = task.textures.all();
+    outputs.insert(outputs.end(), textures.begin(), textures.end());
   }
   refuse_to_write_over(inputs, outputs);
 }
@@ -74,12 +91,15 @@ Digest inputs_of(const WrapInputs& shared, const Task& task) {
   Hasher hasher;
   hasher.add(shared.digest).add(hash_file(task.scan).digest);
   if (!task.own_landmarks.empty()) hasher.add(hash_file(task.own_landmarks).digest);
+  if (shared.texture_size > 0) add_texture_files(task.scan, hasher);
   return hasher.digest();
 }
 
-/// Returns whether the task's report contains the digests of these inputs and of the existing head.
+/// Returns whether the task's report contains the digests of these inputs and of the existing head,
+/// and whether the textures exist.
 bool is_done(const Task& task, const Digest& inputs) {
   if (!path_exists(task.report) || !path_exists(task.head)) return false;
+  if (!std::ranges::all_of(task.textures.all(), path_exists)) return false;
   const std::string report = read_file(task.report);
   return report.find(concat("\"inputs\": \"", inputs.hex(), '"')) != std::string::npos &&
          report.find(concat("\"mesh\": \"", hash_file(task.head).digest.hex(), '"')) !=
@@ -189,9 +209,10 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                 name_of(found.up), " --scan-front ", name_of(found.front));
 }
 
-void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& task,
-              const Digest& inputs) {
-  const Scan scan = read_scan(task.scan);
+void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTextures* textures,
+              const Task& task, const Digest& inputs) {
+  FileMesh mesh = read_mesh(task.scan);
+  const Scan scan = scan_of(mesh, task.scan);
   for (const std::string& note : scan.notes) log_warning(concat(task.scan.string(), ": ", note));
   // Fit the template to the scan, and refuse a bad fit.
   std::optional<PoseHint> hint = shared.hint;
@@ -211,14 +232,28 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const Task& 
   const double scale = output_scale(options, result.pose);
   const std::vector<std::string> warnings =
       wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);
-  const Digest mesh = write_obj_like(shared.file, shared.file.topology,
-                                     Positions(result.positions * (scale / shared.mm)), task.head);
+  WrapFacts facts{options.shape, task.scan.string(),         inputs.hex(), {},
+                  scale,         left_out(shared, landmarks)};
+  EncodedFile head =
+      encode_obj_like(shared.file, shared.file.topology,
+                      Positions(result.positions * (scale / shared.mm)), task.head.string());
+  if (textures != nullptr) {
+    const ScanColours colours(std::move(mesh), task.scan);
+    for (const std::string& warning : colours.warnings()) log_warning(warning);
+    if (!colours.any()) {
+      throw InvalidInput(concat(task.scan.string(),
+                                ": --texture: expected a texture or colours at vertices, found "
+                                "neither: an OBJ file names its texture in a material file"));
+    }
+    facts.filled_share = textures->write(result, scan, colours, task.textures);
+    head = textures->head_file(std::move(head), task.textures);
+  }
+  head.write(task.head);
+  facts.mesh = head.digest().hex();
   if (!options.no_pictures) {
     write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
                                           task.scan.filename().string()));
   }
-  WrapFacts facts{options.shape, task.scan.string(),         inputs.hex(), mesh.hex(),
-                  scale,         left_out(shared, landmarks)};
   if (options.estimate) {
     facts.unseen_mm = unseen_landmarks(shared.shape, shared.model ? &*shared.model : nullptr, scan,
                                        landmarks, hint);
@@ -246,7 +281,10 @@ void check_one(const WrapInputs& shared, const Task& task) {
 
 void wrap_scans(const WrapOptions& options) {
   const WrapInputs shared = read_wrap_inputs(options);
-  const std::vector<Task> tasks = tasks_of(options);
+  std::optional<WrapTextures> textures;
+  if (shared.texture_size > 0) textures.emplace(options, shared);
+  const WrapTextures* const wrap_textures = textures ? &*textures : nullptr;
+  const std::vector<Task> tasks = tasks_of(options, wrap_textures);
   refuse_to_write_over_inputs(options, tasks);
   if (!options.dry_run && !options.batch.empty()) {
     make_directories(fs::path(options.out) / "reports");
@@ -264,7 +302,7 @@ void wrap_scans(const WrapOptions& options) {
       } else if (options.dry_run) {
         check_one(shared, task);
       } else {
-        wrap_one(options, shared, task, inputs);
+        wrap_one(options, shared, wrap_textures, task, inputs);
       }
     } catch (const RecoverableError& error) {
       // Collect the problem and continue with the other scans.

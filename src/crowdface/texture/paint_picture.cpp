@@ -8,13 +8,13 @@
 #include <span>
 
 #include "crowdface/core/parallel.h"
+#include "crowdface/texture/fill_uncovered.h"
 #include "crowdface/texture/row_kernels.h"
 
 namespace crowdface {
 namespace {
 
 constexpr int kPictureRowsPerBlock = 16;
-constexpr std::size_t kGutterPerBlock = 1 << 14;
 
 /// Sums of the covered texels of a row, one per channel.
 using RowSums = std::array<std::uint64_t, 3>;
@@ -125,24 +125,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
     for (const RowSums& row : sums) sum += row[c];
     fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered()));
   }
-  const auto width = static_cast<std::size_t>(texels.width());
-  parallel_for_each(texels.height(), kPictureRowsPerBlock, [&](int y) {
-    std::size_t x = static_cast<std::size_t>(y) * width;
-    const std::size_t row = x, end = x + width;
-    const auto fill_to = [&](std::size_t stop) {
-      for (; x < stop; ++x) std::copy_n(fill.data(), channels, values.data() + channels * x);
-    };
-    for (const SurfaceTexels::Span& span : texels.row(y)) {
-      fill_to(row + span.begin);
-      x = row + span.end;
-    }
-    fill_to(end);
-  });
-  const std::vector<SurfaceTexels::Gutter>& gutter = texels.gutter();
-  parallel_for_each(gutter.size(), kGutterPerBlock, [&](std::size_t i) {
-    std::copy_n(values.data() + channels * std::size_t{gutter[i].from}, channels,
-                values.data() + channels * std::size_t{gutter[i].to});
-  });
+  fill_uncovered(texels, std::span<const Value>(fill).first(channels), values.data());
 }
 
 /// A picture with the right size and encoding, not yet painted.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crowdface/core/require.h"
+#include "crowdface/texture/triangle_texels.h"
 
 namespace crowdface {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 using Point = Eigen::Vector2d;
 /// Index of the triangle that covers each texel, or kNoIndex.
 using Owners = std::vector<std::uint32_t>;
-
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Computes the barycentric coordinates as linear functions of the texel. Returns false for a
 /// triangle without area.
@@ -29,25 +26,6 @@ bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle
   triangle.third = {static_cast<float>(cross(u, origin) / area), static_cast<float>(-u.y() / area),
                     static_cast<float>(u.x() / area)};
   return true;
-}
-
-/// Calls `body(x, y)` for each texel whose centre lies in the triangle or on its edge.
-template <class Body>
-void for_each_texel(const std::array<Point, 3>& at, const TextureLayout::Picture& size,
-                    const Body& body) {
-  const double area = cross(at[1] - at[0], at[2] - at[0]);
-  const Point low = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
-  const Point high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
-  const auto texel = [](double x, int count) {
-    return static_cast<int>(std::clamp(x, 0.0, count - 1.0));
-  };
-  for (int y = texel(low.y(), size.height); y <= texel(high.y(), size.height); ++y) {
-    for (int x = texel(low.x(), size.width); x <= texel(high.x(), size.width); ++x) {
-      const Point from = Point(x + 0.5, y + 0.5) - at[0];
-      const double b = cross(from, at[2] - at[0]) / area, c = cross(at[1] - at[0], from) / area;
-      if (b >= 0 && c >= 0 && b + c <= 1) body(x, y);
-    }
-  }
 }
 
 /// Width of the gutter in texels: 1/64 of the longer side, at least 4. Of 1024 texels that is 16,
@@ -112,7 +90,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
       if (!shares_of(points, triangle)) continue;
       const auto number = static_cast<std::uint32_t>(triangles_.size());
       bool any = false;
-      for_each_texel(points, size_, [&](int x, int y) {
+      for_each_texel(points, size_.width, size_.height, [&](int x, int y) {
         std::uint32_t& owner =
             owners[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
         if (owner != kNoIndex) return;

@@ -223,6 +223,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
         spread_json(seen_distances(shape, result, &regions, r));
   }
   report["without_data"] = rounded(share_without_data(shape, result));
+  if (facts.filled_share) report["textures_filled"] = rounded(*facts.filled_share);
   report["flipped_triangles"] = result.flipped;
   report["landmarks"] = nlohmann::ordered_json::array();
   for (const LandmarkResidual& landmark : result.landmarks) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct WrapFacts {
   std::map<std::string, double> left_out_mm;
   /// See `unseen_landmarks`; empty: not requested.
   std::map<std::string, double> unseen_mm = {};
+  /// Share of the textures, 0 to 1, that is filled because the scan does not show it.
+  std::optional<double> filled_share = {};
 };
 
 /// The report as JSON.

@@ -54,7 +54,33 @@ double largest(const std::vector<double>& areas) {
   return areas.empty() ? 0 : std::ranges::max(areas);
 }
 
+/// If the scan has eyeballs, keeps only the components whose class is wanted.
+Scan of_modelled_head(const Scan& scan, const std::function<bool(PartClass)>& is_wanted) {
+  const Topology topology = topology_of(scan.triangles, scan.positions.rows());
+  const Adjacency adjacency = build_adjacency(topology);
+  const Components components = find_components(adjacency);
+  const PartList parts = find_parts(topology, adjacency, components, scan.positions);
+  if (std::ranges::none_of(parts.parts, [](const Part& part) { return part.eyeball; })) return scan;
+  Scan kept = scan;
+  keep_triangles(kept, [&](std::size_t i) {
+    return is_wanted(parts.classes[components.of_vertex[scan.triangles[i][0]]]);
+  });
+  return kept;
+}
+
 }  // namespace
+
+void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < scan.triangles.size(); ++i) {
+    if (!is_kept(i)) continue;
+    scan.triangles[kept] = scan.triangles[i];
+    if (!scan.sources.empty()) scan.sources[kept] = scan.sources[i];
+    ++kept;
+  }
+  scan.triangles.resize(kept);
+  if (!scan.sources.empty()) scan.sources.resize(kept);
+}
 
 std::vector<bool> used_vertices(const Scan& scan) {
   std::vector<bool> used(static_cast<std::size_t>(scan.positions.rows()), false);
@@ -96,26 +122,18 @@ std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangle
 Scan without_small_pieces(const Scan& scan, double min_share) {
   const std::vector<double> areas = areas_of_pieces(scan);
   const double least = min_share * largest(areas);
-  Scan kept{scan.positions, {}, scan.notes};
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    if (!degenerate(scan.triangles[i]) && areas[i] >= least) {
-      kept.triangles.push_back(scan.triangles[i]);
-    }
-  }
+  Scan kept = scan;
+  keep_triangles(
+      kept, [&](std::size_t i) { return !degenerate(scan.triangles[i]) && areas[i] >= least; });
   return kept;
 }
 
 Scan without_shells(const Scan& scan) {
-  const Topology topology = topology_of(scan.triangles, scan.positions.rows());
-  const Adjacency adjacency = build_adjacency(topology);
-  const Components components = find_components(adjacency);
-  const PartList parts = find_parts(topology, adjacency, components, scan.positions);
-  if (std::ranges::none_of(parts.parts, [](const Part& part) { return part.eyeball; })) return scan;
-  Scan kept{scan.positions, {}, scan.notes};
-  std::ranges::copy_if(scan.triangles, std::back_inserter(kept.triangles), [&](const Triangle& t) {
-    return parts.classes[components.of_vertex[t[0]]] != PartClass::kBound;
-  });
-  return kept;
+  return of_modelled_head(scan, [](PartClass of) { return of != PartClass::kBound; });
+}
+
+Scan skin_only(const Scan& scan) {
+  return of_modelled_head(scan, [](PartClass of) { return of == PartClass::kSkin; });
 }
 
 void weld(Scan& scan) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,14 @@ struct Scan {
   Positions positions;                  ///< #V by 3
   std::vector<Triangle> triangles;      ///< oriented outwards
   std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
+  /// #triangles: number of each triangle in the file, whose polygons are cut by `triangles_of`;
+  /// empty if the scan does not come from a file.
+  std::vector<std::uint32_t> sources = {};
 };
+
+/// Removes the triangles for which `is_kept` is false.
+/// \param is_kept  called with the index of each triangle, in ascending order.
+void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept);
 
 /// #V: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
@@ -35,6 +44,9 @@ Scan without_small_pieces(const Scan& scan, double min_share);
 /// For a modelled head with eyeballs, removes the surfaces over skin and eyes: lashes, tear lines,
 /// shadow shells. Returns other scans unchanged.
 Scan without_shells(const Scan& scan);
+/// For a modelled head with eyeballs, removes the eyeballs, teeth and all other parts. Returns other
+/// scans unchanged.
+Scan skin_only(const Scan& scan);
 
 /// Merges vertices with equal positions: STL files repeat every corner, other formats repeat
 /// vertices at texture seams. Triangles then refer to the first vertex at each position. If merging

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -69,9 +71,8 @@ void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
 void leave_out_unplaced(Scan& scan) {
   const auto is_placed = [&](std::uint32_t v) { return scan.positions.row(v).allFinite(); };
   if (scan.positions.allFinite()) return;
-  std::erase_if(scan.triangles, [&](const Triangle& triangle) {
-    return !std::ranges::all_of(triangle, is_placed);
-  });
+  keep_triangles(scan,
+                 [&](std::size_t i) { return std::ranges::all_of(scan.triangles[i], is_placed); });
   if (scan.triangles.empty()) return;
   for (std::uint32_t v = 0; v < scan.positions.rows(); ++v) {
     if (!is_placed(v)) scan.positions.row(v) = scan.positions.row(scan.triangles[0][0]);
@@ -82,8 +83,14 @@ void leave_out_unplaced(Scan& scan) {
 
 Scan read_scan(const std::filesystem::path& path) {
   FileMesh mesh = read_mesh(path);
+  return scan_of(mesh, path);
+}
+
+Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   turn_right_side_out(mesh);
   Scan scan{std::move(mesh.positions), triangles_of(mesh.topology), std::move(mesh.notes)};
+  scan.sources.resize(scan.triangles.size());
+  std::iota(scan.sources.begin(), scan.sources.end(), 0U);
   leave_out_unplaced(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "crowdface/io/file_mesh.h"
 #include "crowdface/wrap/scan.h"
 
 namespace crowdface {
@@ -12,5 +13,9 @@ namespace crowdface {
 /// primitives one after the other).
 /// \throws MissingInput; InvalidInput naming file, what was expected and what was found.
 Scan read_scan(const std::filesystem::path& path);
+/// The scan of a mesh read from `path`. Moves positions and notes out of the mesh, and turns its
+/// polygons right side out.
+/// \throws InvalidInput like read_scan.
+Scan scan_of(FileMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace crowdface

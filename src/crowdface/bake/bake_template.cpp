@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/bake/bake_template.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/heads/picture_layout.h"
+#include "crowdface/io/tile_files.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/texture/triangle_texels.h"
+
+namespace crowdface {
+namespace {
+
+/// Keeps the textures that skin uses, and gives skin without a texture a file without a path for
+/// each material and tile.
+/// \param is_skin  #F
+void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
+                     HeadsTextures& found) {
+  AttachmentTextures& placed = found.heads[0];
+  if (placed.of_face.empty()) placed.of_face.assign(is_skin.size(), kNoIndex);
+  std::set<std::uint32_t> used;
+  bool tiled = false;
+  for (std::size_t f = 0; f < is_skin.size(); ++f) {
+    if (!is_skin[f]) continue;
+    if (placed.of_face[f] != kNoIndex) {
+      used.insert(placed.of_face[f]);
+    } else if (found.tile[f] != std::array<std::int32_t, 2>{0, 0}) {
+      tiled = true;
+    }
+  }
+  std::map<std::pair<std::uint32_t, std::array<std::int32_t, 2>>, std::uint32_t> rows;
+  for (std::size_t f = 0; f < is_skin.size(); ++f) {
+    std::uint32_t& file = placed.of_face[f];
+    if (file != kNoIndex) {
+      if (!used.contains(file)) file = kNoIndex;
+    } else if (is_skin[f]) {
+      const std::uint32_t material = materials.of_face[f];
+      const auto [row, is_new] = rows.try_emplace({material, found.tile[f]},
+                                                  static_cast<std::uint32_t>(placed.files.size()));
+      if (is_new) {
+        placed.files.push_back({{}, concat(materials.names[material], tiled ? kTileWord : "")});
+      }
+      file = row->second;
+    }
+  }
+}
+
+}  // namespace
+
+BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int size)
+    : shape_(shape) {
+  const Topology& topology = file.topology;
+  skin_rows_.assign(static_cast<std::size_t>(topology.vertex_count), kNotSkin);
+  for (std::uint32_t row = 0; row < shape.skin.vertices.size(); ++row) {
+    skin_rows_[shape.skin.vertices[row]] = row;
+  }
+  std::vector<bool> is_skin(static_cast<std::size_t>(topology.face_count()), false);
+  bool has_uvs = false;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto uvs = topology.face_uvs(f);
+    if (uvs.empty() || std::ranges::count(uvs, kNoIndex) > 0) continue;
+    is_skin[static_cast<std::size_t>(f)] = std::ranges::all_of(
+        topology.face(f), [&](std::uint32_t v) { return skin_rows_[v] != kNotSkin; });
+    has_uvs = has_uvs || is_skin[static_cast<std::size_t>(f)];
+  }
+  if (!has_uvs) {
+    refuse_file(file.path,
+                "--texture: expected texture coordinates on the template's skin, "
+                "found none");
+  }
+  const FaceMaterials materials = face_materials(file.materials, topology.face_count());
+  HeadsTextures found =
+      find_attachment_textures({topology, file.uvs, {{file.path.stem().string(), {}}}}, {&file, 1})
+          .front();
+  warnings_ = std::move(found.warnings);
+  for (std::string& warning : leave_out_unreadable(found)) warnings_.push_back(std::move(warning));
+  const AttachmentTextures own = found.heads[0];
+  choose_pictures(materials, is_skin, found);
+  TextureLayout layout;
+  const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);
+  names_ = picture_names(found, pictures, materials);
+  for (TextureLayout::Picture& picture : layout.pictures) picture = {size, size};
+  for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
+    if (layout.of_face[f] == kNoIndex) continue;
+    of_material_.try_emplace(materials.names[materials.of_face[f]], layout.of_face[f]);
+  }
+  maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
+  for (std::uint32_t p = 0; p < pictures.size(); ++p) {
+    texels_.emplace_back(topology, file.uvs, layout, p);
+    textures_.push_back(pictures[p].row < maps_.files.size() ? maps_.files[pictures[p].row].get()
+                                                             : nullptr);
+  }
+  place_vertices(file, layout);
+}
+
+void BakeTemplate::place_vertices(const ObjFile& file, const TextureLayout& layout) {
+  vertex_places_.resize(shape_.skin.vertices.size());
+  const Topology& topology = file.topology;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const std::uint32_t picture = layout.of_face[static_cast<std::size_t>(f)];
+    if (picture == kNoIndex) continue;
+    const auto& tile = layout.tile[static_cast<std::size_t>(f)];
+    const auto vertices = topology.face(f), uvs = topology.face_uvs(f);
+    if (std::ranges::count(uvs, kNoIndex) > 0) continue;
+    const auto uv_at = [&](std::size_t corner) -> Eigen::Vector2d {
+      return file.uvs.row(uvs[corner]).transpose() - Eigen::Vector2d(tile[0], tile[1]);
+    };
+    double uv_area = 0;
+    for (std::size_t c = 1; c + 1 < uvs.size(); ++c) {
+      uv_area += std::abs(cross(uv_at(c) - uv_at(0), uv_at(c + 1) - uv_at(0)));
+    }
+    const double area = face_area_vector(topology, f, shape_.positions).norm();
+    for (std::size_t c = 0; c < vertices.size(); ++c) {
+      const std::uint32_t row = skin_rows_[vertices[c]];
+      if (row == kNotSkin || vertex_places_[row].picture != kNoIndex) continue;
+      vertex_places_[row] = {picture, uv_at(c), area > 0 ? std::sqrt(uv_area / area) : 0};
+    }
+  }
+}
+
+}  // namespace crowdface

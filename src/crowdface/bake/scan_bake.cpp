@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/bake/scan_bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/mesh/edge_distances.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/texture/fill_uncovered.h"
+#include "crowdface/texture/optical_density.h"
+#include "crowdface/wrap/elastic_solve.h"
+
+namespace crowdface {
+namespace {
+
+constexpr Index kVertexBlock = 256;
+constexpr int kTexelRows = 8;
+/// Farther surfaces of the scan are not what the wrapped skin shows.
+constexpr double kReachMm = 3;
+/// The scan's colours fade out over this distance to the edge of its data.
+constexpr double kFeatherMm = 3;
+constexpr double kToneMm = 8;  ///< smallest size of differences in tone that holes continue
+constexpr int kMaxSamples = 4;
+
+/// 0 at `low` and below, 1 at `high` and above.
+double smooth_step(double low, double high, double value) {
+  const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+Eigen::Vector3d density_of(const Eigen::Array3f& light) {
+  return {static_cast<double>(density_of_light(light[0])),
+          static_cast<double>(density_of_light(light[1])),
+          static_cast<double>(density_of_light(light[2]))};
+}
+
+/// Two unit vectors perpendicular to a unit vector and to each other.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents_of(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d one = normal.unitOrthogonal();
+  return {one, normal.cross(one)};
+}
+
+/// Real spherical harmonics up to degree 2, up to constant factors.
+using Harmonics = Eigen::Matrix<double, 9, 1>;
+Harmonics harmonics_of(const Eigen::Vector3d& n) {
+  Harmonics values;
+  values << 1, n.x(), n.y(), n.z(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x(),
+      n.x() * n.x() - n.y() * n.y(), 3 * n.z() * n.z() - 1;
+  return values;
+}
+
+/// Mean distance between neighbouring vertices of a scan, in mm, from its mean triangle.
+double spacing_of(const Scan& scan) {
+  const double count = static_cast<double>(scan.triangles.size());
+  constexpr std::size_t kBlock = 65536;
+  const double area = parallel_sum(scan.triangles.size(), kBlock, [&](auto begin, auto end) {
+    double sum = 0;
+    for (auto t = begin; t < end; ++t) {
+      sum += area_vector(scan.positions, scan.triangles[static_cast<std::size_t>(t)]).norm();
+    }
+    return sum;
+  });
+  return std::sqrt(area / std::max(count, 1.0));
+}
+
+}  // namespace
+
+ScanBake::ScanBake(const BakeTemplate& target, const Positions& wrapped, const ScanSurface& surface,
+                   const ScanColours& colours, const BakeOptions& options)
+    : target_(target),
+      surface_(surface),
+      colours_(colours),
+      positions_(target.shape().skin.of(wrapped)),
+      normals_(vertex_normals_or_zero(target.shape().skin.triangles, positions_)),
+      spacing_mm_(spacing_of(surface.scan())) {
+  Positions densities = Positions::Zero(positions_.rows(), 3);
+  const std::vector<double> confidence = measure_vertices(densities);
+  find_trust(confidence);
+  if (options.delight) {
+    estimate_shading(confidence, densities);
+    densities -= shading_;
+  }
+  for (Index v = 0; v < densities.rows(); ++v) {
+    const auto& place = target_.vertex_places()[static_cast<std::size_t>(v)];
+    if (place.picture == kNoIndex) continue;
+    const double side = place.uv_per_mm * edge_length(v);
+    densities.row(v) -=
+        template_density(place.picture, place.uv, {side, 0}, {0, -side}).transpose();
+  }
+  match_tone(confidence, densities);
+}
+
+double ScanBake::edge_length(Index vertex) const {
+  const auto around = target_.shape().skin.adjacency.of(vertex);
+  double sum = 0;
+  for (const std::uint32_t n : around) sum += (positions_.row(n) - positions_.row(vertex)).norm();
+  return around.empty() ? 0 : sum / static_cast<double>(around.size());
+}
+
+ScanBake::ScanPoint ScanBake::look(const SkinPoint& from, std::uint32_t guess) const {
+  ScanPoint seen;
+  ScanSurface::Place place =
+      surface_.nearest(from.position, from.normal, kMinCosine, kReachMm, guess);
+  if (place.triangle == kNoIndex) return seen;
+  // The surface along the normal instead of the closest one: one step of a fixed-point iteration.
+  constexpr double kCloseMm = 0.01;
+  if (place.distance > kCloseMm) {
+    const double height = (place.point - from.position).dot(from.normal);
+    const auto along = surface_.nearest(from.position + height * from.normal, from.normal,
+                                        kMinCosine, kReachMm, place.triangle);
+    if (along.triangle != kNoIndex) place = along;
+  }
+  seen.area.triangle = place.triangle;
+  seen.area.shares = nearest_on_triangle(surface_.scan().positions,
+                                         surface_.scan().triangles[place.triangle], place.point)
+                         .shares;
+  if (!place.found) return seen;
+  const double distance = (place.point - from.position).norm();
+  seen.confidence = (1 - smooth_step(0.6 * kReachMm, kReachMm, distance)) *
+                    smooth_step(kMinCosine, kMinCosine + 0.15, place.normal.dot(from.normal)) *
+                    smooth_step(0.5 * kSeen, 1.5 * kSeen, from.openness);
+  return seen;
+}
+
+std::optional<Eigen::Vector3d> ScanBake::density_at(const ScanArea& area) const {
+  const auto light = colours_.at(surface_.scan(), area);
+  if (!light) return std::nullopt;
+  return density_of(*light);
+}
+
+Eigen::Vector3d ScanBake::template_density(std::size_t picture, const Eigen::Vector2d& uv,
+                                           const Eigen::Vector2d& across,
+                                           const Eigen::Vector2d& down) const {
+  const FilteredTexture* texture = target_.texture(picture);
+  if (texture == nullptr) return Eigen::Vector3d::Zero();
+  return density_of(texture->at(uv, across, down));
+}
+
+std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
+  const SkinMesh& skin = target_.shape().skin;
+  std::vector<double> confidence(skin.vertices.size(), 0.0);
+  parallel_blocks(positions_.rows(), kVertexBlock, [&](Index begin, Index end) {
+    std::uint32_t guess = kNoIndex;
+    for (Index v = begin; v < end; ++v) {
+      const auto row = static_cast<std::size_t>(v);
+      const Eigen::Vector3d normal = row3(normals_, v);
+      if (normal.isZero()) continue;
+      ScanPoint seen = look({row3(positions_, v), normal, skin.openness[row]}, guess);
+      guess = seen.area.triangle;
+      if (seen.confidence == 0) continue;
+      const auto [one, other] = tangents_of(normal);
+      seen.area.across = edge_length(v) * one;
+      seen.area.down = edge_length(v) * other;
+      const auto density = density_at(seen.area);
+      if (!density) continue;
+      densities.row(v) = density->transpose();
+      confidence[row] = seen.confidence;
+    }
+  });
+  return confidence;
+}
+
+/// Finds the visible vertices without data, and lets the trust grow with the distance from them.
+void ScanBake::find_trust(const std::vector<double>& confidence) {
+  constexpr double kNone = 0.5;
+  const SkinMesh& skin = target_.shape().skin;
+  std::vector<std::uint32_t> without;
+  for (std::uint32_t v = 0; v < confidence.size(); ++v) {
+    if (confidence[v] < kNone && skin.openness[v] > kOpenEnough) without.push_back(v);
+  }
+  EdgeDistances distances(skin.adjacency, positions_);
+  distances.search(without, kFeatherMm);
+  trust_.assign(confidence.size(), 1.0);
+  for (const std::uint32_t v : distances.reached()) {
+    trust_[v] = smooth_step(0, kFeatherMm, distances.distance(v));
+  }
+}
+
+/// Fits the mean density of the channels by spherical harmonics of the normals (light from far away
+/// on a convex surface: Ramamoorthi & Hanrahan 2001), with weights that leave out lips, brows and
+/// hair (iteratively reweighted least squares).
+void ScanBake::estimate_shading(const std::vector<double>& confidence, const Positions& densities) {
+  constexpr int kRounds = 10;
+  const SkinMesh& skin = target_.shape().skin;
+  const Eigen::VectorXd areas = vertex_areas(skin.triangles, positions_);
+  const Eigen::VectorXd mean = densities.rowwise().mean();
+  std::vector<Harmonics> basis;
+  std::vector<double> given;
+  for (Index v = 0; v < positions_.rows(); ++v) {
+    const auto row = static_cast<std::size_t>(v);
+    basis.push_back(harmonics_of(row3(normals_, v)));
+    given.push_back(skin.openness[row] > kOpenEnough ? areas(v) * confidence[row] * trust_[row]
+                                                     : 0);
+  }
+  Harmonics fit = Harmonics::Zero(), middle = Harmonics::Zero();
+  double scale = 0;  // 0: all weights as given
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix<double, 9, 9> matrix = 1e-9 * Eigen::Matrix<double, 9, 9>::Identity();
+    Harmonics right = Harmonics::Zero();
+    double total = 0, off = 0;
+    middle.setZero();
+    for (std::size_t v = 0; v < basis.size(); ++v) {
+      if (given[v] == 0) continue;
+      const double residual = mean(static_cast<Index>(v)) - basis[v].dot(fit);
+      const double share = scale > 0 ? residual / scale : 0;
+      const double weight = given[v] / ((1 + share * share) * (1 + share * share));
+      matrix += weight * basis[v] * basis[v].transpose();
+      right += weight * mean(static_cast<Index>(v)) * basis[v];
+      middle += weight * basis[v];
+      total += weight;
+    }
+    if (total == 0) break;
+    middle /= total;
+    fit = matrix.ldlt().solve(right);
+    for (std::size_t v = 0; v < basis.size(); ++v) {
+      off += given[v] * std::abs(mean(static_cast<Index>(v)) - basis[v].dot(fit));
+    }
+    double all = 0;
+    for (const double weight : given) all += weight;
+    scale = 2 * off / all;
+  }
+  shading_.resize(positions_.rows(), 3);
+  for (Index v = 0; v < positions_.rows(); ++v) {
+    shading_.row(v).setConstant((basis[static_cast<std::size_t>(v)] - middle).dot(fit));
+  }
+}
+
+void ScanBake::match_tone(const std::vector<double>& confidence, const Positions& differences) {
+  const WrapTemplate& shape = target_.shape();
+  // Templates of many vertices are solved on their reduced skin.
+  std::vector<std::uint32_t> rows(shape.skin.vertices.size());
+  for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
+  const std::vector<std::uint32_t>& used = shape.reduced ? shape.reduced->mesh.vertices : rows;
+  const std::vector<Triangle>& triangles =
+      shape.reduced ? shape.reduced->mesh.triangles : shape.skin.triangles;
+  const auto count = static_cast<Index>(used.size());
+  Positions places(count, 3);
+  for (Index v = 0; v < count; ++v)
+    places.row(v) = positions_.row(used[static_cast<std::size_t>(v)]);
+  const Eigen::VectorXd areas = vertex_areas(triangles, places);
+  DataTerms data(count);
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  double total = 0;
+  for (std::uint32_t v = 0; v < used.size(); ++v) {
+    const std::uint32_t row = used[v];
+    const double weight = areas(v) * confidence[row] * trust_[row];
+    if (weight == 0) continue;
+    data.add(v, Eigen::Vector3d::UnitZ(), 0, weight, row3(differences, row));
+    sum += weight * differences.row(row);
+    total += weight;
+  }
+  const Eigen::RowVector3d mean = total > 0 ? Eigen::RowVector3d(sum / total) : sum;
+  Positions tone = mean.replicate(count, 1);
+  const SparseMatrix stiffness = -kToneMm * kToneMm * laplacian(triangles, places);
+  ElasticSolver(stiffness, areas).solve(data, {.steps = 300, .tolerance = 1e-6}, tone);
+  tone_ = shape.reduced ? shape.reduced->carry(tone, shape.skin) : tone;
+}
+
+ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, int x, int y,
+                                     std::uint32_t& guess) const {
+  const SurfaceTexels::Triangle& triangle = *texel.triangle;
+  const std::vector<double>& openness = target_.shape().skin.openness;
+  const auto mix = [&](const Positions& values, const std::array<double, 3>& shares) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k) sum += shares[k] * row3(values, texel.rows[k]);
+    return sum;
+  };
+  const auto shares_at = [&](double column, double row) -> std::array<double, 3> {
+    const double b = triangle.second[0] + column * triangle.second[1] + row * triangle.second[2];
+    const double c = triangle.third[0] + column * triangle.third[1] + row * triangle.third[2];
+    return {1 - b - c, b, c};
+  };
+  const std::array<double, 3> middle = shares_at(x, y);
+  Eigen::Vector3d scan = Eigen::Vector3d::Zero();
+  double trust = 0, open = 0, found = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    trust += middle[k] * trust_[texel.rows[k]];
+    open += middle[k] * openness[texel.rows[k]];
+  }
+  // Textures are filtered over the texel; colours at vertices are sampled at several points of it.
+  const double side = std::max(texel.across.norm(), texel.down.norm());
+  const int samples =
+      colours_.at_vertices()
+          ? std::clamp(static_cast<int>(std::lround(side / spacing_mm_)), 1, kMaxSamples)
+          : 1;
+  for (int j = 0; j < samples && trust > 0; ++j) {
+    for (int i = 0; i < samples; ++i) {
+      const auto shares = shares_at(x + (i + 0.5) / samples - 0.5, y + (j + 0.5) / samples - 0.5);
+      ScanPoint seen =
+          look({mix(positions_, shares), mix(normals_, shares).normalized(), open}, guess);
+      guess = seen.area.triangle;
+      if (seen.confidence == 0) continue;
+      seen.area.across = texel.across / samples;
+      seen.area.down = texel.down / samples;
+      const auto density = density_at(seen.area);
+      if (!density) continue;
+      scan += seen.confidence * *density;
+      found += seen.confidence;
+    }
+  }
+  Colour colour;
+  const double share = trust * found / (samples * samples);
+  if (share < 1) {
+    const double width = target_.texels(picture).width(), height = target_.texels(picture).height();
+    colour.density =
+        (1 - share) *
+        (mix(tone_, middle) + template_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
+                                               {1 / width, 0}, {0, -1 / height}));
+  }
+  if (share > 0) {
+    scan /= found;
+    if (shading_.rows() > 0) scan -= mix(shading_, middle);
+    colour.density += share * scan;
+  }
+  colour.filled = 1 - share;
+  return colour;
+}
+
+BakedPicture ScanBake::picture(std::size_t number) const {
+  const SurfaceTexels& texels = target_.texels(number);
+  const int width = texels.width(), height = texels.height();
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  BakedPicture result{width, height, {}, {}, 0};
+  result.srgb.resize(3 * count);
+  result.filled.resize(count);
+  struct Sums {
+    std::array<std::uint64_t, 3> srgb = {};
+    std::uint64_t filled = 0;
+  };
+  std::vector<Sums> sums(static_cast<std::size_t>(height));
+  const std::vector<std::uint8_t>& srgb8 = srgb8_of_densities();
+  parallel_blocks(height, kTexelRows, [&](int begin, int end) {
+    std::uint32_t guess = kNoIndex;
+    for (int y = begin; y < end; ++y) {
+      const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+      Sums& sum = sums[static_cast<std::size_t>(y)];
+      for (const SurfaceTexels::Span& span : texels.row(y)) {
+        Texel texel;
+        texel.triangle = &texels.triangle(span.triangle);
+        bool is_skin = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+          texel.rows[k] = target_.skin_rows()[texels.vertices()[texel.triangle->corners[k]]];
+          is_skin = is_skin && texel.rows[k] != BakeTemplate::kNotSkin;
+        }
+        if (is_skin) {
+          const Eigen::Vector3d first = row3(positions_, texel.rows[0]);
+          const Eigen::Vector3d one = row3(positions_, texel.rows[1]) - first;
+          const Eigen::Vector3d other = row3(positions_, texel.rows[2]) - first;
+          texel.across = texel.triangle->second[1] * one + texel.triangle->third[1] * other;
+          texel.down = texel.triangle->second[2] * one + texel.triangle->third[2] * other;
+        }
+        for (int x = span.begin; x < span.end; ++x) {
+          Colour colour;
+          if (is_skin) {
+            colour = colour_of(texel, number, x, y, guess);
+          } else {
+            colour.density = template_density(number, {(x + 0.5) / width, 1 - (y + 0.5) / height},
+                                              {1.0 / width, 0}, {0, -1.0 / height});
+          }
+          const std::size_t at = row + static_cast<std::size_t>(x);
+          for (Index c = 0; c < 3; ++c) {
+            const double density = std::clamp(colour.density[c] + 0.5, 0.0, double{kMaxDensity});
+            const std::uint8_t byte = srgb8[static_cast<std::size_t>(density)];
+            result.srgb[3 * at + static_cast<std::size_t>(c)] = byte;
+            sum.srgb[static_cast<std::size_t>(c)] += byte;
+          }
+          result.filled[at] = static_cast<std::uint8_t>(std::lround(255 * colour.filled));
+          sum.filled += result.filled[at];
+        }
+      }
+    }
+  });
+  Sums all;
+  for (const Sums& row : sums) {
+    for (std::size_t c = 0; c < 3; ++c) all.srgb[c] += row.srgb[c];
+    all.filled += row.filled;
+  }
+  const std::uint64_t covered = std::max<std::uint64_t>(1, texels.covered());
+  std::array<std::uint8_t, 3> fill = {};
+  for (std::size_t c = 0; c < 3; ++c) fill[c] = static_cast<std::uint8_t>(all.srgb[c] / covered);
+  fill_uncovered(texels, std::span<const std::uint8_t>(fill), result.srgb.data());
+  const std::array<std::uint8_t, 1> none = {0};
+  fill_uncovered(texels, std::span<const std::uint8_t>(none), result.filled.data());
+  result.filled_share = static_cast<double>(all.filled) / (255.0 * static_cast<double>(covered));
+  return result;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/bake/scan_colours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/scratch_folder.h"
+#include "crowdface/heads/light_of_image.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/mesh_textures.h"
+#include "crowdface/io/obj_colours.h"
+#include "crowdface/io/srgb.h"
+#include "crowdface/io/surface_materials.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/texture/triangle_texels.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+TextureMap map_of(const Image& image, TextureKind kind) {
+  if (kind == TextureKind::kColour) {
+    return make_texture_map(image.width, image.height, light_of(image));
+  }
+  return make_texture_map(image.width, image.height, slopes_of(image), MapCoding::slopes());
+}
+
+/// #texels of a picture: whether a polygon with this file covers the centre.
+std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, int height,
+                           const Topology& topology, const TextureCoordinates& uvs) {
+  std::vector<bool> covered(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    if (maps.of_face[static_cast<std::size_t>(f)] != file) continue;
+    const auto corners = topology.face_uvs(f);
+    if (std::ranges::count(corners, kNoIndex) > 0) continue;
+    const auto& tile = maps.tile[static_cast<std::size_t>(f)];
+    const auto at = [&](std::size_t corner) -> Eigen::Vector2d {
+      const auto uv = uvs.row(corners[corner]);
+      return {(uv[0] - tile[0]) * width, (1 - (uv[1] - tile[1])) * height};
+    };
+    for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
+      for_each_texel({at(0), at(c), at(c + 1)}, width, height, [&](int x, int y) {
+        covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(x)] = true;
+      });
+    }
+  }
+  return covered;
+}
+
+/// The unit square in which a polygon's texture coordinates are centred: textures repeat.
+std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
+                                      const TextureCoordinates& uvs) {
+  constexpr double kFarthest = 1e6;
+  Eigen::RowVector2d sum(0, 0);
+  for (const std::uint32_t uv : corners) {
+    if (uv == kNoIndex) return {0, 0};
+    sum += uvs.row(uv);
+  }
+  const Eigen::RowVector2d middle = sum / static_cast<double>(corners.size());
+  if (!(middle.cwiseAbs().maxCoeff() < kFarthest)) return {0, 0};
+  return {static_cast<std::int32_t>(std::floor(middle.x())),
+          static_cast<std::int32_t>(std::floor(middle.y()))};
+}
+
+}  // namespace
+
+MeshMaps read_mesh_maps(const AttachmentTextures& placed, TextureKind kind,
+                        const Topology& topology, const TextureCoordinates& uvs) {
+  MeshMaps maps;
+  maps.of_face = placed.of_face;
+  if (placed.files.empty()) return maps;
+  maps.tile.resize(static_cast<std::size_t>(topology.face_count()));
+  constexpr Index kBlock = 16384;
+  parallel_for_each(topology.face_count(), kBlock, [&](Index f) {
+    maps.tile[static_cast<std::size_t>(f)] = square_of(topology.face_uvs(f), uvs);
+  });
+  maps.files.resize(placed.files.size());
+  parallel_for_each(placed.files.size(), [&](std::size_t i) {
+    TextureMap map = map_of(read_image(placed.files[i].path, {.jpeg = true}), kind);
+    std::vector<bool> covered =
+        coverage(maps, static_cast<std::uint32_t>(i), map.width, map.height, topology, uvs);
+    maps.files[i] = std::make_unique<FilteredTexture>(std::move(map), std::move(covered));
+  });
+  return maps;
+}
+
+ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
+  faces_.topology = std::move(mesh.topology);
+  faces_.uvs = std::move(mesh.uvs);
+  const Topology& topology = faces_.topology;
+  // The triangles in the order of triangles_of.
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto [begin, end] = topology.corners(f);
+    for (std::uint32_t c = begin + 1; c + 1 < end; ++c) {
+      sources_.push_back({static_cast<std::uint32_t>(f), begin, c, c + 1});
+    }
+  }
+  // Textures: files that material files name, or files inside the mesh file.
+  const ScratchFolder scratch;
+  for (MaterialRange& range : mesh.materials) range.name = material_name_of(range.name);
+  ObjFile named;
+  named.path = file;
+  named.materials = mesh.materials;
+  named.material_libraries = mesh.material_libraries;
+  if (!mesh.textures.empty()) {
+    named.material_libraries = {write_mesh_textures(mesh, scratch.path(), "scan")};
+    named.textures_at = scratch.path() / "scan";
+  }
+  HeadsTextures found = find_attachment_textures(faces_, {&named, 1}).front();
+  warnings_ = std::move(found.warnings);
+  for (std::string& warning : leave_out_unreadable(found)) warnings_.push_back(std::move(warning));
+  colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, faces_.uvs);
+  if (mesh.textures.empty()) {
+    for (const AttachmentTextures::File& texture : found.heads[0].files) {
+      paths_.push_back(texture.path);
+    }
+  }
+  // Colours of vertices and of materials.
+  if (mesh.colours.rows() > 0) light_ = linear_light(byte_colours(mesh.colours));
+  FaceMaterials materials = face_materials(mesh.materials, topology.face_count());
+  const std::vector<SurfaceMaterial> looks =
+      surface_materials_of(materials.names, find_material_files(file, mesh.material_libraries));
+  for (std::size_t m = 0; m < materials.names.size(); ++m) {
+    auto colour = looks[m].colour;
+    const auto own = mesh.material_colours.find(materials.names[m]);
+    if (own != mesh.material_colours.end()) colour = own->second;
+    material_light_.push_back(colour);
+  }
+  material_ = std::move(materials.of_face);
+  any_ = !colours_.files.empty() || at_vertices() ||
+         std::ranges::any_of(material_light_, [](const auto& light) { return light.has_value(); });
+}
+
+std::optional<Eigen::Array3f> ScanColours::at(const Scan& scan, const ScanArea& area) const {
+  const Source& source = sources_[scan.sources[area.triangle]];
+  const std::uint32_t file = colours_.of_face.empty() ? kNoIndex : colours_.of_face[source.face];
+  if (file != kNoIndex) {
+    const auto& rows = faces_.topology.corner_uvs;
+    if (rows[source.first] != kNoIndex && rows[source.second] != kNoIndex &&
+        rows[source.third] != kNoIndex) {
+      const auto& tile = colours_.tile[source.face];
+      const auto uv_of = [&](std::uint32_t corner) -> Eigen::Vector2d {
+        return faces_.uvs.row(rows[corner]).transpose();
+      };
+      const Eigen::Vector2d first = uv_of(source.first);
+      const Eigen::Vector2d second = uv_of(source.second) - first;
+      const Eigen::Vector2d third = uv_of(source.third) - first;
+      // A direction in space as a direction in the triangle's plane (least squares).
+      const Triangle& corners = scan.triangles[area.triangle];
+      const Eigen::Vector3d at = row3(scan.positions, corners[0]);
+      const Eigen::Vector3d one = row3(scan.positions, corners[1]) - at;
+      const Eigen::Vector3d other = row3(scan.positions, corners[2]) - at;
+      const double aa = one.dot(one), ab = one.dot(other), bb = other.dot(other);
+      const double det = aa * bb - ab * ab;
+      const auto in_uv = [&](const Eigen::Vector3d& step) -> Eigen::Vector2d {
+        if (!(det > 0)) return Eigen::Vector2d::Zero();
+        const double a = one.dot(step), b = other.dot(step);
+        return ((bb * a - ab * b) * second + (aa * b - ab * a) * third) / det;
+      };
+      const Eigen::Vector2d uv = first + area.shares[1] * second + area.shares[2] * third;
+      return colours_.files[file]->at(uv - Eigen::Vector2d(tile[0], tile[1]), in_uv(area.across),
+                                      in_uv(area.down));
+    }
+  }
+  if (at_vertices()) {
+    const auto& vertices = faces_.topology.corner_vertices;
+    const Eigen::Vector3d light = area.shares[0] * row3(light_, vertices[source.first]) +
+                                  area.shares[1] * row3(light_, vertices[source.second]) +
+                                  area.shares[2] * row3(light_, vertices[source.third]);
+    return light.cast<float>().array();
+  }
+  const auto& light = material_light_[material_[source.face]];
+  if (!light) return std::nullopt;
+  return Eigen::Array3f((*light)[0], (*light)[1], (*light)[2]);
+}
+
+}  // namespace crowdface

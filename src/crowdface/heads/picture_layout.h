@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/heads/attachment_textures.h"
+#include "crowdface/heads/head_textures.h"
+#include "crowdface/io/obj_file.h"
+#include "crowdface/texture/surface_texels.h"
+
+namespace crowdface {
+
+/// Where an image of the layout is first used.
+struct PictureSource {
+  std::size_t head = 0;
+  std::uint32_t row = 0;  ///< index of the head's file
+  Index face = 0;
+};
+
+/// Assigns an image to each polygon: that of the first head with a texture there. The images have
+/// no size yet.
+/// \return #images
+std::vector<PictureSource> lay_out_pictures(const HeadsTextures& found, TextureLayout& layout);
+
+/// Names the images after their materials and tiles.
+/// \param pictures  result of lay_out_pictures
+std::vector<PictureName> picture_names(const HeadsTextures& found,
+                                       const std::vector<PictureSource>& pictures,
+                                       const FaceMaterials& materials);
+
+}  // namespace crowdface

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/wrap_textures.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "crowdface/core/file.h"
+#include "crowdface/core/log.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/own_materials.h"
+#include "crowdface/io/tile_files.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Name of the material of templates whose polygons have none.
+constexpr const char* kSkinMaterial = "skin";
+
+/// "anna.colour.png", or with its part and tile "anna.colour.PART.1001.png".
+std::string map_name(const std::string& head, std::string_view kind, const PictureName& picture,
+                     std::string_view tile) {
+  return concat(head, '.', kind, picture.part.empty() ? "" : ".", picture.part,
+                picture.tile == 0 ? "" : ".", picture.tile == 0 ? "" : tile, ".png");
+}
+
+}  // namespace
+
+std::vector<fs::path> TextureFiles::all() const {
+  if (maps.empty()) return {};
+  std::vector<fs::path> files = {materials};
+  files.insert(files.end(), maps.begin(), maps.end());
+  files.insert(files.end(), masks.begin(), masks.end());
+  return files;
+}
+
+WrapTextures::WrapTextures(const WrapOptions& options, const WrapInputs& inputs)
+    : inputs_(inputs),
+      options_{.delight = options.delight},
+      target_(inputs.file, inputs.shape, inputs.texture_size) {
+  for (const std::string& warning : target_.warnings()) log_warning(warning);
+}
+
+TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& reports) const {
+  const std::string name = head.stem().string();
+  TextureFiles files{head.parent_path() / (name + ".mtl"), {}, {}};
+  for (const PictureName& picture : target_.names()) {
+    const std::string tile = std::to_string(picture.tile);
+    files.maps.push_back(head.parent_path() / map_name(name, "colour", picture, tile));
+    files.masks.push_back(reports / map_name(name, "filled", picture, tile));
+  }
+  return files;
+}
+
+std::string WrapTextures::materials_text(const TextureFiles& files) const {
+  const std::string name = files.materials.stem().string();
+  OwnMaterials::Replacements textures;
+  for (const auto& [material, picture] : target_.of_material()) {
+    textures[TextureKind::kColour][material.empty() ? kSkinMaterial : material] =
+        map_name(name, "colour", target_.names()[picture], kTileWord);
+  }
+  return OwnMaterials(inputs_.file.material_path(), inputs_.file.material_libraries).text(textures);
+}
+
+/// Copies the textures that the head keeps, such as those of the eyes.
+void WrapTextures::copy_other_textures(const fs::path& folder) const {
+  const ObjFile& file = inputs_.file;
+  NamedTextures named = find_textures(file.material_path(), file.material_libraries);
+  std::set<fs::path> kept;
+  for (const auto& [kind, of_material] : named.of_kind) {
+    for (const auto& [material, path] : of_material) {
+      if (kind == TextureKind::kColour && target_.of_material().contains(material)) continue;
+      kept.insert(path);
+      for (const fs::path& tile : find_tiles(path)) kept.insert(tile);
+    }
+  }
+  for (const MaterialFile& other :
+       find_material_files(file.material_path(), file.material_libraries).files) {
+    const fs::path to = folder / other.relative;
+    if (!kept.contains(other.from) || path_exists(to)) continue;
+    make_directories(to.parent_path());
+    write_file(to, read_file(other.from));
+  }
+}
+
+double WrapTextures::write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
+                           const TextureFiles& files) const {
+  const Scan skin = skin_only(scan);
+  const ScanSurface surface(
+      {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.sources});
+  const ScanBake bake(target_, result.positions, surface, colours, options_);
+  double filled = 0;
+  for (std::size_t p = 0; p < files.maps.size(); ++p) {
+    const BakedPicture picture = bake.picture(p);
+    write_file(files.maps[p], encode_png(picture.width, picture.height, 3, picture.srgb));
+    write_file(files.masks[p], encode_png(picture.width, picture.height, 1, picture.filled));
+    filled += picture.filled_share / static_cast<double>(files.maps.size());
+  }
+  copy_other_textures(files.materials.parent_path());
+  write_file(files.materials, materials_text(files));
+  return filled;
+}
+
+EncodedFile WrapTextures::head_file(EncodedFile plain, const TextureFiles& files) const {
+  std::string first = concat("mtllib ", files.materials.filename().string());
+  if (target_.of_material().contains("")) first += concat("\nusemtl ", kSkinMaterial);
+  if (plain.replace_line("mtllib", first)) return plain;
+  EncodedFile with_materials(first + '\n');
+  for (const std::string_view piece : plain.pieces()) with_materials.refer_to(piece);
+  with_materials.keep(std::make_shared<EncodedFile>(std::move(plain)));
+  return with_materials;
+}
+
+void add_texture_files(const fs::path& scan, Hasher& hasher) {
+  if (!is_obj(scan)) return;
+  std::vector<std::string> libraries;
+  const MappedFile file(scan);
+  const std::string_view text = file.bytes();
+  constexpr std::string_view kWord = "mtllib";
+  for (std::size_t at = text.find(kWord); at != text.npos; at = text.find(kWord, at + 1)) {
+    if (at > 0 && text[at - 1] != '\n') continue;
+    const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
+    libraries.emplace_back(material_statement(line).rest);
+  }
+  for (const MaterialFile& used : find_material_files(scan, libraries).files) {
+    hasher.add(hash_file(used.from).digest);
+  }
+}
+
+}  // namespace crowdface

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/bake/bake_template.h"
+#include "crowdface/bake/scan_bake.h"
+#include "crowdface/io/encoded_file.h"
+#include "crowdface/run/wrap_inputs.h"
+#include "crowdface/wrap/wrap.h"
+
+namespace crowdface {
+
+/// The files of one wrapped head that have textures.
+struct TextureFiles {
+  std::filesystem::path materials;           ///< beside the head
+  std::vector<std::filesystem::path> maps;   ///< #pictures: colours, beside the head
+  std::vector<std::filesystem::path> masks;  ///< #pictures: what was filled, beside the report
+
+  /// All files; none if there are no pictures.
+  std::vector<std::filesystem::path> all() const;
+};
+
+/// Bakes and writes the textures of wrapped heads (`wrap --texture`).
+class WrapTextures {
+ public:
+  /// \param inputs  must outlive this object.
+  WrapTextures(const WrapOptions& options, const WrapInputs& inputs);
+
+  /// \param reports  folder of the head's report.
+  TextureFiles files_of(const std::filesystem::path& head,
+                        const std::filesystem::path& reports) const;
+
+  /// Bakes and writes the textures and the material file.
+  /// \return the share of the skin's texels, 0 to 1, that the scan does not show.
+  double write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
+               const TextureFiles& files) const;
+
+  /// The head's OBJ file, whose text names the material file.
+  EncodedFile head_file(EncodedFile plain, const TextureFiles& files) const;
+
+ private:
+  void copy_other_textures(const std::filesystem::path& folder) const;
+  std::string materials_text(const TextureFiles& files) const;
+
+  const WrapInputs& inputs_;
+  BakeOptions options_;
+  BakeTemplate target_;
+};
+
+/// Hashes the material files and textures that an OBJ scan names.
+void add_texture_files(const std::filesystem::path& scan, Hasher& hasher);
+
+}  // namespace crowdface

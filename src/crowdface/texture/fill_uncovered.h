@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/texture/surface_texels.h"
+
+namespace crowdface {
+
+/// Fills the uncovered texels of a picture with one value, and then copies the gutter.
+/// \param fill    #channels
+/// \param values  height by width by #channels.
+template <class Value>
+void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Value* values) {
+  constexpr int kRowsPerBlock = 16;
+  constexpr std::size_t kGutterPerBlock = 1 << 14;
+  const std::size_t channels = fill.size();
+  const auto width = static_cast<std::size_t>(texels.width());
+  parallel_for_each(texels.height(), kRowsPerBlock, [&](int y) {
+    std::size_t x = static_cast<std::size_t>(y) * width;
+    const std::size_t row = x, end = x + width;
+    const auto fill_to = [&](std::size_t stop) {
+      for (; x < stop; ++x) std::copy_n(fill.data(), channels, values + channels * x);
+    };
+    for (const SurfaceTexels::Span& span : texels.row(y)) {
+      fill_to(row + span.begin);
+      x = row + span.end;
+    }
+    fill_to(end);
+  });
+  const auto& gutter = texels.gutter();
+  parallel_for_each(gutter.size(), kGutterPerBlock, [&](std::size_t i) {
+    std::copy_n(values + channels * std::size_t{gutter[i].from}, channels,
+                values + channels * std::size_t{gutter[i].to});
+  });
+}
+
+}  // namespace crowdface
