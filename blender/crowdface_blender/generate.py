@@ -13,11 +13,15 @@ def heads_of(collection):
     return [item for item in collection.all_objects if item.type == 'MESH']
 
 
+def tag_of(collection):
+    return meshes.plain_name(meshes.base_name(collection.name))
+
+
 def tags_of(collection, tags=()):
     """{head: names of the sub-collections that it is in}."""
     found = {item: tags for item in collection.objects if item.type == 'MESH'}
     for child in collection.children:
-        found.update(tags_of(child, (*tags, meshes.plain_name(child.name))))
+        found.update(tags_of(child, (*tags, tag_of(child))))
     return found
 
 
@@ -94,7 +98,7 @@ class Crowd:
         if options.align:
             yield "faces.align", "rigid"
         if options.groups:
-            names = [meshes.plain_name(child.name) for child in options.heads.children if heads_of(child)]
+            names = [tag_of(child) for child in options.heads.children if heads_of(child)]
             if not names:
                 raise Problem("groups need sub-collections with heads in the collection")
             yield "groups", "[" + ", ".join(f"{{name: {name}, tags: [{name}]}}" for name in names) + "]"

@@ -42,10 +42,11 @@ def fails(operator, *words):
 
 
 def import_heads():
-    """The heads in metres, side by side, women and men in sub-collections, the first with a shape key."""
+    """The heads in metres, side by side, by sex and age in sub-collections, the first with a shape key."""
     heads = bpy.data.collections.new("mob")
     bpy.context.scene.collection.children.link(heads)
     sexes = {name: bpy.data.collections.new(name) for name in ("female", "male")}
+    ages = {}
     for collection in sexes.values():
         heads.children.link(collection)
     with open(os.path.join(folder, "heads", "tags.yaml"), encoding="utf-8") as file:
@@ -56,7 +57,12 @@ def import_heads():
         item.location.x = 0.3 * number
         for collection in item.users_collection:
             collection.objects.unlink(item)
-        sexes["female" if "female" in tags[name] else "male"].objects.link(item)
+        sex = "female" if "female" in tags[name] else "male"
+        age = next(age for age in ("young", "adult", "old") if age in tags[name])
+        if (sex, age) not in ages:
+            ages[sex, age] = bpy.data.collections.new(age)
+            sexes[sex].children.link(ages[sex, age])
+        ages[sex, age].objects.link(item)
     first = bpy.data.objects[HEADS[0]]
     first.shape_key_add(name="Basis")
     smile = first.shape_key_add(name="smile", from_mix=False)
