@@ -131,6 +131,12 @@ assert.equal(await page.locator('.names .outlier').count(), 1);
 assert.equal(await page.locator('.names .outlier').getAttribute('data-name'), 'eye_outer_left');
 await choose('eye_outer_left');
 await take('outlier');
+// It is saved only once it is confirmed.
+await page.keyboard.press('Control+s');
+const question = page.getByRole('dialog', { name: 'Far from the others' });
+assert.match(await question.innerText(), /eye_outer_left: \d+\.\d mm/);
+await question.getByRole('button', { name: 'Look at them' }).click();
+assert.match(await page.locator('.count').innerText(), /not saved/, 'nothing was saved');
 await page.keyboard.press('Control+z');
 await settled();
 assert.equal(await page.locator('.names .outlier').count(), 0);

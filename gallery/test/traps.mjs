@@ -146,6 +146,22 @@ await page.waitForSelector('.painting:not([hidden])');
 assert.equal(await page.getByRole('button', { name: 'Smooth', exact: true }).getAttribute('aria-pressed'), 'true');
 await page.keyboard.press('Escape');
 
+// A click on the head finds the region that is there, and the page tells how long a frame takes.
+await page.keyboard.press('f');
+await settled();
+const found = [];
+for (const part of [0.3, 0.75]) {
+  const view = await page.locator('canvas.turntable').boundingBox();
+  await page.mouse.click(view.x + view.width / 2, view.y + part * view.height);
+  const pulsing = await page.locator('.regioncard.pulse').getAttribute('data-region');
+  assert.equal(await page.locator('.handle.pulse').getAttribute('data-region'), pulsing);
+  found.push(pulsing);
+}
+assert.deepEqual(found, [regions[0], regions[2]], 'the forehead and the chin');
+await page.keyboard.press('i');
+assert.match(await page.locator('.frames').innerText(), /^[\d.]+ ms a frame, \d+ × \d+ pixels$/);
+await page.keyboard.press('i');
+
 // The sliders are near by keyboard.
 await page.locator('body').evaluate(() => document.activeElement.blur());
 await page.reload();

@@ -2,14 +2,15 @@
 // The face in 3D: blended on the card or on the processor, whichever a measurement finds faster,
 // shown with its surfaces' colours, a texture, its distance to the target, or its regions.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Sphere, SRGBColorSpace, Texture,
-  TextureLoader, Vector3,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Ray, Sphere, SRGBColorSpace, Texture,
+  TextureLoader, Vector2, Vector3,
 } from 'three';
 import { drawsInSoftware, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from '../stage.js';
 import { extend, surfaces } from '../studio.js';
 import { CardBlend, fitsOnCard } from './card_blend.js';
 import { Draft } from './draft.js';
 import { ProcessorBlend } from './processor_blend.js';
+import { hitTriangle } from '../hit.js';
 import { Worn } from '../worn.js';
 import { layoutOf, texelOf } from './surface.js';
 
@@ -369,6 +370,28 @@ export class HeadView extends Stage {
       count += 1;
     }
     return count > 0 ? sum.divideScalar(count).applyMatrix4(this.group.matrix).y - 0.12 : 0.1;
+  }
+
+  /// Where a pixel of the window lies on the skin; nothing beside it. \param points  of the preview's vertices
+  hit(x, y, points = this.blender.read()) {
+    const box = this.node.getBoundingClientRect();
+    const at = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
+    this.camera.updateMatrixWorld();
+    const origin = new Vector3().setFromMatrixPosition(this.camera.matrixWorld);
+    const way = new Vector3(at.x, at.y, 0.5).unproject(this.camera).sub(origin).normalize();
+    const ray = new Ray(origin, way).applyMatrix4(this.group.matrixWorld.clone().invert());
+    return hitTriangle(ray.origin.toArray(), ray.direction.toArray(), points, this.mesh.triangles, this.mesh.part);
+  }
+
+  /// The region that has most of the skin under a pixel; nothing beside the head.
+  regionAt(x, y) {
+    const hit = this.hit(x, y);
+    if (!hit) return null;
+    const { alpha, triangles } = this.mesh;
+    const { regions } = this.job;
+    const corners = triangles.subarray(3 * hit.triangle, 3 * hit.triangle + 3);
+    const shares = regions.map((_, k) => corners.reduce((sum, v) => sum + alpha[v * regions.length + k], 0));
+    return regions[shares.indexOf(Math.max(...shares))].name;
   }
 
   /// Where the camera stands, to be kept.

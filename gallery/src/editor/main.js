@@ -21,6 +21,7 @@ import { toolbar, viewBar } from './toolbar.js';
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
 const patience = 250; // ms that another page has to keep its last steps
+const still = 4; // pixels: below, a press is a click
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
 
@@ -61,6 +62,7 @@ class Editor extends ProgramPage {
       fail: (error) => this.say(error.message, true),
     });
     this.build();
+    this.listenForClicks();
     this.history.listeners.push(() => this.stepped());
     this.view.controls.addEventListener('end', () => this.remember());
     addEventListener('keydown', (event) => this.key(event));
@@ -105,6 +107,7 @@ class Editor extends ProgramPage {
     this.viewTools = viewBar(this);
     this.status = el('div', { class: 'measures', role: 'status', 'aria-live': 'polite' });
     this.traitBox = el('div', { class: 'traits' });
+    this.frameNode = el('div', { class: 'frames', hidden: true });
     this.message = el('div', { class: 'message', role: 'alert', hidden: true });
     const skip = el('a', { class: 'skip', href: '#regions', onclick: (event) => {
       event.preventDefault();
@@ -112,7 +115,7 @@ class Editor extends ProgramPage {
     } }, 'To the sliders of the regions');
     this.node = el('div', { class: 'editor' }, skip, this.tools.node,
       el('main', {},
-        el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.viewTools.node, this.status),
+        el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.viewTools.node, this.frameNode, this.status),
         el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
         el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.traitBox)),
       this.message);
@@ -305,6 +308,35 @@ class Editor extends ProgramPage {
   }
   lockedNames() { return this.lockedParts().map(([name, band]) => this.partName(name, band)); }
   focusRegion(name) { this.panel.focus(name); }
+
+  /// A click on the head shows which region is there: its card comes into view, card and controller pulse.
+  listenForClicks() {
+    const { node } = this.view;
+    let pressed = null;
+    node.addEventListener('pointerdown', ({ button, clientX, clientY }) => { pressed = button === 0 ? [clientX, clientY] : null; });
+    node.addEventListener('pointerup', ({ clientX, clientY }) => {
+      if (!pressed || this.painting?.on || Math.hypot(clientX - pressed[0], clientY - pressed[1]) > still) return;
+      const name = this.view.regionAt(clientX, clientY);
+      if (!name) return;
+      this.focusRegion(name);
+      for (const part of this.node.querySelectorAll('.handle, .regioncard')) {
+        part.classList.remove('pulse');
+        part.getBoundingClientRect(); // so that the pulse begins again
+        part.classList.toggle('pulse', part.dataset.region === name);
+      }
+    });
+  }
+
+  /// Tells how long a frame takes, until it is asked again.
+  tellFrames() {
+    const { view } = this;
+    this.frameNode.hidden = !this.frameNode.hidden;
+    view.onframe = this.frameNode.hidden ? null : (ms) => {
+      this.frameNode.textContent = `${ms.toFixed(1)} ms a frame, ${view.node.width} × ${view.node.height} pixels`;
+    };
+    view.draw();
+  }
+
 
   /// The heads that lend most, in percent.
   weightText(name) {
@@ -561,7 +593,7 @@ class Editor extends ProgramPage {
       ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['K, B', 'keep, compare with what was kept'],
       ['R, L, N', 'draw a face; six like this one; between two'], ['[ ]', 'faces of the crowd'],
       ['F, Q, P', 'front, three-quarter, profile'], [', . + −', 'turn, zoom in, zoom out'],
-      ['W, C', 'wireframe; what the face shows'],
+      ['W, C', 'wireframe; what the face shows'], ['I', 'time of a frame'],
       ...(this.painting ? [['M, Space', 'paint masks; paint in the middle of the view']] : []), ['Ctrl+S', 'save the mesh'], ['Esc', 'leave a field, close a list']]);
   }
 
@@ -600,7 +632,7 @@ class Editor extends ProgramPage {
       n: () => this.shelf.startTravel(), '[': () => this.walk(-1), ']': () => this.walk(1),
       f: () => view.view('front'), q: () => view.view('three_quarter'), p: () => view.view('profile'),
       ',': () => view.turn(-10), '.': () => view.turn(10), '+': () => view.nearer(0.85), '=': () => view.nearer(0.85),
-      '-': () => view.nearer(1 / 0.85), w: () => this.setWireframe(!this.look.wireframe), c: () => this.cycleShow(),
+      '-': () => view.nearer(1 / 0.85), i: () => this.tellFrames(), w: () => this.setWireframe(!this.look.wireframe), c: () => this.cycleShow(),
       '?': () => this.help(), escape: () => this.closeAll(),
       ...(this.painting ? { m: () => this.painting.setOn(!this.painting.on) } : {}),
       ...(this.painting?.on && event.target === view.node ? { ' ': () => this.painting.paintMiddle() } : {}),

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Painting the regions' masks on the head: the brush, its numbers, and what the program makes of a
 // stroke. The program measures along the surface; the page tells where the brush was.
-import { Mesh, MeshBasicMaterial, Ray, RingGeometry, Vector2, Vector3 } from 'three';
+import { Mesh, MeshBasicMaterial, RingGeometry, Vector3 } from 'three';
 import { el } from '../dom.js';
 import { post, postForBinary } from '../api.js';
 import { showAddRegion, showProposeRegions } from './dialogs.js';
-import { hitTriangle } from '../hit.js';
 
 const pause = 30; // ms between points of a stroke
 
@@ -116,14 +115,8 @@ export class Painting {
   /// Where a pixel lies on the head; nothing beside it.
   at(x, y) {
     const { view } = this.editor;
-    const box = view.node.getBoundingClientRect();
-    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
-    view.camera.updateMatrixWorld();
-    const origin = new Vector3().setFromMatrixPosition(view.camera.matrixWorld);
-    const way = new Vector3(point.x, point.y, 0.5).unproject(view.camera).sub(origin).normalize();
-    const ray = new Ray(origin, way).applyMatrix4(view.group.matrixWorld.clone().invert());
     this.points ??= view.blender.read();
-    return hitTriangle(ray.origin.toArray(), ray.direction.toArray(), this.points, view.mesh.triangles, view.mesh.part);
+    return view.hit(x, y, this.points);
   }
 
   showRing(hit) {

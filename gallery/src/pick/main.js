@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `crowdface wrap --pick`: places that are found on template and scan, name by name.
 import { getBinary, getJson, post, put } from '../api.js';
-import { showKeys } from '../dialog.js';
+import { openDialog, showKeys } from '../dialog.js';
 import { el } from '../dom.js';
 import { History } from '../history.js';
 import { ProgramPage } from '../program_page.js';
@@ -25,6 +25,7 @@ class Picker extends ProgramPage {
     this.history.listeners.push(() => this.stepped());
     this.saved = this.wire();
     this.suggested = nothing;
+    this.confirmed = new Set(); // landmarks that lie far from the others, and are right
     this.passing = null; // a document that is shown while a place is dragged
     this.asked = 0;
     this.linked = false;
@@ -274,8 +275,16 @@ class Picker extends ProgramPage {
     return JSON.stringify(this.wire()) !== JSON.stringify(this.saved);
   }
 
+  /// Landmarks that lie far from where the others put them, left and right swapped perhaps, are saved once they are
+  /// confirmed.
   async save() {
     const landmarks = this.wire();
+    const far = landmarks.filter(({ name, template, scan }) =>
+      template !== null && scan !== null && this.suggested.residuals[name]?.outlier && !this.confirmed.has(name));
+    if (far.length > 0) {
+      await new Promise((done) => { this.confirmOutliers(far.map(({ name }) => name), done); });
+      if (far.some(({ name }) => !this.confirmed.has(name))) return false;
+    }
     const { file, pairs } = await put('landmarks', { landmarks });
     this.saved = landmarks;
     this.job.loses_comments = false;
@@ -283,10 +292,27 @@ class Picker extends ProgramPage {
     this.say(`Saved: ${file}, ${pairs} pairs${pairs < fewest ? `; wrapping takes at least ${fewest}` : ''}`);
   }
 
+  /// \param done  is called when the question is answered
+  confirmOutliers(names, done) {
+    const dialog = openDialog('Far from the others',
+      el('ul', {}, names.map((name) => el('li', { class: 'outlier' }, `${name}: ${this.suggested.residuals[name].mm.toFixed(1)} mm`))),
+      el('p', {}, 'These landmarks lie far from where the others put them. Are left and right swapped?'),
+      el('div', { class: 'choices' },
+        el('button', { class: 'export', title: 'Picks them again', onclick: () => { this.choose(names[0]); dialog.close(); } }, 'Look at them'),
+        el('button', {
+          title: 'They are right',
+          onclick: () => {
+            for (const name of names) this.confirmed.add(name);
+            dialog.close();
+          },
+        }, 'Save all the same')));
+    dialog.addEventListener('close', done);
+  }
+
   /// Another scan of the folder, this one saved.
   async open(scan) {
     if (!this.job.scans[scan]) return;
-    if (this.isChanged()) await this.save();
+    if (this.isChanged() && await this.save() === false) return;
     await post('open', { scan });
     location.reload();
   }
