@@ -40,7 +40,9 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
              "With --batch: the template head");
   add_option(command, "--landmarks", options.landmarks, "FILE",
              "A YAML file with template: {NAME: vertex}, numbered from 0, and scan: {NAME: [x, y, "
-             "z]}; or only the landmarks of the scan, as .pp (MeshLab), CSV, JSON or .npy");
+             "z]}; or only the landmarks of the scan, as .pp (MeshLab), CSV, JSON or .npy; or "
+             "none: use no "
+             "landmarks, also none that are detected");
   add_option(command, "--template-landmarks", options.template_landmarks, "FILE",
              "Only the landmarks of the template, in the same formats");
   add_option(

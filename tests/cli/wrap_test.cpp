@@ -120,6 +120,21 @@ TEST_F(Wrap, AFaceThatTheReliefShowsNeedsNoLandmarks) {
   EXPECT_TRUE(fs::exists(out));
 }
 
+TEST_F(Wrap, NoneTurnsOffPickedAndDetectedLandmarks) {
+  fs::copy(head(2), scans_ / "person.obj");
+  folder_.write("scans/person.yaml", concat("scan: ", kPlaces));
+  const fs::path out = folder_ / "head.obj";
+  const std::string scan = (scans_ / "person.obj").string();
+  const auto dry = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"wrap", head(1).string(), scan, "-o", out.string(), "--dry-run"});
+    return crowdface(0, more).err;
+  };
+  EXPECT_THAT(dry({}), ::testing::HasSubstr("detected from the shape"));
+  const std::string none = dry({"--landmarks", "none"});
+  EXPECT_THAT(none, ::testing::HasSubstr(" 0 landmarks"));
+  EXPECT_THAT(none, ::testing::Not(::testing::HasSubstr("detected from the shape")));
+}
+
 TEST_F(Wrap, BakesTexturesThatTheMaterialFileNames) {
   const fs::path coloured = folder_ / "coloured";
   crowdface(0, {"synth", "-o", coloured.string(), "--count", "2", "--vertices", "5000",

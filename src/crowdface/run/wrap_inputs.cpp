@@ -172,8 +172,12 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
   if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
   inputs.hint = pose_hint(options);
-  inputs.proposed = propose_landmarks(inputs.shape);
-  if (!options.landmarks.empty()) {
+  if (options.landmarks == kNoLandmarks) {
+    digest.add("--landmarks none");
+  } else {
+    inputs.proposed = propose_landmarks(inputs.shape);
+  }
+  if (!options.landmarks.empty() && options.landmarks != kNoLandmarks) {
     inputs.landmarks = read_landmarks(
         options.landmarks, options.batch.empty() ? LandmarksOf::kScan : LandmarksOf::kTemplate);
     digest.add(hash_file(options.landmarks).digest);

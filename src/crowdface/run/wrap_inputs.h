@@ -29,6 +29,9 @@ struct WrapOptions {
   bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
 };
 
+/// In place of the file of `--landmarks`: reads no landmarks and detects none.
+inline constexpr const char* kNoLandmarks = "none";
+
 /// The inputs that all scans of a run share.
 struct WrapInputs {
   ObjFile file;    ///< the template

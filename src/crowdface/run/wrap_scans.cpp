@@ -65,6 +65,9 @@ std::vector<Task> tasks_without_textures(const WrapOptions& options) {
 
 std::vector<Task> tasks_of(const WrapOptions& options, const WrapTextures* textures) {
   std::vector<Task> tasks = tasks_without_textures(options);
+  if (options.landmarks == kNoLandmarks) {
+    for (Task& task : tasks) task.own_landmarks.clear();
+  }
   if (textures == nullptr) return tasks;
   for (Task& task : tasks) {
     task.textures = textures->files_of(task.head, task.report.parent_path());
@@ -73,7 +76,8 @@ std::vector<Task> tasks_of(const WrapOptions& options, const WrapTextures* textu
 }
 
 void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<Task>& tasks) {
-  std::vector<fs::path> inputs = {options.shape, options.landmarks, options.ignore};
+  std::vector<fs::path> inputs = {options.shape, options.ignore};
+  if (options.landmarks != kNoLandmarks) inputs.emplace_back(options.landmarks);
   if (!options.model.empty()) {
     for (fs::path& head : list_heads(options.model)) inputs.push_back(std::move(head));
   }
