@@ -80,9 +80,9 @@ export class Painting {
     if (on && !this.on) this.shownBefore = this.editor.look.show;
     this.on = on;
     this.node.hidden = !on;
+    this.editor.view.worn.node.visible = !on; // it would lie before the skin
     this.editor.setShow(on ? 'regions' : this.shownBefore);
     this.showRing(null);
-    this.editor.view.worn.node.visible = !on; // it would lie before the skin
     if (on) this.node.scrollIntoView({ block: 'nearest' });
   }
 
