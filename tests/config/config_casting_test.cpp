@@ -128,6 +128,18 @@ TEST_F(ConfigTest, TagsOfAGroupBindTargetsThatHaveWeights) {
   EXPECT_EQ(config->groups[1].sampling.targets.size(), 2U);
 }
 
+TEST_F(ConfigTest, SourcesWithoutTheTagsOfTheirGroupAreWarnedOf) {
+  const auto warning = [&](const std::string& group) {
+    ::testing::internal::CaptureStderr();
+    EXPECT_TRUE(read(kTagged + "groups: [{name: women, count: 5, " + group + "}]\n")) << told();
+    return ::testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(warning("tags: [female], sources: all"),
+              HasSubstr("1 of the 3 sources do not have the group's tags, female; about 5 faces"));
+  EXPECT_EQ(warning("tags: [female], sources: [ann]"), "");
+  EXPECT_EQ(warning("sources: all"), "");
+}
+
 TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   const auto refused = [&](const std::string& group, const std::string& phrase) {
     EXPECT_FALSE(read(kTagged + "sampling: {bands: {build: {}, skin: 8 mm}}\ngroups: [{name: a, " +

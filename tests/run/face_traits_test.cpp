@@ -210,6 +210,20 @@ TEST(FaceTraits, ALargerCrowdMovesNobody) {
   }
 }
 
+TEST(FaceTraits, ALimitOnOneFaceChangesItAsLittleAsNecessary) {
+  TraitFolder folder;
+  const std::vector<FacePlan> plain = folder.plan_of(6, "traits: {nose_width: {}}\n");
+  const double most = plain[2].traits.at(0) - 0.8;
+  const std::vector<FacePlan> faces = folder.plan_of(
+      6, concat("changes: {t_0003: {traits: {nose_width: {at_most: ", most, " mm}}}}\n"));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i == 2) continue;
+    EXPECT_EQ(faces[i].traits, plain[i].traits) << i;
+  }
+  EXPECT_LE(faces[2].traits.at(0), most + 1e-4);
+  EXPECT_GE(faces[2].traits.at(0), most - 0.2);
+}
+
 TEST(FaceTraits, SpreadCrowdsMeetTheLimitsToo) {
   TraitFolder folder;
   const std::vector<FacePlan> faces =

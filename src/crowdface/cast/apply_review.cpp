@@ -7,6 +7,7 @@
 
 #include "crowdface/cast/band_order.h"
 #include "crowdface/cast/crowd_statistics.h"
+#include "crowdface/cast/face_changes.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/shares.h"
 #include "crowdface/core/error.h"
@@ -181,11 +182,7 @@ class Redrawing {
       kind.targets = {{old.recipe.target, 1}};
       face = draw_face(casting_, *old.index, face.notes.attempt, kind);
     }
-    face.recipe.target = old.recipe.target;
-    face.recipe.mixture = old.recipe.mixture;
-    face.recipe.asymmetry = old.recipe.asymmetry;
-    face.recipe.mirrored = old.recipe.mirrored;
-    take_over(mark.locked, old.recipe, face.recipe);
+    keep_locked(mark.locked, old.recipe, face.recipe);
     return face;
   }
 
@@ -232,15 +229,32 @@ class Redrawing {
 
 }  // namespace
 
-void apply_review(const CastingOptions& casting, const FaceJudge& judge, const Review& review,
+void apply_review(const CastingOptions& casting, const FaceJudge& judge, std::size_t number,
                   CastingResult& cast) {
-  const std::vector<Redraw> redraws = read_marks(review, cast);
+  const Review& review = casting.reviews[number];
+  std::vector<Redraw> redraws = read_marks(review, cast);
+  std::vector<FaceChange> changes;
+  std::erase_if(redraws, [&](const Redraw& redraw) {
+    const auto changed = cast.changed.find(static_cast<std::size_t>(redraw.face));
+    const bool acts_as_change = !redraw.mark->locked.empty() && changed != cast.changed.end() &&
+                                changed->second.is_other_person;
+    if (acts_as_change) {
+      changes.emplace_back().id = redraw.mark->id;
+      changes.back().locked = redraw.mark->locked;
+    }
+    return acts_as_change;
+  });
   std::vector<bool> settled(cast.crowd.size(), true);
   for (const Redraw& redraw : redraws) settled[static_cast<std::size_t>(redraw.face)] = false;
   Redrawing redrawing(casting, judge, cast);
   for (const Redraw& redraw : redraws) {
     if (!redrawing.redraw(redraw, settled)) return;
   }
+  for (const Redraw& redraw : redraws) {
+    change_again(casting, judge, static_cast<std::size_t>(redraw.face), cast);
+  }
+  changes.insert(changes.end(), review.changes.begin(), review.changes.end());
+  apply_changes(casting, judge, changes, concat("review ", number + 1), cast);
 }
 
 }  // namespace crowdface

@@ -8,10 +8,16 @@
 namespace crowdface {
 
 /// Redraws the faces that a review rejects, so that each keeps its distance from all other faces,
-/// and stores the review's notes. Faces that are not rejected do not change.
+/// and stores the review's notes. Then applies the review's changes. All other faces stay as they
+/// are.
 ///
+/// - A redrawn face keeps the changes of earlier reviews.
+/// - If an earlier review had a face drawn again (FaceChange::draws_again), a mark that rejects it
+///   and locks parts acts as a change that locks these parts.
+///
+/// \param number  index of the review in `casting.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.
-void apply_review(const CastingOptions& casting, const FaceJudge& judge, const Review& review,
+void apply_review(const CastingOptions& casting, const FaceJudge& judge, std::size_t number,
                   CastingResult& cast);
 
 }  // namespace crowdface

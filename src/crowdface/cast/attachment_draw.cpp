@@ -411,4 +411,16 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
   replace_up_to(crowd.size());
 }
 
+void draw_attachments_alone(const AttachmentDraw& draw, const std::vector<int>& groups,
+                            const std::vector<FacePlan>& crowd, FacePlan& face) {
+  AttachmentDrawing drawing(draw, groups, {});
+  for (const FacePlan& earlier : crowd) {
+    if (earlier.index || earlier.id == face.id) break;
+    drawing.of(earlier);
+  }
+  Drawn drawn = drawing.of(face);
+  face.attachments = std::move(drawn.names);
+  face.hair = drawn.hair;
+}
+
 }  // namespace crowdface

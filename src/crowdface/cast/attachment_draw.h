@@ -67,4 +67,10 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
                       std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
                       const std::vector<std::size_t>& rejected_from = {});
 
+/// Chooses the attachments of a face that was changed, as if it were the only sampled face, so that
+/// they do not depend on other sampled faces and do not change these.
+/// \param crowd  In the order of the plan; may contain the face as it was before.
+void draw_attachments_alone(const AttachmentDraw& draw, const std::vector<int>& groups,
+                            const std::vector<FacePlan>& crowd, FacePlan& face);
+
 }  // namespace crowdface

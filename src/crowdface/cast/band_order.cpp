@@ -40,4 +40,12 @@ void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& r
   }
 }
 
+void keep_locked(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
+  recipe.target = from.target;
+  recipe.mixture = from.mixture;
+  recipe.asymmetry = from.asymmetry;
+  recipe.mirrored = from.mirrored;
+  take_over(parts, from, recipe);
+}
+
 }  // namespace crowdface

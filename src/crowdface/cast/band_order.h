@@ -19,4 +19,7 @@ void keep_order(RegionRecipe& region);
 /// \param parts  Bands to copy: region · #bands + band.
 void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe);
 
+/// Copies bands as take_over does, and the target, mirroring and asymmetry, which the bands require.
+void keep_locked(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe);
+
 }  // namespace crowdface

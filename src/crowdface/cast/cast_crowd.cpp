@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "crowdface/cast/apply_review.h"
+#include "crowdface/cast/face_changes.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/population.h"
 #include "crowdface/cast/shares.h"
@@ -172,9 +173,10 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   };
   for (std::size_t r = 0; r < casting.reviews.size(); ++r) {
     grow_to(before[r]);
-    if (!result.shortfall) apply_review(casting, judge, casting.reviews[r], result);
+    if (!result.shortfall) apply_review(casting, judge, r, result);
   }
   grow_to(casting.count);
+  if (!result.shortfall) apply_changes_of_config(casting, judge, result);
   return result;
 }
 

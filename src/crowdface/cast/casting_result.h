@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/face_space.h"
 #include "crowdface/cast/families.h"
+#include "crowdface/cast/review.h"
 
 namespace crowdface {
 
@@ -22,6 +24,24 @@ struct Shortfall {
   std::string family = {};    ///< name of the family that could not be cast, if any
   std::string reviewed = {};  ///< id of the face that could not be redrawn, if any
   std::string recipe = {};    ///< id of the hand-written face that could not be drawn, if any
+  std::string changed = {};   ///< id of the face that could not be changed, if any
+};
+
+/// A change of a face, and who asks for it.
+struct AppliedChange {
+  FaceChange change;
+  std::string by;                      ///< such as "review 2"
+  std::optional<FacePlan> variant_of;  ///< the other face, as it was before the change
+};
+
+/// A face with the changes that the config and reviews ask for.
+struct ChangedFace {
+  FacePlan face;  ///< without colours and attachments
+  FaceSpace::Point point;
+  std::vector<AppliedChange> changes = {};  ///< in their order; those of the config come first
+  TraitLimits traits = {};                  ///< the limits of all changes
+  bool is_other_person = false;             ///< the face was drawn again
+  std::optional<FacePlan> variant_of = {};  ///< the face that this face is a variant of
 };
 
 /// A cast crowd.
@@ -33,6 +53,9 @@ struct CastingResult {
   std::vector<FacePlan> rejected;  ///< faces that reviews rejected, in order; ids as in `crowd`
   /// #rejected: size of the crowd when the face was rejected; later faces joined afterwards
   std::vector<std::size_t> rejected_from;
+  /// By index in `crowd`, which contains the face without its changes. The other faces do not
+  /// depend on the changes.
+  std::map<std::size_t, ChangedFace> changed = {};
   Rejections rejections;
   std::optional<Shortfall> shortfall;
 };

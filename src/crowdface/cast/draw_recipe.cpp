@@ -119,12 +119,6 @@ void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScal
   recipe.smoothness = static_cast<double>(recipe.iterations) / static_cast<double>(scale.max_level);
 }
 
-std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& written) {
-  std::vector<SourceWeight> weights;
-  for (const WeightedHead& source : written) weights.push_back({source.head, source.weight});
-  return normalized_weights(std::move(weights));
-}
-
 double largest_weight(const BandRecipe& band) {
   double largest = 0;
   for (const SourceWeight& source : band.weights) largest = std::max(largest, source.weight);
@@ -213,6 +207,12 @@ RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, st
 
 std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
   return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
+}
+
+std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& written) {
+  std::vector<SourceWeight> weights;
+  for (const WeightedHead& source : written) weights.push_back({source.head, source.weight});
+  return normalized_weights(std::move(weights));
 }
 
 std::string face_id(const std::string& crowd, std::uint64_t index) {

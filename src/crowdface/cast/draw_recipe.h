@@ -40,6 +40,7 @@ struct CastingOptions {
   std::vector<Group> groups = {};            ///< groups of the sampled faces
   HeadTags tags = {};                        ///< #heads, or empty
   std::vector<TraitTarget> population = {};  ///< asked distributions of measurements
+  std::vector<FaceChange> changes = {};      ///< applied after all reviews
 };
 
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
@@ -60,6 +61,9 @@ FaceKind kind_of_group(const CastingOptions& casting,
 
 /// Returns smoothness · L_max, rounded to whole iterations.
 std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
+
+/// Returns the weights of a hand-written recipe, divided by their sum.
+std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& written);
 
 /// Returns the id of sampled face `index`: the crowd's name and at least four digits.
 std::string face_id(const std::string& crowd, std::uint64_t index);

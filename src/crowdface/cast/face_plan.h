@@ -24,6 +24,8 @@ struct CastingNotes {
   std::uint32_t attempt = 0;  ///< number of rejected draws before this one
   std::optional<Nearest> nearest;
   std::optional<std::string> review;  ///< a reviewer's note
+  /// Changes of the face, in order: who changed which keys, such as "review 2: age, hair".
+  std::vector<std::string> changes = {};
 };
 
 /// A face of a crowd: one line of its plan.

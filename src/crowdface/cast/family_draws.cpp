@@ -8,6 +8,7 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/cast/mixed_recipe.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/random.h"
@@ -33,20 +34,6 @@ constexpr double kStrangersNearer = 0.1;
 /// distance by which a child may be farther from a parent than the limit allows, as a fraction of
 /// max_distance, if the parents are far apart
 constexpr double kRoomAtHalf = 0.25;
-
-double mixed(double a, double b, double t) {
-  return a == b ? a : (1 - t) * a + t * b;
-}
-
-/// Returns (1 − t)·a + t·b of two bands' numbers.
-BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale) {
-  BandRecipe band;
-  band.weights = mixed_weights(a.weights, b.weights, t);
-  band.smoothness = (1 - t) * a.smoothness + t * b.smoothness;
-  band.iterations = iterations_of(band.smoothness, scale);
-  band.extrapolation = (1 - t) * a.extrapolation + t * b.extrapolation;
-  return band;
-}
 
 /// Returns the parameters of a drawn parent. If the crowd has no target of the parent's sex, all
 /// targets are allowed.
@@ -273,18 +260,8 @@ FacePlan FamilyDraws::founder(std::uint32_t attempt) const {
 /// Returns (1 − t)·from + t·to, aged.
 FacePlan FamilyDraws::towards(const FacePlan& from, const Draft& draft, double t) const {
   FacePlan face = draft.to;
-  set_target(face.recipe,
-             mixed_weights(target_shares(from.recipe), target_shares(draft.to.recipe), t));
+  face.recipe = mixed(from.recipe, draft.to.recipe, t, casting_.scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
-  face.recipe.asymmetry = mixed(from.recipe.asymmetry, draft.to.recipe.asymmetry, t);
-  face.recipe.mirrored = from.recipe.mirrored;
-  for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
-    RegionRecipe& region = face.recipe.regions[k];
-    for (std::size_t b = 0; b < band_count(region); ++b) {
-      BandRecipe& band = band_of(region, b);
-      band = mixed(band_of(from.recipe.regions[k], b), band, t, casting_.scale);
-    }
-  }
   apply_age(face, draft.age, sampling_of(face));
   return face;
 }

@@ -27,10 +27,12 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   Remedy remedy;
   remedy.binding = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
-  if (!shortfall.family.empty() || !shortfall.reviewed.empty() || !shortfall.recipe.empty()) {
+  if (!shortfall.family.empty() || !shortfall.reviewed.empty() || !shortfall.recipe.empty() ||
+      !shortfall.changed.empty()) {
     return remedy;
   }
   easier.reviews.clear();
+  easier.changes.clear();
   easier.count = std::min(casting.count, kMaxTried);
   remedy.tried = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding);
@@ -74,6 +76,7 @@ std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const Fa
   CastingOptions first_fit = casting;
   first_fit.diversity.mode = DiversityOptions::Mode::kFirstFit;
   first_fit.reviews.clear();
+  first_fit.changes.clear();
   first_fit.count = kMaxTried;
   return cast_crowd(first_fit, judge).shortfall;
 }

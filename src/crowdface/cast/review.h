@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/sampling.h"
+
 namespace crowdface {
 
 /// A reviewer's verdict on one face.
@@ -22,13 +24,37 @@ struct ReviewMark {
   std::optional<std::string> note;
 };
 
-/// The marks of one reviewer.
+/// A change of one face. To add a key, add a member here, a row in config/changes_keys.cpp, and its
+/// effect in cast/face_changes.cpp or, if it concerns attachments, in run/changed_faces.cpp.
+struct FaceChange {
+  enum class AgeStep { kOlder, kYounger };
+  std::string id;
+  std::optional<AgeStep> age_step;
+  std::optional<double> age;              ///< −1 … 1, see apply_age; excludes `age_step`
+  std::optional<std::string> variant_of;  ///< id of the face that this face becomes similar to
+  double distance_mm = 1.5;               ///< distance from `variant_of`
+  std::optional<std::string> group;       ///< the face is drawn again in this group
+  /// Parts that stay while the other parts are drawn again, as in ReviewMark.
+  std::vector<std::size_t> locked;
+  TraitLimits traits;  ///< the face is changed as little as these limits require
+  /// Names of attachments, which replace those of the same kinds. No names: the face wears nothing.
+  std::optional<std::vector<std::string>> wears;
+  std::optional<std::string> hair;    ///< name of a hair colour
+  std::vector<WeightedHead> colours;  ///< heads that lend textures; empty: no change
+
+  bool draws_again() const { return group || !locked.empty() || !traits.empty(); }
+};
+
+/// The marks and changes of one reviewer.
 struct Review {
   /// Number of sampled faces of the crowd that was reviewed. The review applies to this crowd;
   /// faces with larger numbers are cast later, so that a larger crowd changes none of its faces.
   /// Empty: the whole crowd.
   std::optional<std::uint64_t> count;
+  /// Number of earlier reviews whose results the reviewer saw; see merged_reviews. Empty: all.
+  std::optional<std::uint64_t> after = {};
   std::vector<ReviewMark> marks;
+  std::vector<FaceChange> changes;  ///< applied after the marks
 };
 
 }  // namespace crowdface

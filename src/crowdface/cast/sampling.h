@@ -77,6 +77,7 @@ struct BandSampling {
 struct WeightedHead {
   Eigen::Index head = 0;
   double weight = 1;
+  bool operator==(const WeightedHead&) const = default;
 };
 
 /// Draws one of several things in proportion to their weights.

@@ -45,6 +45,10 @@ std::vector<std::size_t> Config::named_traits() const {
   for (const Group& group : groups) add(group.sampling.traits);
   for (const ManualRecipe& recipe : recipes) add(recipe.traits);
   for (const FamilyOptions& family : families) add(family.traits);
+  for (const FaceChange& change : changes) add(change.traits);
+  for (const Review& one : review.reviews) {
+    for (const FaceChange& change : one.changes) add(change.traits);
+  }
   for (const TraitTarget& target : population.targets) named.insert(target.trait);
   return {named.begin(), named.end()};
 }

@@ -221,6 +221,7 @@ struct Config {
   std::vector<ManualRecipe> recipes;
   std::vector<FamilyOptions> families;
   std::vector<Group> groups;
+  std::vector<FaceChange> changes;  ///< changes of single faces; reviews contain further ones
 
   /// A table of distributions of measurements.
   struct TraitTable {

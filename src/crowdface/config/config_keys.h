@@ -265,6 +265,14 @@ Key<Config> believability_key();
 Key<Config> recipes_key();
 Key<Config> groups_key();
 Key<Config> families_key();
+Key<Config> changes_key();
+/// Reads the changes of faces, of a config or of a review.
+std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
+/// Reads a list of regions, bands or bands of regions: region · #bands + band, ascending.
+std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft);
+/// Whether a sampled face (any face) of this config's crowd has this id.
+bool is_sampled_face(const std::string& id, const Config& config);
+bool is_face(const std::string& id, const Config& config);
 /// Returns the ids of a family's members and of its sampled parents.
 std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
 /// The key `hair_colours` of a section: fractions of the faces by the name of their hair colour.
@@ -272,6 +280,23 @@ template <class Section>
 Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
   const auto some = [=](const Section& section, const auto&) { return !(section.*shares).empty(); };
   return key("hair_colours", shares, hair_colours()).written_if(some);
+}
+/// Reads a mapping from heads to weights, {head: weight}.
+void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
+                       ConfigDraft& draft);
+void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, ConfigDraft& draft);
+/// The key `colours` of a section: the heads that lend textures.
+template <class Section>
+Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
+  return Key<Section>{
+      "colours",
+      [=](const YamlNode& node, Section& section, ConfigDraft& draft) {
+        read_colours(node, section.*weights, draft);
+      },
+      [=](const Section& section, const WriteContext& context) {
+        return (section.*weights).empty() ? "" : write_weights(section.*weights, context);
+      }}
+      .taking("`{head: weight}`");
 }
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_review(const Config& config, const WriteContext& context);

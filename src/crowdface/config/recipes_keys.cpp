@@ -15,27 +15,6 @@ using HandBand = ManualRecipe::Band;
 using HandRegion = ManualRecipe::Region;
 using Unit = SmoothnessDistribution::Unit;
 
-void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
-                       ConfigDraft& draft) {
-  if (node.entries.empty()) {
-    draft.complaints.expected(node, "a mapping from heads to weights, {head: weight}");
-    return;
-  }
-  double sum = 0;
-  bool sound = true;
-  for (const YamlEntry& entry : node.entries) {
-    const auto head = find_head(entry.key, entry.key_place, node.path, draft);
-    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
-    sum += weight.value_or(0);
-    sound = sound && weight;
-    if (head && weight) weights.push_back({*head, *weight});
-  }
-  if (sound && sum <= 0) {
-    draft.complaints.add_at(node, "the weights sum to zero; at least one must be above 0");
-  }
-  std::ranges::sort(weights, {}, &WeightedHead::head);
-}
-
 void read_band_weights(const YamlNode& node, HandBand& band, ConfigDraft& draft) {
   if (draft.config.blending.normalization == Normalization::kPrinted) {
     draft.complaints.add_at(
@@ -176,18 +155,7 @@ const Keys<ManualRecipe>& recipe_keys() {
       key("asymmetry", &ManualRecipe::asymmetry, asymmetry()),
       key("mirrored", &ManualRecipe::mirrored, word<bool>()),
       key("traits", &ManualRecipe::traits, trait_limits()),
-      Key<ManualRecipe>{"colours",
-                        [](const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
-                          if (draft.config.textures.blend != TextureBlend::kAuto) {
-                            draft.complaints.add_at(node, "requires textures.blend: auto");
-                          }
-                          read_head_weights(node, recipe.colours, draft);
-                        },
-                        [](const ManualRecipe& recipe, const WriteContext& context) {
-                          return recipe.colours.empty() ? ""
-                                                        : write_weights(recipe.colours, context);
-                        }}
-          .taking("`{head: weight}`"),
+      colours_key(&ManualRecipe::colours),
       Key<ManualRecipe>{"regions", read_regions_of, write_regions_of}
           .taking("`{region: {…}}`")
           .holding(region_keys())};
@@ -217,6 +185,34 @@ std::string write_recipes(const Config& config, const WriteContext& context) {
 }
 
 }  // namespace
+
+void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
+                       ConfigDraft& draft) {
+  if (node.entries.empty()) {
+    draft.complaints.expected(node, "a mapping from heads to weights, {head: weight}");
+    return;
+  }
+  double sum = 0;
+  bool sound = true;
+  for (const YamlEntry& entry : node.entries) {
+    const auto head = find_head(entry.key, entry.key_place, node.path, draft);
+    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
+    sum += weight.value_or(0);
+    sound = sound && weight;
+    if (head && weight) weights.push_back({*head, *weight});
+  }
+  if (sound && sum <= 0) {
+    draft.complaints.add_at(node, "the weights sum to zero; at least one must be above 0");
+  }
+  std::ranges::sort(weights, {}, &WeightedHead::head);
+}
+
+void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, ConfigDraft& draft) {
+  if (draft.config.textures.blend != TextureBlend::kAuto) {
+    draft.complaints.add_at(node, "requires textures.blend: auto");
+  }
+  read_head_weights(node, weights, draft);
+}
 
 Key<Config> recipes_key() {
   return Key<Config>{"recipes", read_recipes, write_recipes}.holding(recipe_keys());

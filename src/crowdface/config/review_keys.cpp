@@ -15,7 +15,7 @@ namespace {
 using Verdict = ReviewMark::Verdict;
 
 constexpr std::size_t kLongestNote = 2000;
-constexpr std::uint64_t kMaxCount = 1'000'000;
+constexpr std::uint64_t kMostFaces = 1'000'000;
 
 /// Returns every id of this config's crowd except those of sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
@@ -28,14 +28,6 @@ std::vector<std::string> named_ids(const Config& config) {
   return ids;
 }
 
-bool is_sampled_id(const std::string& id, const Config& config) {
-  const std::string start = concat(config.crowd.name, '_');
-  if (!id.starts_with(start)) return false;
-  const auto index = parse_unsigned(std::string_view(id).substr(start.size()));
-  return index && *index >= 1 && *index <= config.crowd.count &&
-         id == face_id(config.crowd.name, *index);
-}
-
 bool is_drawn_parent(const std::string& id, const Config& config) {
   return std::ranges::any_of(config.families, [&](const auto& family) {
     return std::ranges::any_of(family.parents, [&](const Parent& parent) {
@@ -45,35 +37,7 @@ bool is_drawn_parent(const std::string& id, const Config& config) {
 }
 
 void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
-  std::vector<std::string> names = draft.config.regions.names;
-  for (const std::string& band : draft.config.plan_names().bands) names.push_back(band);
-  const bool banded = names.size() > draft.config.regions.names.size();
-  if (node.kind != YamlNode::Kind::kList || node.items.empty()) {
-    draft.complaints.expected(node, "a list of regions or bands to keep, [top]");
-    return;
-  }
-  for (const YamlNode& item : node.items) {
-    const bool of_both =
-        item.kind == YamlNode::Kind::kScalar && item.text.find('/') != item.text.npos;
-    const auto name = of_both ? std::optional(item.text) : read_name(item, draft.complaints);
-    if (!name) continue;
-    const std::vector<std::size_t> found =
-        names.empty() ? std::vector<std::size_t>() : find_parts(*name, draft.config);
-    if (found.empty() && draft.regions_known) {
-      draft.complaints.add_at(
-          item, names.empty()
-                    ? "the config has no regions, so nothing can be locked"
-                    : concat(banded ? "no region or band is called " : "no region is called ",
-                             quoted(*name), suggestion(*name, names)));
-    }
-    mark.locked.insert(mark.locked.end(), found.begin(), found.end());
-  }
-  std::ranges::sort(mark.locked);
-  mark.locked.erase(std::unique(mark.locked.begin(), mark.locked.end()), mark.locked.end());
-  if (!names.empty() && mark.locked.size() == draft.config.part_names().size()) {
-    draft.complaints.add_at(
-        node, "every region is locked, so nothing is left to redraw; unlock at least one");
-  }
+  mark.locked = read_locked_parts(node, draft);
   mark.verdict = Verdict::kReject;
 }
 
@@ -104,24 +68,29 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   Review review;
   if (!root) return review;
-  const MapReader map(*root, {"schema", "count", "faces"}, draft.complaints);
+  const MapReader map(*root, {"schema", "count", "after", "faces", "changes"}, draft.complaints);
   if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
     read_whole(*schema, 1, 1, draft.complaints);
   }
   if (const YamlNode* count = map.find("count")) {
-    review.count = read_whole(*count, 0, kMaxCount, draft.complaints);
+    review.count = read_whole(*count, 0, kMostFaces, draft.complaints);
   }
-  const YamlNode* faces = map.require("faces", "such as \"faces: {market_0007: reject}\"");
+  if (const YamlNode* after = map.find("after")) {
+    review.after = read_whole(*after, 0, kMostFaces, draft.complaints);
+  }
+  if (const YamlNode* changes = map.find("changes")) review.changes = read_changes(*changes, draft);
+  const YamlNode* faces = map.find("changes") != nullptr
+                              ? map.find("faces")
+                              : map.require("faces", "such as \"faces: {market_0007: reject}\"");
   if (faces == nullptr) return review;
   if (!draft.complaints.expect_map(*faces, "a mapping from faces to marks, {market_0007: reject}"))
     return review;
   // A mark must name a face of this crowd. Parents of children and hand-written recipes cannot be
   // rejected.
-  const std::vector<std::string> ids = named_ids(draft.config);
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;
     mark.id = entry.key;
-    if (!contains(ids, entry.key) && !is_sampled_id(entry.key, draft.config)) {
+    if (!is_face(entry.key, draft.config)) {
       draft.complaints.add(entry.key_place,
                            concat("no face of this crowd is called ", quoted(entry.key)));
     }
@@ -185,6 +154,52 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
 }
 
 }  // namespace
+
+bool is_sampled_face(const std::string& id, const Config& config) {
+  const std::string start = concat(config.crowd.name, '_');
+  if (!id.starts_with(start)) return false;
+  const auto index = parse_unsigned(std::string_view(id).substr(start.size()));
+  return index && *index >= 1 && *index <= config.crowd.count &&
+         id == face_id(config.crowd.name, *index);
+}
+
+bool is_face(const std::string& id, const Config& config) {
+  return is_sampled_face(id, config) || contains(named_ids(config), id);
+}
+
+std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft) {
+  std::vector<std::size_t> locked;
+  std::vector<std::string> names = draft.config.regions.names;
+  for (const std::string& band : draft.config.plan_names().bands) names.push_back(band);
+  const bool banded = names.size() > draft.config.regions.names.size();
+  if (node.kind != YamlNode::Kind::kList || node.items.empty()) {
+    draft.complaints.expected(node, "a list of regions or bands to keep, [top]");
+    return locked;
+  }
+  for (const YamlNode& item : node.items) {
+    const bool of_both =
+        item.kind == YamlNode::Kind::kScalar && item.text.find('/') != item.text.npos;
+    const auto name = of_both ? std::optional(item.text) : read_name(item, draft.complaints);
+    if (!name) continue;
+    const std::vector<std::size_t> found =
+        names.empty() ? std::vector<std::size_t>() : find_parts(*name, draft.config);
+    if (found.empty() && draft.regions_known) {
+      draft.complaints.add_at(
+          item, names.empty()
+                    ? "the config has no regions, so nothing can be locked"
+                    : concat(banded ? "no region or band is called " : "no region is called ",
+                             quoted(*name), suggestion(*name, names)));
+    }
+    locked.insert(locked.end(), found.begin(), found.end());
+  }
+  std::ranges::sort(locked);
+  locked.erase(std::unique(locked.begin(), locked.end()), locked.end());
+  if (!names.empty() && locked.size() == draft.config.part_names().size()) {
+    draft.complaints.add_at(
+        node, "every region is locked, so nothing is left to redraw; unlock at least one");
+  }
+  return locked;
+}
 
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft) {
   const auto read_one = [&](const YamlNode& item) {

@@ -280,6 +280,7 @@ const Keys<Config>& root_keys() {
       groups_key().apart_from_faces(),
       recipes_key().apart_from_faces(),
       families_key().apart_from_faces(),
+      changes_key().apart_from_faces().after_casting(),
       Key<Config>{"review", read_review, write_review}.apart_from_faces().after_casting(),
       // read_edits merges the file before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},

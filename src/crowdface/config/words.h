@@ -36,10 +36,12 @@ inline const auto& all_words() {
   using Mode = DiversityOptions::Mode;
   using Meshes = BelievabilityOptions::Meshes;
   using Verdict = ReviewMark::Verdict;
+  using AgeStep = FaceChange::AgeStep;
   using With = Config::Comparison::With;  // kFile has no word: a config gives the file's path
   static const std::tuple words = {
       Words<bool>{{"true", true}, {"false", false}},
       words_by_name(all_mesh_formats()),
+      Words<AgeStep>{{"older", AgeStep::kOlder}, {"younger", AgeStep::kYounger}},
       Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
       Words<Boundary>{{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}},
       Words<OperatorKind>{{"umbrella", OperatorKind::kUmbrella}, {"lazy", OperatorKind::kLazy}},

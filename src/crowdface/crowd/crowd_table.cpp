@@ -148,6 +148,8 @@ void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names, const T
   if (std::ranges::any_of(*tags, [](const auto& own) { return !own.empty(); })) {
     columns.push_back({"tags", [=](Face face) { return join(tags_of(face), ";"); }});
   }
+  columns.push_back({"changed", [](Face face) { return join(face.notes.changes, ";"); },
+                     [](Face face) { return !face.notes.changes.empty(); }});
   if (contains(kinds, std::string("hair"))) {
     columns.push_back({"hair", [=, &names](Face face) {
                          for (std::size_t a = 0; a < kinds.size(); ++a) {

@@ -85,6 +85,7 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
                     {"grey", face.hair->grey}};
   }
   if (face.notes.review) json["note"] = *face.notes.review;
+  if (!face.notes.changes.empty()) json["changed"] = face.notes.changes;
   json["regions"] = Json::object();
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     json["regions"][names.regions[k]] = region_to_json(face.recipe.regions[k], names);

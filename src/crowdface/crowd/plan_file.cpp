@@ -83,6 +83,8 @@ class LineReader {
                              number(member(*hair, "grey"), "hair.grey", 0, 1)};
     }
     if (json.contains("note")) face.notes.review = text(json, "note");
+    if (const Json* changes = found(json, "changed"))
+      face.notes.changes = texts(*changes, "changed");
     if (const Json* near = found(json, "nearest")) face.notes.nearest = nearest(*near);
     result.settings = text(json, "settings");
     return result;
@@ -111,6 +113,16 @@ class LineReader {
     const Json& value = member(json, key);
     if (!value.is_string()) fail(key, "text", value.dump());
     return value.get<std::string>();
+  }
+
+  std::vector<std::string> texts(const Json& json, std::string_view field) const {
+    std::vector<std::string> values;
+    if (!json.is_array()) fail(field, "a list of texts", json.dump());
+    for (const Json& value : json) {
+      if (!value.is_string()) fail(field, "a list of texts", json.dump());
+      values.push_back(value.get<std::string>());
+    }
+    return values;
   }
 
   /// Reads and checks a name that is used in the file names of pictures and meshes.

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxOnPlane = 2000;
 
 /// All data except the faces.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
-                    const std::vector<std::vector<double>>& head_traits) {
+                    const std::vector<std::vector<double>>& head_traits, bool has_textures) {
   const PlanNames names = config.plan_names();
   Json json;
   json["name"] = config.crowd.name;
@@ -38,6 +38,14 @@ Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLik
   if (!names.bands.empty()) json["bands"] = names.bands;
   json["pictures"] = config.output.contact_sheet.has_value();
   for (const Shape& shape : shapes.shapes) json["shapes"].push_back(shape.name);
+  if (!config.review.reviews.empty()) json["reviews"] = config.review.reviews.size();
+  if (std::ranges::any_of(config.attachments.items,
+                          [](const auto& item) { return item.tint != Tint::kNone; })) {
+    for (const NamedHairColour& colour : named_hair_colours()) {
+      json["hair_colours"].push_back(colour.name);
+    }
+  }
+  if (has_textures && config.textures.blend == TextureBlend::kAuto) json["skins"] = true;
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < names.heads.size(); ++h) {
     json["heads"].push_back({{"name", names.heads[h]},
@@ -144,6 +152,10 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
   });
   const Json by_hand = some_of_them(
       crowd, [](const FacePlan& face) { return face.index || face.family ? Json() : Json(true); });
+  const Json changes = some_of_them(crowd, [](const FacePlan& face) {
+    return face.notes.changes.empty() ? Json() : Json(face.notes.changes.size());
+  });
+  if (!changes.empty()) text += concat(",\n\"changes\":", changes.dump());
   const Json notes = some_of_them(crowd, [](const FacePlan& face) {
     return face.notes.review ? Json(*face.notes.review) : Json();
   });
@@ -179,7 +191,8 @@ Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const 
 void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
                                   const CrowdLikeness& likeness) const {
   const PlanNames names = config_.plan_names();
-  Json head = head_of_script(config_, inputs_.shapes, likeness, head_traits_);
+  Json head = head_of_script(config_, inputs_.shapes, likeness, head_traits_,
+                             inputs_.textures.digest != Digest());
   std::set<std::filesystem::path> pages;
   std::string script;
   if (const auto a_page = static_cast<std::size_t>(directory_.faces_per_folder); a_page == 0) {

@@ -5,16 +5,19 @@
 #include <cmath>
 #include <set>
 
-#include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/face_area.h"
 #include "crowdface/cast/feasibility.h"
+#include "crowdface/cast/merge_reviews.h"
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/cast/skin_draw.h"
+#include "crowdface/core/log.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
+#include "crowdface/core/text.h"
 #include "crowdface/heads/cached_face_space.h"
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/heads/skin_tones.h"
+#include "crowdface/run/changed_faces.h"
 #include "crowdface/run/shortfall.h"
 #include "crowdface/run/trait_advice.h"
 
@@ -174,10 +177,15 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
           level_scale(config, inputs),
           config.diversity,
           config.families,
-          config.review.reviews,
+          merged_reviews(config.review.reviews).reviews,
           config.groups,
           config.faces.tags,
-          config.population.targets};
+          config.population.targets,
+          config.changes};
+}
+
+ColourDraw colour_draw(const Config& config) {
+  return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
@@ -199,6 +207,9 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   const FaceSpace& space = judged_in.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
   const CastingOptions casting = casting_options(config, inputs, head_distances);
+  for (const std::string& conflict : merged_reviews(config.review.reviews).conflicts) {
+    log_warning(concat("reviews made at the same time disagree about ", conflict));
+  }
   const BelievabilityOptions& believability = config.believability;
   FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
   const auto traits = named_face_traits(config, inputs, prepared);
@@ -226,26 +237,31 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     }
     tell_shortfall(config, remedy, *crowd.shortfall, about_traits);
   }
+  for (const auto& [face, changed] : crowd.changed) {
+    crowd.points[face] = changed.point;
+    crowd.crowd[face].notes.nearest = changed.face.notes.nearest;
+    crowd.crowd[face].notes.changes = changed.face.notes.changes;
+  }
   CrowdPlan result;
   result.distances = measure_distances(space, head_distances, crowd);
   result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   round_as_planned(result.crowd);
-  if (traits) {
-    measure_faces(*traits, result.crowd);
-    measure_faces(*traits, crowd.rejected);
-    result.traits = report_traits(casting, *traits, result.crowd);
-  }
   if (config.textures.colours == ColourWeights::kDrawn) {
-    draw_colours({config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike},
-                 result.crowd);
+    draw_colours(colour_draw(config), result.crowd);
   }
   if (!config.attachments.items.empty()) {
     draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected,
                      crowd.rejected_from);
   }
   draw_skin(config, inputs, result.crowd);
+  replace_changed_faces(config, crowd.kinds, crowd.changed, result.crowd);
+  if (traits) {
+    measure_faces(*traits, result.crowd);
+    measure_faces(*traits, crowd.rejected);
+    result.traits = report_traits(casting, *traits, result.crowd);
+  }
   for (FamilyPlan& family : crowd.families) {
     const auto member = std::ranges::find(result.crowd, family.name, &FacePlan::family);
     if (member != result.crowd.end()) {

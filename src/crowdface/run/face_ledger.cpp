@@ -89,7 +89,8 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& list
 /// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
 LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result) const {
   FacePlan recipe = face;
-  recipe.notes = {};  // no file depends on the notes of casting
+  recipe.notes = {};  // no file depends on the notes of casting or on measurements
+  recipe.traits = {};
   Hasher key;
   key.add(common_).add(judges_skin_).add(shapes_ > 0);
   key.add(format_recipe(recipe, job_.names, job_.settings));

@@ -97,6 +97,9 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
   } else if (!shortfall.recipe.empty()) {
     message += concat("the recipe ", shortfall.recipe,
                       " cannot be drawn: ", asked_of(config, remedy.binding), ", cannot be met");
+  } else if (!shortfall.changed.empty()) {
+    message += concat(shortfall.changed, " cannot be changed: ", asked_of(config, remedy.binding),
+                      ", cannot be met");
   } else if (!shortfall.reviewed.empty()) {
     message += concat(shortfall.reviewed, ", which the review rejects, cannot be redrawn: ",
                       asked_of(config, remedy.binding), ", cannot be met");

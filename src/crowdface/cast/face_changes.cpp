@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/face_changes.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "crowdface/cast/ageing.h"
+#include "crowdface/cast/band_order.h"
+#include "crowdface/cast/face_search.h"
+#include "crowdface/cast/mixed_recipe.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+/// Change of the age with `older` and `younger`.
+constexpr double kAgeStep = 0.5;
+
+std::size_t face_called(const std::string& id, const CastingResult& cast) {
+  const auto found = std::ranges::find(cast.crowd, id, &FacePlan::id);
+  if (found == cast.crowd.end()) {
+    throw InvalidInput(concat("a change names ", quoted(id), ", which is not in the crowd"));
+  }
+  return static_cast<std::size_t>(found - cast.crowd.begin());
+}
+
+/// Returns the face with its changes so far.
+const FacePlan& current(std::size_t face, const CastingResult& cast) {
+  const auto changed = cast.changed.find(face);
+  return changed == cast.changed.end() ? cast.crowd[face] : changed->second.face;
+}
+
+FaceKind kind_called(const std::optional<std::string>& group, const CastingOptions& casting) {
+  if (!group) return kind_of_group(casting);
+  const auto found = std::ranges::find(casting.groups, *group, &Group::name);
+  return kind_of_group(casting, static_cast<std::size_t>(found - casting.groups.begin()));
+}
+
+/// Returns the names of the keys that a change has.
+std::vector<std::string> changed_keys(const AppliedChange& applied) {
+  const FaceChange& change = applied.change;
+  const std::pair<const char*, bool> keys[] = {
+      {"age", change.age || change.age_step}, {"variant_of", change.variant_of.has_value()},
+      {"group", change.group.has_value()},    {"lock", !change.locked.empty()},
+      {"traits", !change.traits.empty()},     {"wears", change.wears.has_value()},
+      {"hair", change.hair.has_value()},      {"colours", !change.colours.empty()}};
+  std::vector<std::string> names;
+  for (const auto& [name, is_there] : keys) {
+    if (is_there) names.emplace_back(name);
+  }
+  return names;
+}
+
+/// Returns the smallest share, to within a step, at which a condition holds. \pre it holds at 1.
+template <class Holds>
+double least_share(const Holds& holds) {
+  constexpr int kSteps = 10;  // finds the share to within 0.1 %
+  double share = 1, step = 0.5;
+  for (int i = 0; i < kSteps; ++i, step *= 0.5) {
+    if (holds(share - step)) share -= step;
+  }
+  return share;
+}
+
+class Changing {
+ public:
+  Changing(const CastingOptions& casting, const FaceJudge& judge, std::size_t at,
+           CastingResult& cast)
+      : casting_(casting), judge_(judge), at_(at), cast_(cast), changed_(cast.changed.at(at)) {}
+
+  /// Applies all changes to the face as it was cast.
+  void apply() {
+    changed_.face = cast_.crowd[at_];
+    changed_.is_other_person = false;
+    changed_.traits.clear();
+    for (const AppliedChange& change : changed_.changes) {
+      if (cast_.shortfall) return;
+      ++number_;
+      apply(change);
+      changed_.face.notes.changes.push_back(concat(change.by, ": ", join(changed_keys(change))));
+    }
+    changed_.point = judge_.space().point(changed_.face.recipe);
+    note_nearest();
+  }
+
+ private:
+  void apply(const AppliedChange& applied) {
+    const FaceChange& change = applied.change;
+    changed_.traits = with_own(changed_.traits, change.traits);
+    if (applied.variant_of) {
+      changed_.variant_of = applied.variant_of;
+      change_into(search(vary(change), CrowdSoFar(judge_.space().dimensions())));
+    } else if (change.draws_again()) {
+      changed_.variant_of.reset();
+      change_into(search(draw_again(change), faces_before()));
+    }
+    if (change.age_step) {
+      const double step = *change.age_step == FaceChange::AgeStep::kOlder ? kAgeStep : -kAgeStep;
+      set_age(std::clamp(changed_.face.age.value_or(0) + step, -1.0, 1.0));
+    }
+    if (change.age) set_age(*change.age);
+  }
+
+  /// Returns random numbers that differ for each change and for each redraw of the face.
+  DrawKey key(std::uint32_t attempt) const {
+    const FacePlan& original = cast_.crowd[at_];
+    return {*original.index, attempt, concat("change/", number_, '/', original.notes.attempt)};
+  }
+
+  const SamplingOptions& sampling_of(const FacePlan& face) const {
+    return *kind_called(face.group, casting_).sampling;
+  }
+
+  /// The faces before this one in the plan, as they were before any review.
+  CrowdSoFar faces_before() const {
+    std::map<std::string, FaceSpace::Point> first;
+    for (const FacePlan& face : cast_.rejected) {
+      if (!first.contains(face.id)) first[face.id] = judge_.space().point(face.recipe);
+    }
+    CrowdSoFar faces(judge_.space().dimensions());
+    for (std::size_t i = 0; i < at_; ++i) {
+      const auto rejected = first.find(cast_.crowd[i].id);
+      faces.add(cast_.crowd[i], rejected == first.end() ? cast_.points[i] : rejected->second);
+    }
+    return faces;
+  }
+
+  FaceSearch::Draw vary(const FaceChange& change) const {
+    FacePlan other = *changed_.variant_of;
+    const FaceSpace::Point point = judge_.space().point(other.recipe);
+    const double age = other.age.value_or(0);
+    const SamplingOptions& sampling = sampling_of(other);
+    take_back_age(other, sampling);
+    return [=, this, &sampling](std::uint32_t attempt) {
+      ManualRecipe open;
+      open.id = changed_.face.id;
+      open.target = other.recipe.target;
+      open.age = Range{0, 0};
+      const FacePlan drawn =
+          draw_recipe(casting_, open, key(attempt), kind_called(other.group, casting_));
+      const auto at = [&](double share) {
+        FacePlan face = drawn;
+        face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.scale);
+        face.recipe.colours = other.recipe.colours;
+        face.age = other.age;
+        if (!other.age) apply_age(face, age, sampling);
+        return face;
+      };
+      const auto is_beyond = [&](const FacePlan& face) {
+        return FaceSpace::distance(judge_.space().point(face.recipe), point) >= change.distance_mm;
+      };
+      return at(is_beyond(at(1)) ? least_share([&](double share) { return is_beyond(at(share)); })
+                                 : 1);
+    };
+  }
+
+  FaceSearch::Draw draw_again(const FaceChange& change) const {
+    const FacePlan& now = changed_.face;
+    FaceKind kind = kind_called(change.group ? change.group : now.group, casting_);
+    ManualRecipe open;
+    open.id = now.id;
+    if (!change.locked.empty()) open.target = now.recipe.target;
+    if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
+    const bool only_traits = !change.group && change.locked.empty();
+    return [=, this](std::uint32_t attempt) {
+      FacePlan drawn = draw_recipe(casting_, open, key(attempt), kind);
+      drawn.index = now.index;
+      if (!change.locked.empty()) keep_locked(change.locked, now.recipe, drawn.recipe);
+      if (!only_traits || !meets_limits(drawn)) return drawn;
+      const auto at = [&](double share) {
+        FacePlan face = drawn;
+        face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.scale);
+        return face;
+      };
+      // The limits hold a little before the drawn face, so that the whole mesh meets them too.
+      constexpr double kMargin = 0.05;
+      const double share = least_share([&](double part) { return meets_limits(at(part)); });
+      return at(share + kMargin * (1 - share));
+    };
+  }
+
+  bool meets_limits(const FacePlan& face) const {
+    const FaceMeasurer& measurer = judge_.traits()->measurer();
+    return measurer.meets(changed_.traits, measurer.landmarks(face.recipe));
+  }
+
+  std::optional<FaceSearch::Found> search(const FaceSearch::Draw& draw, const CrowdSoFar& others) {
+    FaceJudge judge = judge_;
+    CastingOptions limited;
+    std::optional<TraitRules> rules;
+    if (!changed_.traits.empty() && !changed_.variant_of) {
+      limited.sampling.traits = with_own(casting_.sampling.traits, changed_.traits);
+      limited.groups = casting_.groups;
+      for (Group& group : limited.groups) {
+        group.sampling.traits = with_own(group.sampling.traits, changed_.traits);
+      }
+      judge.limit_traits(&rules.emplace(judge.traits()->measurer(), limited));
+    } else if (changed_.variant_of) {
+      judge.limit_traits(nullptr);
+    }
+    FaceSearch found(draw, judge, casting_.diversity, 1);
+    auto face = found.settle(others);
+    cast_.rejections.add(found.rejections());
+    if (!face) {
+      cast_.shortfall = Shortfall{casting_.count, found.rejections()};
+      cast_.shortfall->changed = changed_.face.id;
+    }
+    return face;
+  }
+
+  void change_into(std::optional<FaceSearch::Found> found) {
+    if (!found) return;
+    found->face.index = changed_.face.index;
+    found->face.notes = changed_.face.notes;
+    changed_.face = std::move(found->face);
+    changed_.is_other_person = true;
+  }
+
+  void set_age(double age) {
+    const SamplingOptions& sampling = sampling_of(changed_.face);
+    take_back_age(changed_.face, sampling);
+    changed_.face.age.reset();
+    apply_age(changed_.face, age, sampling);
+  }
+
+  /// Measures the distances of the changed face, for information.
+  void note_nearest() {
+    const auto [head, head_mm] = judge_.nearest_head(changed_.point);
+    Nearest nearest{head, head_mm, std::nullopt, 0};
+    for (std::size_t i = 0; i < at_; ++i) {
+      const double mm = FaceSpace::distance(changed_.point, cast_.points[i]);
+      if (nearest.crowd && mm >= nearest.crowd_mm) continue;
+      nearest.crowd = cast_.crowd[i].id;
+      nearest.crowd_mm = mm;
+    }
+    changed_.face.notes.nearest = nearest;
+  }
+
+  const CastingOptions& casting_;
+  const FaceJudge& judge_;
+  std::size_t at_;
+  CastingResult& cast_;
+  ChangedFace& changed_;
+  int number_ = 0;  ///< of the current change, from 1
+};
+
+/// \param first  whether the changes come before the known changes of the faces.
+void apply(const CastingOptions& casting, const FaceJudge& judge,
+           const std::vector<FaceChange>& changes, const std::string& by, bool first,
+           CastingResult& cast) {
+  // The other face of a variant is the face without these changes.
+  std::vector<AppliedChange> applied;
+  for (const FaceChange& change : changes) {
+    applied.push_back({change, by, std::nullopt});
+    if (!change.variant_of) continue;
+    applied.back().variant_of = current(face_called(*change.variant_of, cast), cast);
+  }
+  for (AppliedChange& one : applied) {
+    if (cast.shortfall) return;
+    const std::size_t at = face_called(one.change.id, cast);
+    std::vector<AppliedChange>& own =
+        cast.changed.try_emplace(at, ChangedFace{cast.crowd[at], cast.points[at]})
+            .first->second.changes;
+    own.insert(first ? own.begin() : own.end(), std::move(one));
+    Changing(casting, judge, at, cast).apply();
+  }
+}
+
+}  // namespace
+
+void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
+                   const std::vector<FaceChange>& changes, const std::string& by,
+                   CastingResult& cast) {
+  apply(casting, judge, changes, by, false, cast);
+}
+
+void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
+                             CastingResult& cast) {
+  apply(casting, judge, casting.changes, "config", true, cast);
+}
+
+void change_again(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
+                  CastingResult& cast) {
+  if (cast.changed.contains(face)) Changing(casting, judge, face, cast).apply();
+}
+
+}  // namespace crowdface

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/cast/casting_result.h"
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/face_judge.h"
+
+namespace crowdface {
+
+/// Applies the changes of a review to faces, after their earlier changes; see
+/// CastingResult::changed. If a face cannot be drawn, sets the shortfall.
+///
+/// - A face that is drawn again keeps its group and its age, unless it gets another group. It keeps
+///   the crowd's distances from the faces before it in the plan, as they were first cast. So it
+///   stays as it is when the crowd grows or other faces are redrawn.
+/// - A variant is a mixture of the other face, as it is before these changes, and a drawn face on
+///   the same target, at the asked distance from the other face.
+/// - With limits on measurements only, the face is a mixture of itself and a drawn face that meets
+///   the limits. The share of the drawn face is as small as the limits allow.
+///
+/// \param by  the origin of the changes, such as "review 2".
+/// \throws InvalidInput if a face is not in the crowd.
+void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
+                   const std::vector<FaceChange>& changes, const std::string& by,
+                   CastingResult& cast);
+
+/// Applies the changes of the config, before those of the reviews.
+void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
+                             CastingResult& cast);
+
+/// Applies the changes of a face again, after it was redrawn.
+void change_again(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
+                  CastingResult& cast);
+
+}  // namespace crowdface

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/cast/review.h"
+
+namespace crowdface {
+
+/// Reviews to apply one after the other.
+struct MergedReviews {
+  std::vector<Review> reviews;
+  /// What reviews that were made at the same time disagree about, a line for each face.
+  std::vector<std::string> conflicts;
+};
+
+/// Merges reviews that were made at the same time: a review that does not know an earlier one (see
+/// Review::after). What both ask for applies once: a face that both reject is redrawn once, and
+/// equal keys of changes apply once. Both notes stay. If they disagree,
+///
+/// - a face that only one of them rejects is redrawn;
+/// - of two rejections with other locked parts, the earlier review's applies;
+/// - of two changes of the same key, the later review's applies last.
+MergedReviews merged_reviews(const std::vector<Review>& reviews);
+
+}  // namespace crowdface

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/cast/mixed_recipe.h"
+
+#include "crowdface/cast/ageing.h"
+
+namespace crowdface {
+
+double mixed(double a, double b, double t) {
+  return a == b ? a : (1 - t) * a + t * b;
+}
+
+BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale) {
+  BandRecipe band;
+  band.weights = mixed_weights(a.weights, b.weights, t);
+  band.smoothness = (1 - t) * a.smoothness + t * b.smoothness;
+  band.iterations = iterations_of(band.smoothness, scale);
+  band.extrapolation = (1 - t) * a.extrapolation + t * b.extrapolation;
+  return band;
+}
+
+Recipe mixed(const Recipe& from, const Recipe& to, double t, const LevelScale& scale) {
+  Recipe recipe = to;
+  set_target(recipe, mixed_weights(target_shares(from), target_shares(to), t));
+  recipe.asymmetry = mixed(from.asymmetry, to.asymmetry, t);
+  recipe.mirrored = from.mirrored;
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    RegionRecipe& region = recipe.regions[k];
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      BandRecipe& band = band_of(region, b);
+      band = mixed(band_of(from.regions[k], b), band, t, scale);
+    }
+  }
+  return recipe;
+}
+
+}  // namespace crowdface

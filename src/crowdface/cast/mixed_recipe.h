@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/cast/draw_recipe.h"
+
+namespace crowdface {
+
+/// Returns (1 − t)·a + t·b of two numbers.
+double mixed(double a, double b, double t);
+/// Returns (1 − t)·a + t·b of two bands' numbers.
+BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale);
+/// Returns (1 − t)·from + t·to: targets, asymmetry and all bands. The face is mirrored as `from` is;
+/// everything else is that of `to`.
+Recipe mixed(const Recipe& from, const Recipe& to, double t, const LevelScale& scale);
+
+}  // namespace crowdface

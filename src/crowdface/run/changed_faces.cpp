@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/changed_faces.h"
+
+#include <algorithm>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/run/casting.h"
+
+namespace crowdface {
+namespace {
+
+/// Puts attachments on a face in place of those of the same kinds and of those that do not go with
+/// them. \param names  none: removes all attachments.
+void put_on(const Config& config, const std::vector<std::string>& names, FacePlan& face) {
+  const std::vector<Config::Attachment>& items = config.attachments.items;
+  std::vector<std::string> worn;
+  for (const Config::Attachment& item : items) {
+    const auto is_in_its_place = [&](const Config::Attachment& other) {
+      const auto excludes = [](const Config::Attachment& a, const Config::Attachment& b) {
+        return contains(a.excludes, b.name) || contains(a.excludes, b.kind);
+      };
+      return contains(names, other.name) &&
+             (other.kind == item.kind || excludes(other, item) || excludes(item, other));
+    };
+    const bool stays = !names.empty() && contains(face.attachments, item.name) &&
+                       std::ranges::none_of(items, is_in_its_place);
+    if (stays || contains(names, item.name)) worn.push_back(item.name);
+  }
+  face.attachments = std::move(worn);
+}
+
+class ChangedLooks {
+ public:
+  /// \param crowd  the faces as they were cast.
+  ChangedLooks(const Config& config, const std::vector<int>& kinds,
+               const std::vector<FacePlan>& crowd)
+      : config_(config), kinds_(kinds), crowd_(crowd), draw_(attachment_draw(config)) {}
+
+  FacePlan of(const ChangedFace& changed, const FacePlan& before) const {
+    FacePlan face = changed.face;
+    face.notes = before.notes;
+    if (!changed.is_other_person) {
+      face.recipe.colours = before.recipe.colours;
+      face.attachments = before.attachments;
+      face.hair = before.hair;
+      if (before.hair && face.age != before.age) {
+        FacePlan aged = before;
+        aged.age = face.age;
+        face.hair = with_attachments(aged).hair;
+      }
+    } else {
+      face = with_attachments(with_colours(face));
+      if (changed.variant_of) {
+        const FacePlan other = look_of(*changed.variant_of);
+        face.recipe.colours = other.recipe.colours;
+        face.hair = other.hair;
+      }
+    }
+    for (const AppliedChange& applied : changed.changes) {
+      const FaceChange& change = applied.change;
+      if (change.wears) put_on(config_, *change.wears, face);
+      if (!change.colours.empty()) face.recipe.colours = written_weights(change.colours);
+      if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));
+    }
+    return face;
+  }
+
+ private:
+  FacePlan with_colours(const FacePlan& face) const {
+    std::vector<FacePlan> alone = {face};
+    if (config_.textures.colours == ColourWeights::kDrawn) {
+      draw_colours(colour_draw(config_), alone);
+    }
+    return alone.front();
+  }
+
+  FacePlan with_attachments(FacePlan face) const {
+    if (!config_.attachments.items.empty()) draw_attachments_alone(draw_, kinds_, crowd_, face);
+    return face;
+  }
+
+  /// Returns a face with the colours that it has in the crowd, or would have.
+  FacePlan look_of(const FacePlan& face) const {
+    const auto now = std::ranges::find(crowd_, face.id, &FacePlan::id);
+    const bool is_same = now != crowd_.end() && now->notes.attempt == face.notes.attempt;
+    return is_same && face.notes.changes.empty() ? *now : with_attachments(with_colours(face));
+  }
+
+  const Config& config_;
+  const std::vector<int>& kinds_;
+  const std::vector<FacePlan>& crowd_;
+  AttachmentDraw draw_;
+};
+
+}  // namespace
+
+void replace_changed_faces(const Config& config, const std::vector<int>& kinds,
+                           const std::map<std::size_t, ChangedFace>& changed,
+                           std::vector<FacePlan>& crowd) {
+  if (changed.empty()) return;
+  const std::vector<FacePlan> cast = crowd;
+  const ChangedLooks looks(config, kinds, cast);
+  for (const auto& [face, change] : changed) crowd[face] = looks.of(change, cast[face]);
+}
+
+}  // namespace crowdface

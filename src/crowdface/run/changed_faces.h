@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/cast/casting_result.h"
+#include "crowdface/config/config.h"
+
+namespace crowdface {
+
+/// Replaces the changed faces of a crowd, with their colours and attachments. No other face
+/// changes.
+///
+/// - A face that is the same person keeps its colours and attachments. Its hair greys with its age.
+/// - A face that was drawn again gets colours and attachments of its own, see
+///   draw_attachments_alone. A variant has the colours of the face that it is a variant of.
+///
+/// \param kinds  group of each sampled face, or −1.
+/// \param crowd  the faces as they were cast, with colours and attachments.
+void replace_changed_faces(const Config& config, const std::vector<int>& kinds,
+                           const std::map<std::size_t, ChangedFace>& changed,
+                           std::vector<FacePlan>& crowd);
+
+}  // namespace crowdface
