@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A crowd that is reviewed, grows, changes its formats and single faces, by runs that are killed again and again.
+// A crowd that is reviewed, grows and changes its formats, by runs that are killed again and again.
 #include <csignal>
 #include <random>
 
@@ -24,7 +24,6 @@ class DisturbedReviews : public ::testing::Test {
     crowd.heads = 6;
     crowd.bowl.materials = true;
     crowd.count = 3;
-    crowd.regions = 2;
     crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
     return crowd;
   }
@@ -34,7 +33,7 @@ class DisturbedReviews : public ::testing::Test {
     return run_with_fault(out, fault, [&] {
       const ThreadLimit limit(2);
       ConfigOverrides overrides;
-      overrides.set = {concat("output.meshes=", formats_), concat("changes=", changes_)};
+      overrides.set = {concat("output.meshes=", formats_)};
       overrides.count = std::to_string(count_);
       overrides.out = out.string();
       overrides.review = reviews;
@@ -62,40 +61,15 @@ class DisturbedReviews : public ::testing::Test {
       }
     }
     return folder_.folder()
-        .write(
-            concat("review_", number, ".yaml"),
-            concat("schema: 1\nafter: ", number - 1 - static_cast<int>(random_() % 2 && number > 1),
-                   "\nfaces: {", join(marks), "}\nchanges: ", some_changes(), "\n"))
+        .write(concat("review_", number, ".yaml"),
+               concat("schema: 1\nfaces: {", join(marks), "}\n"))
         .string();
-  }
-
-  /// Changes of some faces: variants, locked regions, asked colours.
-  std::string some_changes() {
-    std::vector<std::string> changes;
-    for (int face = 1; face <= count_; ++face) {
-      const std::string id = concat("mob_", zero_padded(static_cast<std::uint64_t>(face), 4));
-      switch (random_() % 8) {
-        case 0:
-          changes.push_back(concat(id, ": {lock: [region_", 1 + random_() % 2, "]}"));
-          break;
-        case 1:
-          if (face > 1) changes.push_back(concat(id, ": {variant_of: mob_0001, distance: 0.5 mm}"));
-          break;
-        case 2:
-          changes.push_back(concat(id, ": {colours: {ann: 1}}"));
-          break;
-        default:
-          break;
-      }
-    }
-    return concat('{', join(changes), '}');
   }
 
   SmallCrowdFolder folder_;
   std::mt19937 random_{4};
   int count_ = 3;
   std::string formats_ = "[obj]";
-  std::string changes_ = "{}";
 };
 
 TEST_F(DisturbedReviews, AfterEachStepTheCrowdIsThatOfARunFromNothing) {
@@ -103,10 +77,7 @@ TEST_F(DisturbedReviews, AfterEachStepTheCrowdIsThatOfARunFromNothing) {
   int kills = 0, reviews = 0;
   for (int step = 0; step < times(10, 100); ++step) {
     std::vector<std::string> given;
-    switch (random_() % 4) {
-      case 3:
-        changes_ = some_changes();
-        break;
+    switch (random_() % 3) {
       case 0:
         count_ += 1 + static_cast<int>(random_() % 2);
         break;

@@ -130,6 +130,10 @@ void draw_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>
       crowd);
 }
 
+ColourDraw colour_draw(const Config& config) {
+  return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
+}
+
 /// Rounds values to the four decimals that plans store, so that runs that read the plan report the
 /// same values.
 void round_as_planned(std::vector<FacePlan>& crowd) {
@@ -182,10 +186,6 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
           config.faces.tags,
           config.population.targets,
           config.changes};
-}
-
-ColourDraw colour_draw(const Config& config) {
-  return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
 }
 
 AttachmentDraw attachment_draw(const Config& config) {
@@ -256,7 +256,8 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
                      crowd.rejected_from);
   }
   draw_skin(config, inputs, result.crowd);
-  replace_changed_faces(config, crowd.kinds, crowd.changed, result.crowd);
+  replace_changed_faces(config, attachment_draw(config), colour_draw(config), crowd.kinds,
+                        crowd.changed, result.crowd);
   if (traits) {
     measure_faces(*traits, result.crowd);
     measure_faces(*traits, crowd.rejected);

@@ -7,7 +7,6 @@
 
 #include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/cast_crowd.h"
-#include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/run/trait_reports.h"
@@ -67,8 +66,6 @@ struct CrowdPlan {
 
 /// Options for drawing the attachments of a crowd, from the config.
 AttachmentDraw attachment_draw(const Config& config);
-/// Parameters for colours that are drawn independently of shapes.
-ColourDraw colour_draw(const Config& config);
 
 /// Casts the crowd.
 /// \param defects  judges a candidate's whole mesh; empty: meshes are not judged

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "crowdface/cast/draw_recipe.h"
 #include "crowdface/core/contains.h"
-#include "crowdface/run/casting.h"
 
 namespace crowdface {
 namespace {
@@ -32,9 +32,13 @@ void put_on(const Config& config, const std::vector<std::string>& names, FacePla
 class ChangedLooks {
  public:
   /// \param crowd  the faces as they were cast.
-  ChangedLooks(const Config& config, const std::vector<int>& kinds,
-               const std::vector<FacePlan>& crowd)
-      : config_(config), kinds_(kinds), crowd_(crowd), draw_(attachment_draw(config)) {}
+  ChangedLooks(const Config& config, const AttachmentDraw& attachments, const ColourDraw& colours,
+               const std::vector<int>& kinds, const std::vector<FacePlan>& crowd)
+      : config_(config),
+        attachments_(attachments),
+        colours_(colours),
+        kinds_(kinds),
+        crowd_(crowd) {}
 
   FacePlan of(const ChangedFace& changed, const FacePlan& before) const {
     FacePlan face = changed.face;
@@ -69,13 +73,14 @@ class ChangedLooks {
   FacePlan with_colours(const FacePlan& face) const {
     std::vector<FacePlan> alone = {face};
     if (config_.textures.colours == ColourWeights::kDrawn) {
-      draw_colours(colour_draw(config_), alone);
+      draw_colours(colours_, alone);
     }
     return alone.front();
   }
 
   FacePlan with_attachments(FacePlan face) const {
-    if (!config_.attachments.items.empty()) draw_attachments_alone(draw_, kinds_, crowd_, face);
+    if (!config_.attachments.items.empty())
+      draw_attachments_alone(attachments_, kinds_, crowd_, face);
     return face;
   }
 
@@ -87,19 +92,21 @@ class ChangedLooks {
   }
 
   const Config& config_;
+  const AttachmentDraw& attachments_;
+  const ColourDraw& colours_;
   const std::vector<int>& kinds_;
   const std::vector<FacePlan>& crowd_;
-  AttachmentDraw draw_;
 };
 
 }  // namespace
 
-void replace_changed_faces(const Config& config, const std::vector<int>& kinds,
+void replace_changed_faces(const Config& config, const AttachmentDraw& attachments,
+                           const ColourDraw& colours, const std::vector<int>& kinds,
                            const std::map<std::size_t, ChangedFace>& changed,
                            std::vector<FacePlan>& crowd) {
   if (changed.empty()) return;
   const std::vector<FacePlan> cast = crowd;
-  const ChangedLooks looks(config, kinds, cast);
+  const ChangedLooks looks(config, attachments, colours, kinds, cast);
   for (const auto& [face, change] : changed) crowd[face] = looks.of(change, cast[face]);
 }
 
