@@ -126,8 +126,20 @@ def write_review(browse, file):
     marked = [item for item in browse.faces if item.mark != 'NONE']
     if not marked:
         raise Problem("mark at least one face")
+    for item in marked:
+        if item.mark == 'variant' and not item.variant_of:
+            raise Problem(f"{item.name}: choose the face that it is a variant of")
+    lines = {"faces": [], "changes": []}
+    for item in marked:
+        if item.mark in ('keep', 'reject'):
+            lines["faces"].append(f"  {item.name}: {item.mark}\n")
+        elif item.mark == 'variant':
+            change = f"{{variant_of: {item.variant_of}, distance: {item.distance:.4g} mm}}"
+            lines["changes"].append(f"  {item.name}: {change}\n")
+        else:
+            lines["changes"].append(f"  {item.name}: {{age: {item.mark}}}\n")
     with open(file, "w", encoding="utf-8") as out:
-        out.write("schema: 1\nfaces:\n" + "".join(f"  {item.name}: {item.mark}\n" for item in marked))
+        out.write("schema: 1\n" + "".join(f"{key}:\n" + "".join(rows) for key, rows in lines.items() if rows))
     return [item.name for item in marked if item.mark != 'keep']
 
 

@@ -117,6 +117,10 @@ class CROWDFACE_PT_review(Panel):
         self.layout.label(text=f"{len(marked)} faces marked")
         for item in marked:
             self.layout.label(text=f"{item.name}: {item.mark}")
+            if item.mark == 'variant':
+                row = self.layout.row(align=True)
+                row.prop_search(item, "variant_of", state, "faces", text="")
+                row.prop(item, "distance")
         self.layout.operator("crowdface.review", icon='FILE_REFRESH')
 
 

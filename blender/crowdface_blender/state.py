@@ -87,7 +87,13 @@ class CrowdfaceFace(bpy.types.PropertyGroup):
     mark: EnumProperty(name="Mark", default='NONE', items=[
         ('NONE', "–", "No mark"),
         ('keep', "Keep", "The face has been checked"),
-        ('reject', "Reject", "Draw another face")])
+        ('reject', "Reject", "Draw another face"),
+        ('older', "Older", "Make the face older"),
+        ('younger', "Younger", "Make the face younger"),
+        ('variant', "Variant", "Make a variant of another face in its place")])
+    variant_of: StringProperty(name="Of", description="The face that this face becomes a variant of")
+    distance: FloatProperty(name="Apart, mm", default=1.5, min=0.01, soft_max=5,
+                            description="Distance from that face in mm")
 
 
 class CrowdfaceBrowse(bpy.types.PropertyGroup):

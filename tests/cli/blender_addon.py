@@ -3,6 +3,7 @@
 
 FOLDER has addon.zip and heads/ of `crowdface synth`.
 """
+import json
 import os
 import subprocess
 import sys
@@ -274,6 +275,25 @@ def test_review(browse, crowd):
     clear()
 
 
+def test_changes(browse):
+    """A variant and, in the crowd of heads with tags of age, an older face."""
+    browse.faces["mob_0003"].mark = 'variant'
+    fails(bpy.ops.crowdface.review, "mob_0003: choose the face that it is a variant of")
+    browse.faces["mob_0003"].variant_of, browse.faces["mob_0003"].distance = "mob_0001", 1.5
+    bpy.ops.crowdface.review()
+    variant, like = (read_plan("mob")[face] for face in ("mob_0003", "mob_0001"))
+    assert variant["target"] == like["target"], "a variant has the target of its face"
+    browse.faces["mob_0001"].mark, browse.faces["mob_0002"].mark = 'older', 'younger'
+    bpy.ops.crowdface.review()
+    plan = read_plan("mob")
+    assert plan["mob_0001"]["age"] > 0 > plan["mob_0002"]["age"]
+
+
+def read_plan(name):
+    with open(os.path.join(folder, "made", "out", name, "plan.jsonl"), encoding="utf-8") as lines:
+        return {face["id"]: face for face in map(json.loads, lines)}
+
+
 def test_hair(browse):
     """A crowd that the program made: with hair, and at first without GLB files."""
     subprocess.run([program_path, "init", os.path.join(folder, "heads"), "-o", os.path.join(folder, "hair.yaml")],
@@ -379,6 +399,8 @@ test_levels(browse)
 print("test: faces are filtered and placed, with levels of detail")
 test_review(browse, crowd)
 print("test: a review draws rejected faces again")
+test_changes(browse)
+print("test: faces become variants, older and younger")
 test_cancel(options)
 print("test: a cancelled run continues")
 test_hair(browse)
