@@ -24,6 +24,7 @@ function facesOf(data, heads) {
     tags: tagsOf(recipe, heads),
     group: recipe.group ?? null,
     byHand: recipe.index === null && recipe.family === null,
+    changes: recipe.changed?.length ?? 0,
     near: (data.near[order] ?? []).map(([other, mm]) => ({ id: data.faces[other].id, mm })),
     likeness: data.likeness[order] ?? order,
     folder: '',
@@ -61,6 +62,7 @@ class LightFace {
     return traits && Object.fromEntries(Object.entries(traits).map(([name, all]) => [name, all[this.order]]));
   }
   get byHand() { return Boolean(this.crowd.columns.by_hand[this.order]); }
+  get changes() { return this.crowd.columns.changes?.[this.order] ?? 0; }
   get parents() { return this.crowd.columns.parents[this.order]; }
   get note() { return this.crowd.columns.note[this.order]; }
   get regions() { return this.recipe?.regions ?? this.crowd.on_plane[this.order]; }
@@ -69,7 +71,7 @@ class LightFace {
     return this.crowd.pictures ? `../renders/${this.folder}${encodeURIComponent(this.id)}.png` : null;
   }
 }
-for (const name of ['nearest', 'mixture', 'colours', 'age', 'asymmetry', 'mirrored', 'mother_share', 'inherits']) {
+for (const name of ['nearest', 'mixture', 'colours', 'age', 'asymmetry', 'mirrored', 'mother_share', 'inherits', 'changed']) {
   Object.defineProperty(LightFace.prototype, name, { get() { return this.recipe?.[name]; } });
 }
 
@@ -111,6 +113,9 @@ export function readCrowd(data) {
     targets: present(faces.map((face) => face.target)),
     bands: data.bands ?? [],
     traits: data.traits ?? [],
+    reviews: data.reviews ?? 0,
+    hairColours: data.hair_colours ?? [],
+    skins: data.skins ?? false,
     shapes: data.shapes ?? [],
     locks: [...(data.regions.length > 1 ? data.regions : []), ...(data.bands ?? [])],
     tags: present(data.columns ? data.heads.flatMap((head) => head.tags) : faces.flatMap((face) => face.tags)),
@@ -199,6 +204,7 @@ const markFilters = {
   reject: (mark) => mark?.verdict === 'reject',
   locked: (mark) => (mark?.lock?.length ?? 0) > 0,
   noted: (mark) => Boolean(mark?.note),
+  changed: (mark) => Boolean(mark?.change),
 };
 
 /// The faces that pass the filters, in order.

@@ -43,6 +43,7 @@ export class FacePage {
 
   /// \param faces  that the arrows walk through.
   async show(face, faces) {
+    if (this.face && this.face !== face) this.before = this.face;
     this.face = face;
     this.faces = faces;
     if (!isLoaded(face)) {
@@ -141,9 +142,10 @@ export class FacePage {
             onclick: () => review.lock(face, part),
           }, part)))
         : null;
+      const changes = this.changeButtons(mark?.change ?? {});
       verdicts.replaceChildren(
         el('div', { class: 'verdicts' }, button('keep', 'Keep', 'K'), button('reject', 'Reject', 'R')),
-        ...(locks ? [locks] : []),
+        ...(locks ? [locks] : []), ...(changes ? [changes] : []),
         ...(face.byHand ? [el('small', { class: 'muted' },
           'It is written by hand or has children: change the config instead of rejecting it.')] : []));
     };
@@ -161,6 +163,37 @@ export class FacePage {
     draw();
     box.append(verdicts, note);
     return box;
+  }
+
+  /// Buttons for a change of the face.
+  changeButtons(change) {
+    const { crowd, face, review } = this;
+    const has = (tag) => crowd.heads.some((head) => head.tags.includes(tag));
+    const button = (name, value, text, title) => el('button', {
+      class: `change ${value !== undefined && change[name] === value ? 'on' : ''}`, title,
+      onclick: () => review.ask(face, name, value),
+    }, text);
+    // Each click asks for the next value; after the last, for none.
+    const next = (name, values, text) => el('button', {
+      class: `change ${change[name] === undefined ? '' : 'on'}`, title: 'Again: the next one',
+      onclick: () => review.ask(face, name, values[values.indexOf(change[name]) + 1]),
+    }, change[name] === undefined ? text : `${text}: ${change[name]}`);
+    const common = (head) => head.tags.filter((tag) => face.tags.includes(tag)).length;
+    const skins = crowd.skins
+      ? crowd.heads.filter((head) => head.name !== face.target)
+        .sort((a, b) => common(b) - common(a)).map((head) => head.name)
+      : [];
+    const isSampled = !face.byHand && face.family === null;
+    const buttons = [
+      has('old') ? button('age', 'older', 'Older') : null,
+      has('young') ? button('age', 'younger', 'Younger') : null,
+      isSampled && this.before ? button('variant_of', this.before.id, `Variant of ${this.shortName(this.before.id)}`,
+        'Replace this face by a face similar to the one that was open before') : null,
+      crowd.hairColours.length > 0 ? next('hair', crowd.hairColours, 'Other hair') : null,
+      skins.length > 0 ? next('colours', skins, 'Other skin') : null,
+    ].filter(Boolean);
+    return buttons.length === 0 ? null
+      : el('div', { class: 'locks changes' }, el('span', { class: 'muted' }, 'Change'), buttons);
   }
 
   showMark(face) {
@@ -206,6 +239,7 @@ export class FacePage {
       face.mirrored ? ['Mirrored', 'yes'] : null,
       face.nearest ? ['Nearest head', `${face.nearest.face}, ${short(face.nearest.face_mm)} mm`] : null,
       face.attempt > 0 ? ['Candidates rejected before it', String(face.attempt)] : null,
+      face.changed ? ['Changed', face.changed.join('; ')] : null,
       face.note ? ['Earlier note', face.note] : null,
     ].filter(Boolean);
     return el('section', {}, el('dl', {}, rows.map(([name, value]) =>

@@ -29,6 +29,13 @@ function formatMark(mark, locks) {
   return `{${parts.join(', ')}}`;
 }
 
+/// The value of a key of a change: a word, an id, or for `colours` a head.
+function formatChange(change) {
+  const parts = Object.entries(change).map(([name, value]) => (name === 'colours'
+    ? `colours: {${quoted(value)}: 1}` : `${name}: ${name === 'variant_of' ? key(value) : value}`));
+  return `{${parts.join(', ')}}`;
+}
+
 export class Review {
   /// \param storage  localStorage, or null where there is none.
   constructor(crowd, storage) {
@@ -47,21 +54,23 @@ export class Review {
     }
   }
 
-  /// A mark is about the face that was looked at: one that was drawn anew since has none.
+  /// A mark is about the face that was looked at: a face that was redrawn or changed since has none.
   of(face) {
     const mark = this.marks.get(face.id);
-    return mark && mark.attempt === face.attempt ? mark : undefined;
+    const isSame = mark?.attempt === face.attempt && (mark?.changes ?? 0) === face.changes;
+    return isSame ? mark : undefined;
   }
 
   change(face, change) {
-    const mark = { attempt: face.attempt, ...this.of(face), ...change };
+    const mark = { attempt: face.attempt, changes: face.changes, ...this.of(face), ...change };
+    if (Object.keys(mark.change ?? {}).length === 0) delete mark.change;
     if (!mark.verdict) delete mark.verdict;
     if (!mark.lock?.length || mark.verdict !== 'reject') {
       delete mark.lock;
       delete mark.unlocked;
     }
     if (!mark.note) delete mark.note;
-    if (mark.verdict || mark.note) this.marks.set(face.id, mark);
+    if (mark.verdict || mark.note || mark.change) this.marks.set(face.id, mark);
     else this.marks.delete(face.id);
     try {
       this.storage?.setItem(this.key, JSON.stringify(Object.fromEntries(this.marks)));
@@ -94,18 +103,28 @@ export class Review {
     return null;
   }
 
+  /// Sets a key of the face's change. The same value again, or none, removes the key.
+  ask(face, name, value) {
+    const change = { ...this.of(face)?.change };
+    if (value === undefined || change[name] === value) delete change[name];
+    else change[name] = value;
+    this.change(face, { change });
+  }
+
   count(verdict) {
     return this.crowd.faces.filter((face) => this.of(face)?.verdict === verdict).length;
   }
 
-  /// The review file: a line for each mark, in the plan's order.
+  /// The review file: a line for each mark and for each change, in the plan's order.
   toYaml() {
-    const lines = this.crowd.faces
-      .map((face) => [face, this.of(face)])
-      .filter(([, mark]) => mark)
-      .map(([face, mark]) => `  ${key(face.id)}: ${formatMark(mark, this.crowd.locks)}`);
-    const faces = lines.length > 0 ? `faces:\n${lines.join('\n')}` : 'faces: {}';
+    const all = this.crowd.faces.map((face) => [face, this.of(face)]).filter(([, mark]) => mark);
+    const section = (name, lines) => (lines.length > 0 ? `${name}:\n${lines.join('\n')}\n` : '');
+    const faces = section('faces', all.filter(([, mark]) => mark.verdict || mark.note)
+      .map(([face, mark]) => `  ${key(face.id)}: ${formatMark(mark, this.crowd.locks)}`));
+    const changes = section('changes', all.filter(([, mark]) => mark.change)
+      .map(([face, mark]) => `  ${key(face.id)}: ${formatChange(mark.change)}`));
     return `# Marks of the crowd ${this.crowd.name}, seed ${this.crowd.seed}: ` +
-      `crowdface generate CONFIG --review THIS_FILE\nschema: 1\n${faces}\n`;
+      `crowdface generate CONFIG --review THIS_FILE\nschema: 1\nafter: ${this.crowd.reviews}\n` +
+      `${faces || changes ? faces : 'faces: {}\n'}${changes}`;
   }
 }

@@ -46,7 +46,7 @@ console.log(`opened in ${Date.now() - began} ms`);
 const all = await ids();
 const crowd = await page.evaluate(() => {
   const { name, regions, faces, targets } = window.crowdface.page.crowd;
-  return { name, regions, targets, faces: faces.map(({ id, target, byHand, order }) => ({ id, target, byHand, order })) };
+  return { name, regions, targets, faces: faces.map(({ id, target, family, byHand, order }) => ({ id, target, family, byHand, order })) };
 });
 assert.equal(all.length, crowd.faces.length);
 assert.ok(all.length >= 6, 'a crowd of at least six faces is needed');
@@ -231,6 +231,22 @@ assert.deepEqual(await ids(), [drawn[1], drawn[2]]);
 await page.selectOption('select[name=mark]', 'any');
 await take('after_reload');
 
+// Changes: older, and a variant of the face that was open before.
+const older = page.locator('.change', { hasText: 'Older' });
+const open = async (id) => {
+  await page.evaluate((to) => { location.hash = `#/face/${to}`; }, id);
+  await page.waitForFunction((to) => document.querySelector('main.face h1').textContent === to, id);
+};
+const sampled = crowd.faces.filter((face) => !face.byHand && face.family === null).map((face) => face.id);
+const [aged, similar] = sampled.slice(-2);
+await open(aged);
+await older.click();
+await open(similar);
+await page.locator('.change', { hasText: 'Variant of' }).click();
+assert.equal((await marks())[similar].change.variant_of, aged);
+await page.keyboard.press('Escape');
+await page.waitForSelector('main.all:not([hidden])');
+
 // Export.
 const download = page.waitForEvent('download');
 await page.click('.export');
@@ -239,6 +255,9 @@ const review = readFileSync(reviewFile, 'utf8');
 assert.match(review, /^schema: 1$/m);
 assert.match(review, new RegExp(`^  ${drawn[0]}: keep$`, 'm'));
 assert.match(review, new RegExp(`^  ${drawn[1]}: reject$`, 'm'));
+assert.match(review, /^after: \d+$/m);
+assert.match(review, new RegExp(`^  ${aged}: {age: older}$`, 'm'));
+assert.match(review, new RegExp(`^  ${similar}: {variant_of: ${aged}}$`, 'm'));
 await page.keyboard.press('?');
 await page.waitForSelector('dialog[open]');
 await take('keys');

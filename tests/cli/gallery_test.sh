@@ -40,7 +40,9 @@ cat "$folder/review.yaml"
 cp "$folder/out/plan.jsonl" "$folder/before.jsonl"
 "$program" plan "$folder/config.yaml" --cache "$folder/cache" --quiet --review "$folder/review.yaml"
 changed=$(diff "$folder/before.jsonl" "$folder/out/plan.jsonl" | grep -c '^>' || true)
-[ "$changed" -eq 2 ] || { echo "expected 2 faces drawn anew, found $changed"; exit 1; }
+[ "$changed" -eq 4 ] || { echo "expected 2 faces drawn anew, an older one and a variant, found $changed"; exit 1; }
+[ "$(grep -c '"changed":\["review 1: age"\]' "$folder/out/plan.jsonl")" -eq 1 ] || { echo "nobody got older"; exit 1; }
+[ "$(grep -c '"changed":\["review 1: variant_of"\]' "$folder/out/plan.jsonl")" -eq 1 ] || { echo "no variant"; exit 1; }
 grep -q 'too like \\"0007\\": chin, #2 {nose}' "$folder/out/plan.jsonl" || {
   echo "the note did not reach the plan"
   exit 1
