@@ -79,7 +79,9 @@ class Signals : public ::testing::Test {
         {"wrap", head, other, "-o", at("out/wrapped.obj")},
         {"edit", config, "--cache", warm, "--out", out, "--no-browser"},
         {"submit", config, "--cache", warm, "--out", out, "--print"},
-        {"status", out}};
+        {"status", out},
+        {"completion", "bash"},
+        {"manual"}};
   }
 
   /// The folder `out` before a command: a crowd for the commands that work on one, else nothing.

@@ -14,6 +14,7 @@
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/gltf_compression.h"
 #include "crowdface/io/gltf_file.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/srgb.h"
 
 namespace crowdface {
