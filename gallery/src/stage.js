@@ -117,6 +117,8 @@ export function drawsInSoftware() {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
+const field = 20; // degrees from top to bottom
+const narrow = 0.8; // width by height of a view below which the field is wider
 const rest = 120; // ms without a move, after which all is drawn in full
 const calm = 600; // ms more, after which hair is, too
 const slow = 33; // ms of a frame while something moves
@@ -138,7 +140,7 @@ export class Stage {
     this.scene = new Scene();
     this.group = new Group();
     this.scene.add(this.group);
-    this.camera = new PerspectiveCamera(20, 1, 0.1, 100);
+    this.camera = new PerspectiveCamera(field, 1, 0.1, 100);
     this.scene.add(this.camera);
     this.controls = new OrbitControls(this.camera, this.node);
     this.controls.enablePan = pan;
@@ -199,6 +201,14 @@ export class Stage {
     this.draw();
   }
 
+  /// Takes the camera of another view.
+  lookAs({ camera, controls }) {
+    this.camera.position.copy(camera.position);
+    this.controls.target.copy(controls.target);
+    this.controls.update();
+    this.draw();
+  }
+
   turn(degrees) {
     this.camera.position.sub(this.controls.target)
       .applyAxisAngle(new Vector3(0, 1, 0), (degrees * Math.PI) / 180).add(this.controls.target);
@@ -245,12 +255,19 @@ export class Stage {
     this.draw();
   }
 
+  /// In a narrow view the whole head is seen, too.
+  setAspect(aspect) {
+    const { camera } = this;
+    camera.aspect = aspect;
+    camera.fov = (Math.atan(Math.tan((field * Math.PI) / 360) * Math.max(1, narrow / aspect)) * 360) / Math.PI;
+    camera.updateProjectionMatrix();
+  }
+
   fit() {
     const box = this.node.parentElement?.getBoundingClientRect();
     if (!box || box.width === 0) return;
     this.renderer.setSize(box.width, box.height);
-    this.camera.aspect = box.width / box.height;
-    this.camera.updateProjectionMatrix();
+    this.setAspect(box.width / box.height);
     this.draw();
   }
 

@@ -14,7 +14,7 @@ const vertices = (file) => readFileSync(file, 'utf8').split('\n').filter((line) 
 const ofTemplate = vertices(templateFile);
 const ofScan = vertices(scanFile);
 
-const { browser, page, problems, take } = await openPage({ pictures, own: address });
+const { browser, page, problems, take, colourAt } = await openPage({ pictures, own: address });
 page.on('dialog', (dialog) => { problems.push(`dialog: ${dialog.message()}`); dialog.accept(); });
 
 const picker = (ask, argument) => page.evaluate(
@@ -53,6 +53,11 @@ for (const name of ['nose_tip', 'nose_base', 'chin', 'eye_outer_left', 'eye_inne
 }
 assert.ok(ofTemplate[proposed.eye_outer_left][0] > 0 && ofTemplate[proposed.eye_outer_right][0] < 0, 'left is the head’s own');
 await take('opened');
+
+// The scan has its colours: its left half is blue.
+const besideEye = (side) => onScreen('scan', ofScan[proposed[`eye_outer_${side}`]].map((value, axis) => value - (axis === 2 ? 25 : 0)));
+const [ofLeft, ofRight] = [await colourAt(...await besideEye('left')), await colourAt(...await besideEye('right'))];
+assert.ok(ofLeft[2] > 1.5 * ofLeft[0] && ofRight[0] > ofRight[2], `blue on the left: ${ofLeft}; skin on the right: ${ofRight}`);
 
 // What the template's shape tells takes one click, on the scan.
 await choose('nose_tip');

@@ -56,6 +56,11 @@ if (part === 'use') {
   await take('propose');
   await reopened(() => button('Propose').click());
   assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears']);
+  // It is a step as any other, and while the brush is out Ctrl+Z takes it back when there is no stroke.
+  await reopened(() => page.keyboard.press('Control+z'));
+  assert.deepEqual(await names(), ['all']);
+  await reopened(() => button('Redo').click());
+  assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears']);
 
   await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await button('Add …').click();
@@ -74,7 +79,21 @@ if (part === 'use') {
 
   await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await page.locator('.painting button[data-region="cheeks"]').click();
+  await page.getByLabel('Strength of cheeks, typed').fill('1.4');
+  await page.getByLabel('Strength of cheeks, typed').press('Enter');
   await reopened(() => button('Remove').click());
+  assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears']);
+  await take('removed');
+  await reopened(() => button('Undo').click());
+  assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears', 'cheeks']);
+  assert.equal(await page.getByLabel('Strength of cheeks, typed').inputValue(), '1.4', 'with its numbers');
+  assert.ok((await shares())[4] > 0.5 * painted, 'and its mask');
+  await button('Undo').click(); // the strength
+  await reopened(() => button('Undo').click()); // the use of what was painted
+  assert.equal((await shares())[4], 0, 'the mask from before is in use');
+  await reopened(() => button('Redo').click());
+  await button('Redo').click();
+  await reopened(() => button('Redo').click());
   assert.deepEqual(await names(), ['brow', 'nose', 'mouth', 'ears']);
   await page.waitForSelector('.painting:not([hidden])'); // as before the page was loaded again
   await paint();

@@ -158,6 +158,7 @@ for (const part of [0.3, 0.75]) {
   found.push(pulsing);
 }
 assert.deepEqual(found, [regions[0], regions[2]], 'the forehead and the chin');
+
 await page.keyboard.press('i');
 assert.match(await page.locator('.frames').innerText(), /^[\d.]+ ms a frame, \d+ × \d+ pixels$/);
 await page.keyboard.press('i');

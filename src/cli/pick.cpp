@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/pick.h"
 
+#include <utility>
+
+#include "crowdface/bake/scan_colours.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/pick/pick_api.h"
 #include "crowdface/pictures/gallery_page.h"
 #include "crowdface/wrap/scan_file.h"
@@ -47,15 +51,19 @@ void pick(const WrapCommand& options) {
   const std::vector<PickScans::Entry> entries = entries_of(options);
   const WrapInputs inputs = read_wrap_inputs(without_landmarks);
   PickScans scans(entries, [&](const PickScans::Entry& entry) {
+    FileMesh mesh = read_mesh(entry.scan);
+    Scan scan = scan_of(mesh, entry.scan);
+    ColourRows colours = colours_at_vertices(scan, ScanColours(std::move(mesh), entry.scan));
     return PickInputs{inputs.shape,
                       inputs.file.positions * inputs.mm,
                       inputs.file.positions,
-                      read_scan(entry.scan),
+                      std::move(scan),
                       inputs.hint,
                       options.shape,
                       entry.scan,
                       entry.landmarks,
-                      options.batch.empty() ? std::string() : options.landmarks};
+                      options.batch.empty() ? std::string() : options.landmarks,
+                      std::move(colours)};
   });
   pick_landmarks(scans, gallery_page_folder(), port, [&](const std::string& address) {
     show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);

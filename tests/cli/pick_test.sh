@@ -9,8 +9,8 @@ set -euo pipefail
 
 "$program" synth -o "$folder/heads" --count 2 --vertices 20000 --seed 2 --quiet
 template=$folder/heads/synth_01.obj
-# A scan of the other head: in millimetres, up along z, far from where the template is.
-awk '/^v / { printf "v %.5f %.5f %.5f\n", 10 * $2 + 700, -10 * $4, 10 * $3 - 50 } /^f / { gsub(/\/[0-9\/]*/, ""); print }' \
+# A scan of the other head: in millimetres, up along z, far from where the template is, its left half blue.
+awk '/^v / { printf "v %.5f %.5f %.5f %s\n", 10 * $2 + 700, -10 * $4, 10 * $3 - 50, ($2 > 0 ? "0.1 0.2 0.9" : "0.7 0.5 0.4") } /^f / { gsub(/\/[0-9\/]*/, ""); print }' \
   "$folder/heads/synth_02.obj" >"$folder/scan.obj"
 printf '# picked by hand\ntemplate: {}\n' >"$folder/landmarks.yaml"
 serve wrap --pick "$template" "$folder/scan.obj" --landmarks "$folder/landmarks.yaml" --no-browser

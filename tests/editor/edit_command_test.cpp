@@ -330,8 +330,22 @@ TEST_F(EditCommandTest, RegionsComeAndGoInTheConfig) {
 
     EXPECT_EQ(post("api/regions", {{"remove", "region_2"}})->status, 200);
     EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "cheek"));
-    EXPECT_THAT(read_text(edits()), ::testing::HasSubstr("edited/other_masks.png"));
+    EXPECT_THAT(read_text(edits()), ::testing::HasSubstr("edited/masks-"))
+        << "the first masks stay for undo";
     EXPECT_EQ(post("api/face", {{"recipe", start()}})->status, 200);
+
+    // Each change of the regions can be taken back: to those before the last, and to the config's own.
+    const std::string cheeks = saved.substr(saved.find('{'), saved.find('}') - saved.find('{') + 1);
+    const auto back = post("api/regions", {{"back", cheeks}});
+    EXPECT_EQ(back->status, 200) << back->body;
+    EXPECT_EQ(Json::parse(back->body)["regions"], cheeks);
+    EXPECT_EQ(read_text(edits()), saved);
+    EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "region_2", "cheek"));
+    EXPECT_THAT(error(post("api/regions", {{"back", "{names: [a]}\nrecipes: []"}})),
+                ::testing::HasSubstr("regions"));
+    EXPECT_EQ(post("api/regions", {{"back", nullptr}})->status, 200);
+    EXPECT_THAT(names(), ::testing::ElementsAre("region_1", "region_2"));
+    EXPECT_EQ(Json::parse(get("api/job")->body)["regions_edit"], nullptr);
   });
   const Outcome check =
       run_program(CROWDFACE_PROGRAM, {"check", folder_.config(), "--cache", folder_.cache()});

@@ -339,8 +339,7 @@ export class HeadView extends Stage {
     this.scene.background = new Color('#64666a');
     renderer.setPixelRatio(1);
     renderer.setSize(size, size, false);
-    camera.aspect = 1;
-    camera.updateProjectionMatrix();
+    this.setAspect(1);
     this.middle ??= this.faceMiddle();
     controls.target.set(0, this.middle, 0);
     camera.position.set(0, this.middle, 4.8);

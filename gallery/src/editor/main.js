@@ -4,9 +4,12 @@ import { getBinary, getJson, post, postForBinary, postForBlob, put } from '../ap
 import { showKeys } from '../dialog.js';
 import { el, short } from '../dom.js';
 import { History } from '../history.js';
+import { Beside } from './beside.js';
 import { showElsewhere, showGenerate, showPutBack, showReplace } from './dialogs.js';
 import { Exact } from './exact.js';
+import { Measurements } from './measurements.js';
 import { Newest } from './newest.js';
+import { HeadHand } from './head_hand.js';
 import { HeadView } from './head_view.js';
 import { openPainting } from './painting.js';
 import { PlaneBoard } from './plane_board.js';
@@ -21,7 +24,6 @@ import { toolbar, viewBar } from './toolbar.js';
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
 const patience = 250; // ms that another page has to keep its last steps
-const still = 4; // pixels: below, a press is a click
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
 
@@ -31,12 +33,13 @@ class Editor extends ProgramPage {
     this.job = job;
     const { history, kept } = this.restored(state);
     const first = job.crowd?.faces[0]?.id;
-    this.history = new History(first ? this.openedFace(first) : this.fromWire(job.start), history);
+    this.history = new History(this.here(first ? this.openedFace(first) : this.fromWire(job.start)), history);
     this.kept = kept;
     this.linked = new Set(state?.linked ?? []);
     this.locked = new Set(state?.locked ?? []);
-    [this.band] = bandNames(job); // the one that panel and plane show
     this.look = { show: 'surface', wireframe: false, wears: {}, ...state?.look };
+    const bands = bandNames(job);
+    this.band = bands.find((band) => band === this.look.band) ?? bands[0]; // the one that panel and plane show
     this.look.wears = Object.fromEntries(Object.entries(this.look.wears)
       .filter(([kind, choice]) => choice === 'none' || job.attachments[kind]?.includes(choice)));
     this.passing = null; // a document that is shown while something is dragged
@@ -62,7 +65,7 @@ class Editor extends ProgramPage {
       fail: (error) => this.say(error.message, true),
     });
     this.build();
-    this.listenForClicks();
+    this.hand = new HeadHand(this);
     this.history.listeners.push(() => this.stepped());
     this.view.controls.addEventListener('end', () => this.remember());
     addEventListener('keydown', (event) => this.key(event));
@@ -77,22 +80,33 @@ class Editor extends ProgramPage {
     const known = (names) => Object.keys(names ?? {}).every((name) => headIndex(this.job, name) >= 0);
     const documents = [];
     const again = (document) => {
-      const { recipe } = document;
-      const any = Object.values(recipe.regions)[0];
-      const regions = Object.fromEntries(this.job.regions.map(({ name }) => [name, recipe.regions[name] ?? any]));
-      documents.push({ ...document, recipe: { ...recipe, regions } });
-      return documents[documents.length - 1];
+      documents.push(document);
+      return this.hasRegionsOf(document) ? this.here(document) : document;
     };
     const step = ({ document, label }) => ({ document: again(document), label });
     const { history } = state ?? {};
     const result = history ? {
-      history: { ...history, now: again(history.now), past: history.past.map(step), future: history.future.map(step) },
-      kept: (state.kept ?? []).map((entry) => ({ ...entry, document: again(entry.document) })),
+      history: { ...history, now: this.here(again(history.now)), past: history.past.map(step), future: history.future.map(step) },
+      kept: (state.kept ?? []).map((entry) => ({ ...entry, document: this.here(again(entry.document)) })),
     } : { kept: [] };
     const fits = documents.every(({ recipe, anchors }) => headIndex(this.job, recipe.target) >= 0 && known(anchors) &&
       known(recipe.mixture) && Object.values(recipe.regions).every((region) =>
         known(region.weights) && Object.values(region.bands ?? {}).every((band) => known(band.weights))));
     return fits ? result : { kept: [] };
+  }
+
+  /// A document under the regions that there are: a new one begins like another.
+  here(document) {
+    const { recipe } = document;
+    const any = Object.values(recipe.regions)[0];
+    const regions = Object.fromEntries(this.job.regions.map(({ name }) => [name, recipe.regions[name] ?? any]));
+    return { ...document, recipe: { ...recipe, regions }, config_regions: this.job.regions_edit };
+  }
+
+  /// Whether a step was made with the regions that the config has now. Steps of earlier versions do not say.
+  hasRegionsOf({ config_regions: regions }) {
+    const now = this.job.regions_edit;
+    return regions === undefined || now === undefined || regions === now;
   }
 
   build() {
@@ -104,9 +118,10 @@ class Editor extends ProgramPage {
     this.panel = new RegionPanel(this);
     this.shelf = new Shelf(this);
     this.tools = toolbar(this);
+    this.beside = new Beside(this);
     this.viewTools = viewBar(this);
     this.status = el('div', { class: 'measures', role: 'status', 'aria-live': 'polite' });
-    this.traitBox = el('div', { class: 'traits' });
+    this.measurements = new Measurements(this);
     this.frameNode = el('div', { class: 'frames', hidden: true });
     this.message = el('div', { class: 'message', role: 'alert', hidden: true });
     const skip = el('a', { class: 'skip', href: '#regions', onclick: (event) => {
@@ -115,9 +130,10 @@ class Editor extends ProgramPage {
     } }, 'To the sliders of the regions');
     this.node = el('div', { class: 'editor' }, skip, this.tools.node,
       el('main', {},
-        el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.viewTools.node, this.frameNode, this.status),
+        el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.beside.stage, this.viewTools.node,
+          this.frameNode, this.status, this.beside.bar),
         el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
-        el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.traitBox)),
+        el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.measurements.node)),
       this.message);
   }
 
@@ -139,20 +155,24 @@ class Editor extends ProgramPage {
   commit(document, label, options) {
     this.comparing = null;
     this.passing = null;
-    this.history.commit(document, label, options);
+    this.history.commit(this.here(document), label, options);
     this.refresh();
   }
 
-  undo() {
-    this.comparing = null;
-    this.passing = null;
-    if (!this.history.undo()) this.say('Nothing to undo.');
-  }
+  undo() { this.step('past', () => this.history.undo(), 'Nothing to undo.'); }
+  redo() { this.step('future', () => this.history.redo(), 'Nothing to redo.'); }
 
-  redo() {
+  /// A step whose regions are other ones than the config's puts these back first.
+  step(way, act, nothing) {
     this.comparing = null;
     this.passing = null;
-    if (!this.history.redo()) this.say('Nothing to redo.');
+    const next = this.history[way].at(-1);
+    if (next && !this.hasRegionsOf(next.document)) {
+      this.say('Opening again with the other regions …');
+      this.attempt(() => this.openAgain('regions', { back: next.document.config_regions }, act));
+    } else if (!act()) {
+      this.say(nothing);
+    }
   }
 
   stepped() {
@@ -162,7 +182,7 @@ class Editor extends ProgramPage {
 
   /// At most once a frame, whatever moves.
   refresh() {
-    if (this.pending) return;
+    if (this.pending || this.isLeaving) return;
     this.pending = requestAnimationFrame(() => {
       this.pending = null;
       this.blendNow();
@@ -170,6 +190,7 @@ class Editor extends ProgramPage {
       this.panel.show();
       this.tools.show();
       this.viewTools.show();
+      this.beside.refresh();
       if (this.shelfShows !== this.comparing) {
         this.shelfShows = this.comparing;
         this.shelf.show();
@@ -238,7 +259,7 @@ class Editor extends ProgramPage {
     const distance = (title, near, name, limit) => (near ? el('span', { class: near.mm < limit ? 'bad' : null },
       `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`) : null);
     const { asymmetry = 1, mirrored = false } = this.document.recipe;
-    this.traits(face.traits ?? []);
+    this.measurements.show(face.traits ?? []);
     this.status.replaceChildren(...[
       asymmetry === 1 ? null : el('span', { class: 'asymmetry' }, `asymmetry ${short(asymmetry)}`),
       mirrored ? el('span', { class: 'mirrored' }, 'mirrored') : null,
@@ -250,19 +271,6 @@ class Editor extends ProgramPage {
     ].filter(Boolean));
   }
 
-  /// The measurements of the face, and how they differ from the heads' mean.
-  traits(all) {
-    const digits = ({ unit }) => (unit ? 1 : 3);
-    const signed = (trait) => `${trait.more < 0 ? '−' : '+'}${Math.abs(trait.more).toFixed(digits(trait))}`;
-    this.traitBox.replaceChildren(...(all.length === 0 ? [] : [el('details', {
-      open: this.showsTraits, ontoggle: (event) => { this.showsTraits = event.target.open; },
-    }, el('summary', {}, 'Measurements'), el('table', {},
-      el('tr', {}, el('th', {}, ''), el('th', {}, ''), el('th', { title: "difference to the heads' mean" }, 'to mean')),
-      all.map((trait) => el('tr', { title: trait.symbol }, el('td', {}, trait.name.replaceAll('_', ' ')),
-        el('td', {}, `${trait.value.toFixed(digits(trait))}${trait.unit === ' degrees' ? '°' : trait.unit}`),
-        el('td', {}, signed(trait))))))]));
-  }
-
   // -- regions --
 
   /// A region's numbers in the band that is shown.
@@ -272,6 +280,8 @@ class Editor extends ProgramPage {
 
   showBand(band) {
     this.band = band;
+    this.look.band = band;
+    this.remember();
     this.refresh();
   }
 
@@ -308,24 +318,6 @@ class Editor extends ProgramPage {
   }
   lockedNames() { return this.lockedParts().map(([name, band]) => this.partName(name, band)); }
   focusRegion(name) { this.panel.focus(name); }
-
-  /// A click on the head shows which region is there: its card comes into view, card and controller pulse.
-  listenForClicks() {
-    const { node } = this.view;
-    let pressed = null;
-    node.addEventListener('pointerdown', ({ button, clientX, clientY }) => { pressed = button === 0 ? [clientX, clientY] : null; });
-    node.addEventListener('pointerup', ({ clientX, clientY }) => {
-      if (!pressed || this.painting?.on || Math.hypot(clientX - pressed[0], clientY - pressed[1]) > still) return;
-      const name = this.view.regionAt(clientX, clientY);
-      if (!name) return;
-      this.focusRegion(name);
-      for (const part of this.node.querySelectorAll('.handle, .regioncard')) {
-        part.classList.remove('pulse');
-        part.getBoundingClientRect(); // so that the pulse begins again
-        part.classList.toggle('pulse', part.dataset.region === name);
-      }
-    });
-  }
 
   /// Tells how long a frame takes, until it is asked again.
   tellFrames() {
@@ -380,6 +372,8 @@ class Editor extends ProgramPage {
 
   masksChanged(alpha) {
     this.view.setMasks(alpha);
+    this.beside.view?.setMasks(alpha);
+    this.masksTurn = (this.masksTurn ?? 0) + 1;
     this.exactOf = null;
     this.refresh();
   }
@@ -461,6 +455,7 @@ class Editor extends ProgramPage {
   setShow(show) {
     this.look.show = show;
     this.showTexture();
+    this.beside.view?.setShow(this.beside.shown(show));
     this.viewTools.show();
     this.remember();
   }
@@ -530,9 +525,13 @@ class Editor extends ProgramPage {
   }
 
   /// The program opens config and crowd as they stand then; the page is loaded with every step.
-  async openAgain(path, change) {
+  /// \param step  makes the step that this is, of the program's answer
+  async openAgain(path, change, step = () => {}) {
     await this.keepNow(false);
-    await post(path, change);
+    const answer = await post(path, change);
+    this.isLeaving = true; // what follows speaks of regions that this page does not know
+    step(answer);
+    await this.keepNow(false);
     location.reload();
   }
 
@@ -571,6 +570,7 @@ class Editor extends ProgramPage {
       const head = await getBinary(`heads/${h}`);
       this.heads[h] = head;
       this.view.setHead(h, head);
+      this.beside.view?.setHead(h, head);
       this.refresh();
     }
     const [{ name }] = this.job.regions;
@@ -582,7 +582,10 @@ class Editor extends ProgramPage {
     this.ready = true;
     this.refresh();
     this.offerPainting();
-    this.view.setLight((await getBinary('light')).light);
+    this.light = (await getBinary('light')).light;
+    this.view.setLight(this.light);
+    this.beside.view?.setLight(this.light);
+    if (typeof this.look.beside === 'string') this.beside.setOn(true);
   }
 
   // -- keys --
@@ -593,7 +596,7 @@ class Editor extends ProgramPage {
       ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['K, B', 'keep, compare with what was kept'],
       ['R, L, N', 'draw a face; six like this one; between two'], ['[ ]', 'faces of the crowd'],
       ['F, Q, P', 'front, three-quarter, profile'], [', . + −', 'turn, zoom in, zoom out'],
-      ['W, C', 'wireframe; what the face shows'], ['I', 'time of a frame'],
+      ['W, C', 'wireframe; what the face shows'], ['S', 'another face beside'], ['I', 'time of a frame'],
       ...(this.painting ? [['M, Space', 'paint masks; paint in the middle of the view']] : []), ['Ctrl+S', 'save the mesh'], ['Esc', 'leave a field, close a list']]);
   }
 
@@ -632,7 +635,7 @@ class Editor extends ProgramPage {
       n: () => this.shelf.startTravel(), '[': () => this.walk(-1), ']': () => this.walk(1),
       f: () => view.view('front'), q: () => view.view('three_quarter'), p: () => view.view('profile'),
       ',': () => view.turn(-10), '.': () => view.turn(10), '+': () => view.nearer(0.85), '=': () => view.nearer(0.85),
-      '-': () => view.nearer(1 / 0.85), i: () => this.tellFrames(), w: () => this.setWireframe(!this.look.wireframe), c: () => this.cycleShow(),
+      '-': () => view.nearer(1 / 0.85), i: () => this.tellFrames(), w: () => this.setWireframe(!this.look.wireframe), c: () => this.cycleShow(), s: () => this.beside.setOn(!this.beside.on),
       '?': () => this.help(), escape: () => this.closeAll(),
       ...(this.painting ? { m: () => this.painting.setOn(!this.painting.on) } : {}),
       ...(this.painting?.on && event.target === view.node ? { ' ': () => this.painting.paintMiddle() } : {}),
@@ -640,6 +643,7 @@ class Editor extends ProgramPage {
   }
 
   closeAll() {
+    this.hand.select(null);
     this.shelf.closePicks();
     if (this.painting?.on) this.painting.setOn(false);
     if (!this.shelf.path.hidden) this.shelf.endTravel(false);

@@ -178,10 +178,19 @@ export class Painting {
     this.send();
   }
 
-  /// While the brush is out, Ctrl+Z speaks of strokes; the program keeps none to paint again.
+  /// While the brush is out, Ctrl+Z speaks of strokes first, then of the regions; the program keeps no strokes to paint
+  /// again.
   heldKeys(event) {
-    const redo = () => this.editor.say('A stroke that was undone cannot be redone: paint it again.');
-    return { z: () => (event.shiftKey ? redo() : this.undo()), y: redo };
+    const { editor } = this;
+    const isOfRegions = (way) => editor.history[way].length > 0 && !editor.hasRegionsOf(editor.history[way].at(-1).document);
+    const redo = () => (isOfRegions('future') ? editor.redo()
+      : editor.say('A stroke that was undone cannot be redone: paint it again.'));
+    const undo = () => {
+      if (editor.job.painted || this.waiting.length > 0 || this.sending) this.undo();
+      else if (isOfRegions('past')) editor.undo();
+      else editor.say('No stroke to undo. The button Undo takes back the steps of the face.');
+    };
+    return { z: () => (event.shiftKey ? redo() : undo()), y: redo };
   }
 
   /// One request at a time; what is painted meanwhile goes with the next, up to where a stroke begins or is taken back.
@@ -191,7 +200,8 @@ export class Painting {
     const [first, ...others] = this.waiting.splice(0, another < 0 ? this.waiting.length : another);
     this.sending = true;
     await this.editor.attempt(async () => {
-      const { alpha } = await (first.undo ? postForBinary('masks/undo', {}) : this.paint([first, ...others]));
+      const { alpha, painted } = await (first.undo ? postForBinary('masks/undo', {}) : this.paint([first, ...others]));
+      this.editor.job.painted = painted;
       this.editor.masksChanged(alpha);
     });
     this.sending = false;
@@ -210,8 +220,12 @@ export class Painting {
   /// The config gets these regions and is opened again with them.
   /// \param change  {add: name}, {remove: name}, {propose: names} or nothing more than what is painted.
   async use(change) {
-    this.editor.say('Opening again with these regions …');
-    await this.editor.openAgain('regions', change);
+    const { editor } = this;
+    const label = change.add ? `region ${change.add} added` : change.remove ? `region ${change.remove} removed`
+      : change.propose ? 'regions proposed' : 'painted masks used';
+    editor.say('Opening again with these regions …');
+    await editor.openAgain('regions', change, ({ regions }) =>
+      editor.history.commit({ ...editor.history.now, config_regions: regions }, label));
   }
 
   /// Images in the layout of the textures, which a config names.

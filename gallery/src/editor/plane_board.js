@@ -5,7 +5,7 @@ import { anchorMark, planeFrame, side } from '../plane.js';
 import { anchorsOf, weightsOf } from './recipe.js';
 
 const finger = 14.5; // pixels: radius of what is to be taken, on a board of any size
-const still = 4; // pixels: below, a press is a click
+export const still = 4; // pixels: below, a press is a click
 const reach = 2; // beyond so many half-widths of the heads' place from its middle no controller stands
 
 /// A letter for each region, none twice: the first of its name that is free.
@@ -162,10 +162,7 @@ export class PlaneBoard {
       if (!drag.moved && Math.hypot(dx, dy) < still) return;
       drag.moved = true;
       node.classList.add('dragged');
-      const scale = side / this.svg.getBoundingClientRect().width;
-      const inside = (value) => Math.min(Math.max(value, 4), side - 4);
-      const point = this.frame.back([inside(drag.start[0] + scale * dx), inside(drag.start[1] + scale * dy)]);
-      this.editor.preview(to(point.map((value) => Number(value.toFixed(4)))));
+      this.editor.preview(to(this.moved(drag.start, dx, dy)));
     });
     const end = (event) => {
       const { drag } = this;
@@ -194,6 +191,20 @@ export class PlaneBoard {
       event.preventDefault();
       event.stopPropagation();
     });
+  }
+
+  /// Where a place of the board comes to, so many pixels of the screen away, on the plane.
+  moved(start, dx, dy, frame = this.frame) {
+    const inside = (value) => Math.min(Math.max(value, 4), side - 4);
+    const point = frame.back([inside(start[0] + this.unit * dx), inside(start[1] + this.unit * dy)]);
+    return point.map((value) => Number(value.toFixed(4)));
+  }
+
+  /// A drag of a region's controller from elsewhere: (dx, dy) => document, in pixels as on the board.
+  dragOf(name) {
+    const { frame } = this;
+    const start = frame.at(this.placeOf(name));
+    return (dx, dy) => this.withPosition(name, this.moved(start, dx, dy, frame));
   }
 
   /// One arrow: a fortieth of what is seen.

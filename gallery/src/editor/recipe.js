@@ -243,6 +243,18 @@ export function wire(job, document) {
   return { id: recipe.id, ...wholeFace(recipe), regions };
 }
 
+/// The face with the weights that changed from one recipe to another, as the program told both; what did not change stays
+/// as it is, places on the plane among it.
+export function withWeights(job, document, before, after) {
+  const regions = Object.fromEntries(job.regions.map(({ name }) => [name, withBands(job, document.recipe, name, (numbers, band) => {
+    const { weights } = bandOf(job, after, name, band);
+    if (!weights || JSON.stringify(weights) === JSON.stringify(bandOf(job, before, name, band).weights)) return numbers;
+    const { position, ...rest } = numbers;
+    return { ...rest, weights };
+  })]));
+  return { ...document, recipe: { ...document.recipe, regions } };
+}
+
 /// The same face with heads where they were moved to: positions that speak of other places become weights.
 export function underAnchors(job, document, anchors) {
   if (JSON.stringify(document.anchors ?? {}) === JSON.stringify(anchors ?? {})) return document;

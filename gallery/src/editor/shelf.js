@@ -144,12 +144,17 @@ export class Shelf {
       el('div', { class: 'ends' }, this.from, this.way, this.to));
   }
 
+  /// [name, document] of the faces that there are beside the edited one.
+  choices() {
+    const { editor } = this;
+    return [...editor.kept.map((entry) => [entry.name, entry.document]),
+      ...(editor.job.crowd?.faces ?? []).slice(0, mostOffered).map((face) => [face.id, editor.fromWire(face, face.id)]),
+      ...editor.job.heads.map((head) => [head.name, headAlone(editor.job, head.name, editor.document.recipe.id)])];
+  }
+
   startTravel() {
     const { editor } = this;
-    this.ends = new Map([['this face', editor.document],
-      ...editor.kept.map((entry) => [entry.name, entry.document]),
-      ...(editor.job.crowd?.faces ?? []).slice(0, mostOffered).map((face) => [face.id, editor.fromWire(face)]),
-      ...editor.job.heads.map((head) => [head.name, headAlone(editor.job, head.name, editor.document.recipe.id)])]);
+    this.ends = new Map([['this face', editor.document], ...this.choices()]);
     for (const select of [this.from, this.to]) {
       select.replaceChildren(...[...this.ends.keys()].map((name) => el('option', { value: name }, name)));
     }

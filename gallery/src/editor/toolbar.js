@@ -97,6 +97,9 @@ export function viewBar(editor) {
   const paint = el('button', {
     hidden: true, title: 'Paint the regions’ masks (M)', onclick: () => editor.painting.setOn(!editor.painting.on),
   }, 'Paint masks');
+  const beside = el('button', {
+    title: 'Another face beside, seen by the same camera (S)', onclick: () => editor.beside.setOn(!editor.beside.on),
+  }, 'Side by side');
   const wears = Object.entries(job.attachments).map(([kind, names]) => [kind, el('select', {
     'aria-label': `What the face wears: ${kind}`, title: `What the face wears: ${kind}`,
     onchange: (event) => editor.wear(kind, event.target.value),
@@ -109,12 +112,14 @@ export function viewBar(editor) {
     node: el('div', { class: 'viewbar' },
       el('div', { class: 'group', role: 'group', 'aria-label': 'Standard views' },
         views.map(([name, text, key]) => el('button', { title: `${text} view${key ? ` (${key})` : ''}`, onclick: () => view.view(name) }, text))),
-      show, wears.map(([, select]) => select), wire, paint, scale),
+      show, wears.map(([, select]) => select), wire, beside, paint, scale),
     show() {
       show.value = editor.look.show;
       for (const [kind, select] of wears) select.value = editor.look.wears[kind] ?? 'draw';
       wire.classList.toggle('on', editor.look.wireframe);
       wire.setAttribute('aria-pressed', String(editor.look.wireframe));
+      beside.classList.toggle('on', editor.beside.on);
+      beside.setAttribute('aria-pressed', String(editor.beside.on));
       scale.hidden = editor.look.show !== 'distance';
       paint.classList.toggle('on', Boolean(editor.painting?.on));
     },

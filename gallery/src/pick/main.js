@@ -4,6 +4,7 @@ import { getBinary, getJson, post, put } from '../api.js';
 import { openDialog, showKeys } from '../dialog.js';
 import { el } from '../dom.js';
 import { History } from '../history.js';
+import { linkViews } from '../linked_views.js';
 import { ProgramPage } from '../program_page.js';
 import { MeshView } from './mesh_view.js';
 import { NameList } from './name_list.js';
@@ -37,6 +38,7 @@ class Picker extends ProgramPage {
     this.last = this.views.scan; // the one that keys speak of
     this.build();
     for (const side of sides) this.listen(side);
+    linkViews(Object.values(this.views), () => this.linked);
     addEventListener('keydown', (event) => this.key(event));
     addEventListener('beforeunload', (event) => { if (this.isChanged()) event.preventDefault(); });
     this.refresh();
@@ -84,21 +86,11 @@ class Picker extends ProgramPage {
 
   listen(side) {
     const view = this.views[side];
-    const other = this.views[side === 'template' ? 'scan' : 'template'];
     view.onpick = (ray) => this.attempt(() => this.pick(side, ray));
     view.onmark = (name, event) => this.attempt(() => this.pressMark(side, name, event));
     view.onhover = (name) => this.hover(name);
     view.node.addEventListener('pointerdown', () => { this.last = view; });
     view.node.addEventListener('focus', () => { this.last = view; });
-    view.controls.addEventListener('change', () => {
-      if (!this.linked || this.following) return;
-      this.following = true;
-      other.camera.position.copy(view.camera.position);
-      other.controls.target.copy(view.controls.target);
-      other.controls.update();
-      other.draw();
-      this.following = false;
-    });
   }
 
   // -- what is picked --

@@ -6,7 +6,7 @@ import {
 } from 'three';
 import { el } from '../dom.js';
 import { hitTriangle } from '../hit.js';
-import { skinMaterial, Stage } from '../stage.js';
+import { linearColours, skinMaterial, Stage } from '../stage.js';
 
 const hides = 0.004; // of the distance: what lies deeper behind the surface is hidden
 const still = 4; // pixels that a hand moves as it clicks
@@ -23,9 +23,9 @@ export class MeshView extends Stage {
     geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
     geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
     geometry.setAttribute('normal', new BufferAttribute(mesh.normals, 3, true));
-    const colours = new Float32Array(mesh.positions.length);
+    const colours = mesh.colours ? linearColours(mesh.colours) : new Float32Array(mesh.positions.length);
     const shades = [new Color(colour), new Color('#e4e2dd')];
-    for (let v = 0; v < mesh.part.length; v += 1) shades[mesh.part[v]].toArray(colours, 3 * v);
+    for (let v = 0; v < mesh.part.length && !mesh.colours; v += 1) shades[mesh.part[v]].toArray(colours, 3 * v);
     geometry.setAttribute('color', new BufferAttribute(colours, 3));
     this.group.add(new Mesh(geometry, skinMaterial()));
     this.standAs(stands);

@@ -180,4 +180,33 @@ std::optional<Eigen::Array3f> ScanColours::at(const Scan& scan, const ScanArea& 
   return Eigen::Array3f((*light)[0], (*light)[1], (*light)[2]);
 }
 
+ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
+  if (!colours.any()) return {};
+  constexpr float kUnknown = 0.3F;
+  ColourRows rows(scan.positions.rows(), 3);
+  std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
+  for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
+    const Triangle& corners = scan.triangles[t];
+    // The mean over half a triangle: the page shows fewer vertices than the texture has texels.
+    const Eigen::Vector3d first = row3(scan.positions, corners[0]);
+    ScanArea area{static_cast<std::uint32_t>(t),
+                  {},
+                  (row3(scan.positions, corners[1]) - first) / 2,
+                  (row3(scan.positions, corners[2]) - first) / 2};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (is_done[corners[c]]) continue;
+      is_done[corners[c]] = true;
+      area.shares = {};
+      area.shares[c] = 1;
+      const Eigen::Array3f light =
+          colours.at(scan, area).value_or(Eigen::Array3f::Constant(kUnknown));
+      for (int k = 0; k < 3; ++k) {
+        rows(corners[c], k) =
+            static_cast<std::uint8_t>(std::lround(255 * srgb_of_linear(light[k])));
+      }
+    }
+  }
+  return rows;
+}
+
 }  // namespace crowdface

@@ -12,6 +12,7 @@
 #include "crowdface/bake/filtered_texture.h"
 #include "crowdface/heads/attachment_textures.h"
 #include "crowdface/io/file_mesh.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/wrap/scan.h"
 
 namespace crowdface {
@@ -71,5 +72,8 @@ class ScanColours {
   std::vector<std::string> warnings_;
   bool any_ = false;
 };
+
+/// The colours at the vertices of a scan; grey where a polygon has none. No rows if the scan has no colours.
+ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours);
 
 }  // namespace crowdface

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/editor/config_edits.h"
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 #include "crowdface/config/config_reader.h"
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/edited_entries.h"
@@ -37,6 +41,7 @@ std::string in_flow(const YamlNode& node) {
 /// Writes one line for each section and for each list item.
 std::string text_of(const YamlNode& edits) {
   std::string text = "# Written by crowdface edit; the config names this file as `edits`.\n";
+  if (edits.entries.empty()) text += "{}\n";
   for (const auto& [key, place, value] : edits.entries) {
     const bool is_list = value.kind == YamlNode::Kind::kList;
     text += entry(key, is_list ? block_list(texts_of(value.items, in_flow)) : in_flow(value));
@@ -45,8 +50,8 @@ std::string text_of(const YamlNode& edits) {
   return text;
 }
 
-/// Saves sections, given as text in the format of a config.
-fs::path put_edit(const fs::path& config, const std::string& sections) {
+/// Saves a change of the edits.
+fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edits)>& change) {
   std::string config_text = read_file(config);
   const YamlNode root = parsed(config_text, config.string());
   const YamlEntry* named = root.find("edits");
@@ -57,7 +62,7 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   YamlNode edits;
   // A file that the config does not name yet may contain the edits of an editor that was killed.
   if (named != nullptr || path_exists(file)) edits = parsed(read_file(file), file.string());
-  merge_edits(parsed(sections, "edits"), edits);
+  change(edits);
   const std::string text = text_of(edits);
 
   const fs::path trial = concat(file.string(), ".trial");
@@ -84,11 +89,16 @@ fs::path put_edit(const fs::path& config, const std::string& sections) {
   return file;
 }
 
+/// Saves sections, given as text in the format of a config.
+fs::path put_sections(const fs::path& config, const std::string& sections) {
+  return put_edit(config, [&](YamlNode& edits) { merge_edits(parsed(sections, "edits"), edits); });
+}
+
 }  // namespace
 
 fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
   const YamlNode node = parsed(format_manual_recipe(recipe, config), "recipe");
-  return put_edit(config.file, concat("recipes: [", in_flow(node), "]\n"));
+  return put_sections(config.file, concat("recipes: [", in_flow(node), "]\n"));
 }
 
 fs::path put_regions(const fs::path& config, const std::vector<std::string>& names,
@@ -97,8 +107,26 @@ fs::path put_regions(const fs::path& config, const std::vector<std::string>& nam
   const auto from_config = texts_of(masks, [&](const fs::path& mask) {
     return fs::absolute(mask).lexically_normal().lexically_proximate(folder).generic_string();
   });
-  return put_edit(config, concat("regions: {names: ", flow_names(names),
-                                 ", mask: ", flow_names(from_config), "}\n"));
+  return put_sections(config, concat("regions: {names: ", flow_names(names),
+                                     ", mask: ", flow_names(from_config), "}\n"));
+}
+
+std::optional<std::string> regions_in_edits(const fs::path& edits) {
+  if (edits.empty() || !path_exists(edits)) return std::nullopt;
+  const YamlNode root = parsed(read_file(edits), edits.string());
+  const YamlEntry* regions = root.find("regions");
+  if (regions == nullptr) return std::nullopt;
+  return in_flow(regions->value);
+}
+
+fs::path put_back_regions(const fs::path& config, const std::optional<std::string>& regions) {
+  return put_edit(config, [&](YamlNode& edits) {
+    std::erase_if(edits.entries, [](const YamlEntry& edit) { return edit.key == "regions"; });
+    if (!regions) return;
+    YamlNode root = parsed(entry("regions", *regions), "regions");
+    if (root.entries.size() != 1) throw UsageError("regions: expected one value");
+    edits.entries.push_back(std::move(root.entries.front()));
+  });
 }
 
 }  // namespace crowdface

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,15 @@ std::filesystem::path put_recipe(const ManualRecipe& recipe, const Config& confi
 std::filesystem::path put_regions(const std::filesystem::path& config,
                                   const std::vector<std::string>& names,
                                   const std::vector<std::filesystem::path>& masks);
+
+/// The value of `regions` in a file of edits, on one line; nothing if the file has none.
+/// \param edits  the file; empty or absent: nothing
+std::optional<std::string> regions_in_edits(const std::filesystem::path& edits);
+
+/// Puts back what regions_in_edits returned earlier.
+/// \return the file of the edits.
+/// \throws Error as put_recipe does, or if `regions` is more than one value.
+std::filesystem::path put_back_regions(const std::filesystem::path& config,
+                                       const std::optional<std::string>& regions);
 
 }  // namespace crowdface

@@ -6,7 +6,9 @@
 
 #include "crowdface/config/config_draft.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/editor/config_edits.h"
 #include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/mesh/all_columns.h"
@@ -44,6 +46,8 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/skin", &EditApi::skin},
                                             {"POST", "api/measures", &EditApi::measures},
                                             {"POST", "api/draw", &EditApi::draw},
+                                            {"POST", "api/steer", &EditApi::steer},
+                                            {"GET", "api/faces/", &EditApi::face_picture},
                                             {"GET", "api/state", &EditApi::state},
                                             {"POST", "api/state", &EditApi::take_over},
                                             {"PUT", "api/state", &EditApi::keep_state},
@@ -73,6 +77,14 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
 HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
   Json json = session_.description();
   json["can_edit_config"] = may_edit_config_;
+  {
+    const std::lock_guard lock(building_);
+    json["painted"] = painting_.painted();
+  }
+  if (may_edit_config_) {
+    const auto regions = regions_in_edits(session_.job().config.edits);
+    json["regions_edit"] = regions ? Json(*regions) : Json();
+  }
   json["attachments"] = placed_.kinds();
   return json_answer(json);
 }
@@ -146,6 +158,29 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   return json_answer({{"recipes", recipes}, {"mm", mm}});
 }
 
+/// The face at which a measurement comes as near to a value as the heads allow, and its measures.
+HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
+  constexpr double kFarthest = 1e4;
+  const Json body = body_of(request);
+  const FacePlan face =
+      session_.steer(face_of(body), text_in(body, "trait"),
+                     number_in(body, "value", -kFarthest, kFarthest), parts_in(body, "locked"));
+  Json answer = told(session_.measure(face, opened_in(body)));
+  answer["recipe"] = recipe_to_json(face, session_.casting(), session_.job().config);
+  return json_answer(answer);
+}
+
+/// The picture of a face of the crowd on the contact sheets: its views side by side.
+HttpAnswer EditApi::face_picture(const HttpRequest&, const std::string& rest) {
+  const std::vector<FacePlan>* crowd = session_.crowd();
+  if (crowd == nullptr || std::ranges::find(*crowd, rest, &FacePlan::id) == crowd->end()) {
+    return refusal(404, "there is no such face");
+  }
+  const auto file = directory_of(session_.job().config).render(rest);
+  if (!path_exists(file)) return refusal(404, "the face has no picture");
+  return {200, "image/png", read_file(file)};
+}
+
 void EditApi::note_turn(const std::string& page, std::uint64_t turn) {
   constexpr std::size_t kMaxPages = 64;
   const std::lock_guard lock(turns_mutex_);
@@ -177,6 +212,8 @@ nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
                               {"symbol", of.symbol},
                               {"unit", unit_of(of)},
                               {"value", one.value},
+                              {"low", one.low},
+                              {"high", one.high},
                               {"more", one.more}});
   }
   json["warnings"] = measures.warnings;

@@ -44,7 +44,7 @@ class EditApi {
   using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
   // Requests about the job and its faces.
-  Handler job, mesh, light, head, attachment, face, skin, measures, draw;
+  Handler job, mesh, light, head, attachment, face, skin, measures, draw, steer, face_picture;
   // Requests that save or write files.
   Handler state, take_over, keep_state, save, picture, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
@@ -52,7 +52,7 @@ class EditApi {
   Handler paint_masks, undo_masks, save_masks, use_regions;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
-  /// A path for new masks, next to the masks that the config names.
+  /// A path for new masks: earlier masks stay, so that steps can be undone.
   std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;
   void require_own_config() const;

@@ -43,6 +43,10 @@ View view_in(const Json& body) {
   return yaw <= kProfileUpTo ? View::kProfile : View::kBack;
 }
 
+Json json_of(const std::optional<std::string>& text) {
+  return text ? Json(*text) : Json();
+}
+
 Json file_json(const std::filesystem::path& file) {
   return {{"file", file.string()}};
 }
@@ -184,6 +188,7 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
 HttpAnswer EditApi::painted_masks() const {
   const std::vector<float> masks = painting_.masks();
   BinaryAnswer answer;
+  answer.head["painted"] = painting_.painted();
   answer.add("alpha", std::span(masks));
   return binary_answer(answer.bytes());
 }
@@ -221,25 +226,37 @@ HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
 }
 
 std::filesystem::path EditApi::unused_masks() const {
-  const std::vector<std::string>& used = session_.job().config.regions.mask;
-  const bool first_is_used = std::ranges::any_of(used, [](const std::string& mask) {
-    return std::filesystem::path(mask).filename().string().starts_with("masks");
-  });
-  return folder_.path() / (first_is_used ? "other_masks.png" : "masks.png");
+  for (std::size_t number = 1;; ++number) {
+    const std::string stem = number == 1 ? "masks" : concat("masks-", number);
+    const bool is_used = std::ranges::any_of(
+        std::filesystem::directory_iterator(folder_.path()), [&](const auto& entry) {
+          const std::string name = entry.path().filename().string();
+          return name.starts_with(concat(stem, '.')) || name.starts_with(concat(stem, '_'));
+        });
+    if (!is_used) return folder_.path() / concat(stem, ".png");
+  }
 }
 
 HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& rest) {
   require_own_config();
   require_no_run();
   const Json body = body_of(request);
+  const std::filesystem::path& config = session_.job().config.file;
+  std::filesystem::path edits;
   {
     const std::lock_guard lock(building_);
     folder_.require_same();
-    const PaintedRegions regions = painting_.regions(body);
-    put_regions(session_.job().config.file, regions.names, painting_.save(regions, unused_masks()));
+    if (body.contains("back")) {
+      edits = put_back_regions(
+          config, body["back"].is_null() ? std::nullopt : std::optional(text_in(body, "back")));
+    } else {
+      const PaintedRegions regions = painting_.regions(body);
+      edits = put_regions(config, regions.names, painting_.save(regions, unused_masks()));
+    }
     painting_.forget();
   }
-  return open_again(request, rest);
+  open_again(request, rest);
+  return json_answer({{"regions", json_of(regions_in_edits(edits))}});
 }
 
 }  // namespace crowdface

@@ -3,15 +3,18 @@
 
 #include <algorithm>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
+#include "crowdface/editor/steer_trait.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/pictures/vertex_finish.h"
 #include "crowdface/render/studio.h"
 #include "crowdface/render/visibility.h"
+#include "crowdface/traits/measurements.h"
 
 namespace crowdface {
 namespace {
@@ -45,7 +48,9 @@ void measure_traits(const FaceTraits& traits, const TraitRules& rules, const Fac
   const TraitLimits limits = rules.limits_of(face);
   for (std::size_t t = 0; t < values.size(); ++t) {
     const std::size_t trait = traits.traits()[t];
-    measures.traits.push_back({trait, values[t], values[t] - spread.mean(trait)});
+    const std::vector<double>& heads = spread.ascending(trait);
+    measures.traits.push_back(
+        {trait, values[t], values[t] - spread.mean(trait), heads.front(), heads.back()});
     const auto limit = std::ranges::find(limits, trait, &TraitLimit::trait);
     if (limit == limits.end() || spread.meets(*limit, values[t])) continue;
     const Measurement& of = measurements()[trait];
@@ -212,6 +217,38 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
     measures.warnings.push_back(sentence(Reason::kGap, job_.config));
   }
   return measures;
+}
+
+FacePlan EditSession::steer(FacePlan face, const std::string& trait, double wanted,
+                            const std::vector<std::size_t>& locked) const {
+  const auto& traits = judging_.get().traits;
+  const auto measured = traits ? traits->traits() : std::vector<std::size_t>();
+  const auto found = find_measurement(trait);
+  const auto at = std::ranges::find(measured, found.value_or(measurements().size()));
+  if (at == measured.end()) {
+    throw UsageError(concat("trait: ", quoted(trait), " cannot be measured on these heads"));
+  }
+  if (casting_.normalization == Normalization::kPrinted) {
+    throw UsageError("with the printed normalization, weights come from places on the plane only");
+  }
+  std::vector<SteeredBand> bands;
+  const std::size_t count = band_count(casting_.sampling);
+  for (std::size_t part = 0; part < count * face.recipe.regions.size(); ++part) {
+    if (std::ranges::find(locked, part) != locked.end()) continue;
+    SteeredBand band{part / count, part % count, sources_of(casting_.sampling, part % count)};
+    for (const SourceWeight& lent : target_shares(face.recipe)) band.heads.push_back(lent.head);
+    for (const SourceWeight& lent : band_of(face.recipe.regions[band.region], band.band).weights) {
+      band.heads.push_back(lent.head);
+    }
+    std::ranges::sort(band.heads);
+    const auto doubles = std::ranges::unique(band.heads);
+    band.heads.erase(doubles.begin(), doubles.end());
+    bands.push_back(std::move(band));
+  }
+  const auto number = static_cast<std::size_t>(at - measured.begin());
+  face.recipe = steer_trait(std::move(face.recipe), bands, wanted,
+                            [&](const Recipe& recipe) { return traits->values(recipe)[number]; });
+  return face;
 }
 
 std::vector<FacePlan> EditSession::draw(const DrawRequest& request) const {

@@ -40,6 +40,7 @@ struct FaceMeasures {
   struct Trait {
     std::size_t trait = 0;  ///< index into measurements()
     double value = 0, more = 0;
+    double low = 0, high = 0;  ///< least and greatest of the heads
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.
@@ -91,6 +92,11 @@ class EditSession {
                        const std::string& opened = "") const;
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
+  /// The face with weights at which a measurement comes as near to a value as the heads allow; see steer_trait.
+  /// \param locked  parts that do not change, as in DrawRequest
+  /// \throws UsageError if the measurement is not available, or weights cannot be given.
+  FacePlan steer(FacePlan face, const std::string& trait, double wanted,
+                 const std::vector<std::size_t>& locked) const;
   /// See draw_faces.
   std::vector<FacePlan> draw(const DrawRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.

@@ -167,8 +167,12 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
     };
     const std::shared_ptr<OpenScan> now = scans_.current();
     if (is("GET", "api/job")) return job(now->session);
-    if (is("GET", "api/mesh/template")) return mesh(now->session.of_template(), now->of_template);
-    if (is("GET", "api/mesh/scan")) return mesh(now->session.of_scan(), now->of_scan);
+    if (is("GET", "api/mesh/template")) {
+      return mesh(now->session.of_template(), {}, now->of_template);
+    }
+    if (is("GET", "api/mesh/scan")) {
+      return mesh(now->session.of_scan(), now->session.inputs().scan_colours, now->of_scan);
+    }
     if (is("POST", "api/pick")) return pick(now->session, body_of(asked));
     if (is("POST", "api/suggest")) return suggest(now->session, body_of(asked));
     if (is("PUT", "api/landmarks")) return save(now->session, body_of(asked));
@@ -177,8 +181,9 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
   });
 }
 
-HttpAnswer PickApi::mesh(const PickableMesh& whole, ShownMesh& shown) const {
-  std::call_once(shown.once, [&] { shown.bytes = whole.preview(max_triangles_); });
+HttpAnswer PickApi::mesh(const PickableMesh& whole, const ColourRows& colours,
+                         ShownMesh& shown) const {
+  std::call_once(shown.once, [&] { shown.bytes = whole.preview(max_triangles_, colours); });
   return binary_answer(shown.bytes);
 }
 

@@ -31,7 +31,7 @@ class PickApi {
   using Json = nlohmann::ordered_json;
   HttpAnswer job(const PickSession& session) const;
   HttpAnswer open(const Json& body);
-  HttpAnswer mesh(const PickableMesh& whole, ShownMesh& shown) const;
+  HttpAnswer mesh(const PickableMesh& whole, const ColourRows& colours, ShownMesh& shown) const;
 
   PickScans& scans_;
   PageFiles page_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/pick/landmark_file.h"
 #include "crowdface/pick/pickable_mesh.h"
 #include "crowdface/pick/suggested_places.h"
@@ -27,6 +28,7 @@ struct PickInputs {
   std::filesystem::path template_file, scan_file, landmarks;
   /// A further landmark file, for template landmarks that `landmarks` lacks; may be empty.
   std::filesystem::path of_template = {};
+  ColourRows scan_colours = {};  ///< of the scan's vertices, or no rows
 };
 
 /// Picks landmarks on a template and a scan by ray casting, and reads and writes the landmark file.

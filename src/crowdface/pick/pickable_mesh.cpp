@@ -120,7 +120,7 @@ PickedPlace PickableMesh::at_point(const Eigen::Vector3d& point) const {
   return place;
 }
 
-std::string PickableMesh::preview(std::size_t max_triangles) const {
+std::string PickableMesh::preview(std::size_t max_triangles, const ColourRows& colours) const {
   std::vector<Triangle> all;
   all.reserve(quads_.size());
   for (const Quad& quad : quads_) all.push_back({quad[0], quad[1], quad[2]});
@@ -134,7 +134,7 @@ std::string PickableMesh::preview(std::size_t max_triangles) const {
   std::vector<std::uint32_t> row(is_skin.size(), kNoIndex), triangles;
   std::vector<float> points;
   std::vector<std::int16_t> normals;
-  std::vector<std::uint8_t> part;
+  std::vector<std::uint8_t> part, shown_colours;
   for (const Triangle& t : all) {
     for (const std::uint32_t v : t) {
       if (row[v] == kNoIndex) {
@@ -144,6 +144,7 @@ std::string PickableMesh::preview(std::size_t max_triangles) const {
           normals.push_back(static_cast<std::int16_t>(std::lround(kSteps * normals_(v, c))));
         }
         part.push_back(is_skin[v] ? 0 : 1);
+        for (int c = 0; c < 3 && colours.rows() > 0; ++c) shown_colours.push_back(colours(v, c));
       }
       triangles.push_back(row[v]);
     }
@@ -160,6 +161,7 @@ std::string PickableMesh::preview(std::size_t max_triangles) const {
   answer.add("normals", std::span<const std::int16_t>(normals));
   answer.add("triangles", std::span<const std::uint32_t>(triangles));
   answer.add("part", std::span<const std::uint8_t>(part));
+  if (colours.rows() > 0) answer.add("colours", std::span<const std::uint8_t>(shown_colours));
   return answer.bytes();
 }
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/triangles.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/wrap/surface_tree.h"
@@ -65,8 +66,9 @@ class PickableMesh {
   /// The mesh reduced to about `max_triangles` triangles, with the normals of the full mesh, as a
   /// BinaryAnswer. Head: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
   /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
-  /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other).
-  std::string preview(std::size_t max_triangles) const;
+  /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there are any.
+  /// \param colours  of the vertices, or no rows
+  std::string preview(std::size_t max_triangles, const ColourRows& colours = {}) const;
 
  private:
   PickedPlace place_of(const Triangle& corners, const std::array<double, 3>& shares) const;

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/steer_trait.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "crowdface/core/parallel.h"
+
+namespace crowdface {
+namespace {
+
+/// Weights or derivatives of a band, one for each of its heads.
+using PerHead = std::vector<double>;
+
+PerHead weights_of(const BandRecipe& band, const std::vector<Index>& heads) {
+  PerHead row(heads.size(), 0);
+  for (const SourceWeight& source : band.weights) {
+    const auto at = std::ranges::lower_bound(heads, source.head);
+    if (at != heads.end() && *at == source.head)
+      row[static_cast<std::size_t>(at - heads.begin())] = source.weight;
+  }
+  return row;
+}
+
+void set_weights(BandRecipe& band, const std::vector<Index>& heads, const PerHead& row) {
+  constexpr double kLeast = 1e-4;
+  std::vector<SourceWeight> weights;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] > kLeast) weights.push_back({heads[i], row[i]});
+  }
+  band.weights = normalized_weights(std::move(weights));
+  band.position.reset();
+}
+
+/// The nearest weights that are not negative and sum to one (Held, Wolfe and Crowder 1974).
+PerHead projected(PerHead row) {
+  PerHead sorted = row;
+  std::ranges::sort(sorted, std::greater<>());
+  double sum = 0, shift = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    sum += sorted[i];
+    const double next = (sum - 1) / static_cast<double>(i + 1);
+    if (sorted[i] - next > 0) shift = next;
+  }
+  for (double& value : row) value = std::max(value - shift, 0.0);
+  return row;
+}
+
+PerHead moved(const PerHead& weights, const PerHead& gradient, double step) {
+  PerHead row = weights;
+  for (std::size_t i = 0; i < row.size(); ++i) row[i] += step * gradient[i];
+  return projected(std::move(row));
+}
+
+/// The derivative of the measurement along the way from a band's weights to each of its heads alone.
+PerHead gradient_of(const Recipe& recipe, const SteeredBand& band, double value,
+                    const std::function<double(const Recipe&)>& measure) {
+  constexpr double kStep = 0.05;
+  const PerHead weights = weights_of(band_of(recipe.regions[band.region], band.band), band.heads);
+  PerHead gradient(band.heads.size());
+  parallel_for_each(gradient.size(), [&](std::size_t i) {
+    PerHead nearer = weights;
+    for (double& weight : nearer) weight *= 1 - kStep;
+    nearer[i] += kStep;
+    Recipe other = recipe;
+    set_weights(band_of(other.regions[band.region], band.band), band.heads, nearer);
+    gradient[i] = (measure(other) - value) / kStep;
+  });
+  return gradient;
+}
+
+double reach_of(const PerHead& gradient) {
+  const auto [low, high] = std::ranges::minmax(gradient);
+  return high - low;
+}
+
+}  // namespace
+
+Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double wanted,
+                   const std::function<double(const Recipe&)>& measure) {
+  constexpr int kMostSteps = 8, kHalvings = 60;
+  constexpr double kEnough = 0.005, kHardly = 0.1, kLongest = 1e3;
+  double value = measure(recipe);
+  std::vector<bool> takes_part;
+  for (int step = 0; step < kMostSteps && std::abs(wanted - value) > kEnough; ++step) {
+    std::vector<PerHead> weights, gradients;
+    double widest = 0;
+    for (const SteeredBand& band : bands) {
+      weights.push_back(weights_of(band_of(recipe.regions[band.region], band.band), band.heads));
+      gradients.push_back(gradient_of(recipe, band, value, measure));
+      widest = std::max(widest, reach_of(gradients.back()));
+    }
+    if (!(widest > 0)) break;
+    if (takes_part.empty()) {
+      for (const PerHead& gradient : gradients)
+        takes_part.push_back(reach_of(gradient) > kHardly * widest);
+    }
+    const auto gain = [&](double length) {
+      double sum = 0;
+      for (std::size_t b = 0; b < bands.size(); ++b) {
+        if (!takes_part[b]) continue;
+        const PerHead row = moved(weights[b], gradients[b], length);
+        for (std::size_t i = 0; i < row.size(); ++i) {
+          sum += gradients[b][i] * (row[i] - weights[b][i]);
+        }
+      }
+      return sum;
+    };
+    // The gain grows with the length, so halving finds the length that gives what is missing.
+    const double missing = wanted - value;
+    double low = 0, high = std::copysign(kLongest / widest, missing);
+    for (int i = 0; i < kHalvings && std::abs(gain(high)) > std::abs(missing); ++i) {
+      const double middle = (low + high) / 2;
+      (std::abs(gain(middle)) < std::abs(missing) ? low : high) = middle;
+    }
+    Recipe next = recipe;
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+      if (!takes_part[b]) continue;
+      set_weights(band_of(next.regions[bands[b].region], bands[b].band), bands[b].heads,
+                  moved(weights[b], gradients[b], high));
+    }
+    const double came = measure(next);
+    if (!(std::abs(wanted - came) < std::abs(wanted - value))) break;
+    recipe = std::move(next);
+    value = came;
+  }
+  return recipe;
+}
+
+}  // namespace crowdface
