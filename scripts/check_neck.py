@@ -8,7 +8,8 @@ Reads OBJ, PLY, GLB, text USD and NumPy files of the folder CROWD/meshes with it
 Python and numpy. For every file it checks that
   - each vertex of the body's ring is a vertex of the mesh, with the same single-precision numbers;
   - each of these vertices has one unit normal, the same in all files;
-  - shapes in the file (GLB morph targets, USD blend shapes) do not move the ring.
+  - shapes in the file (GLB morph targets, USD blend shapes) do not move the ring;
+  - the body in the file, if there is one, has the ring with the same normals.
 Prints the number of files of each kind, and the angle between the common normals and those of the
 body. The exit code is 1 if any file fails.
 """
@@ -105,14 +106,18 @@ def accessor(gltf, binary, number):
     return values
 
 
-def read_glb(path):
-    """The first mesh, which is the face: all its primitives, and the rows that its targets move."""
+def read_glb(path, name=None):
+    """All primitives of the first mesh, which is the face, or of the mesh `name` (None if there is no
+    such mesh), and the rows that its targets move."""
     data = open(path, 'rb').read()
     length = struct.unpack_from('<I', data, 12)[0]
     gltf = json.loads(data[20:20 + length])
     binary = memoryview(data)[28 + length:]
+    meshes = [mesh for mesh in gltf['meshes'] if name in (None, mesh['name'])]
+    if not meshes:
+        return None
     points, normals, moved, known = [], [], [], set()
-    for primitive in gltf['meshes'][0]['primitives']:
+    for primitive in meshes[0]['primitives']:
         attributes = primitive['attributes']
         if attributes['POSITION'] in known:
             continue
@@ -127,9 +132,14 @@ def read_glb(path):
     return points, np.arange(len(points)), np.concatenate(normals), np.concatenate(moved)
 
 
-def read_usda(path):
-    """The first mesh, which is the face, and the rows that its blend shapes move."""
+def read_usda(path, name='mesh'):
+    """The mesh `name` (None if there is no such mesh), and the rows that its blend shapes move."""
     text = open(path).read()
+    begin = text.find(f'def Mesh "{name}"')
+    if begin < 0:
+        return None
+    end = text.find('def Mesh', begin + 1)
+    text = text[begin:end if end >= 0 else len(text)]
 
     def rows(key, columns):
         at = text.find(key)
@@ -155,6 +165,7 @@ def read_npy(path):
 
 
 READERS = {'.obj': read_obj, '.ply': read_ply, '.glb': read_glb, '.usda': read_usda, '.npy': read_npy}
+BODY_READERS = {'.glb': read_glb, '.usda': read_usda}
 
 
 def body_rings(points, polygons):
@@ -214,12 +225,11 @@ def main():
     if not paths:
         sys.exit(f'{crowd}/meshes: no mesh files')
     ring, counts, faults = None, collections.Counter(), []
-    common, unequal, with_normals, moving = {}, 0, 0, 0
-    for path in paths:
-        read = READERS[os.path.splitext(path)[1]](path)
-        here, rows, normals = read[:3]
-        moved = read[3] if len(read) > 3 else None
-        counts[os.path.splitext(path)[1]] += 1
+    common, with_normals, moving, bodies = {}, 0, 0, 0
+
+    def check(path, here, rows, normals, moved):
+        """Checks the ring of one mesh: the face's, or the body's in the same file."""
+        nonlocal ring
         if ring is None:
             matched = [sum(bool(r) for r in rows_at(here, points[one])) for one in rings]
             ring = rings[int(np.argmax(matched))]
@@ -227,14 +237,11 @@ def main():
         missing = sum(not found for found in at)
         if missing:
             faults.append(f'{path}: {missing} of {len(ring)} ring vertices are elsewhere')
-            continue
-        if moved is not None:
-            moving += int(moved.any())
-            if any(moved[row] for found in at for row in found):
-                faults.append(f'{path}: a shape moves the ring')
+            return
+        if moved is not None and any(moved[row] for found in at for row in found):
+            faults.append(f'{path}: a shape moves the ring')
         if rows is None:
-            continue
-        with_normals += 1
+            return
         of_row = collections.defaultdict(list)
         on_ring = np.zeros(len(here), bool)
         on_ring[[row for found in at for row in found]] = True
@@ -244,13 +251,26 @@ def main():
             for normal in (np.float32(n) for row in found for n in of_row[row]):
                 first = common.setdefault(i, normal)
                 if not np.array_equal(first, normal):
-                    unequal += 1
                     faults.append(f'{path}: ring vertex {i} has normal {normal}, elsewhere {first}')
                 if abs(np.linalg.norm(normal) - 1) > 1e-5:
                     faults.append(f'{path}: the normal of ring vertex {i} has no unit length')
+
+    for path in paths:
+        kind = os.path.splitext(path)[1]
+        here, rows, normals, *moved = READERS[kind](path)
+        moved = moved[0] if moved else None
+        counts[kind] += 1
+        with_normals += rows is not None
+        moving += moved is not None and moved.any()
+        check(path, here, rows, normals, moved)
+        held = BODY_READERS[kind](path, 'body') if kind in BODY_READERS else None
+        if held is not None:
+            bodies += 1
+            check(f'{path}, body', *held)
     kinds = ', '.join(f'{count} {kind[1:]}' for kind, count in sorted(counts.items()))
     print(f'{len(paths)} files ({kinds}), ring of {len(ring)} vertices')
-    print(f'normals in {with_normals} files; {moving} files have shapes that move vertices')
+    print(f'normals in {with_normals} files; {moving} files have shapes that move vertices; '
+          f'{bodies} files contain the body')
     if common:
         own = area_normals(points, polygons)[ring]
         all_of = np.array([common[i] for i in range(len(ring))])

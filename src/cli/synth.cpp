@@ -27,7 +27,7 @@ constexpr std::uint64_t kMinSynthetic = 5000, kMaxSynthetic = 1'200'000;
 
 struct SynthOptions : CommonOptions {
   std::string out, count = "8", vertices = "20000", seed = "1", mask, textures;
-  bool hair = false, tags = false, skin_only = false, force = false;
+  bool hair = false, body = false, tags = false, skin_only = false, force = false;
 };
 
 /// Returns whether two paths name the same folder, which need not exist.
@@ -49,6 +49,22 @@ std::string material_file(const std::vector<MaterialRange>& materials, const std
                                   "_normal.png\nmap_Pr ", head, "_roughness.png\n"));
   }
   return text;
+}
+
+/// Adds the body, and with textures its material file and its texture in the skin of the first head.
+void add_body(const fs::path& folder, const SyntheticHeads& heads, const SyntheticSkins* skins,
+              std::uint64_t seed, std::vector<HeadFile>& files) {
+  const std::string library = skins != nullptr ? "body.mtl" : "";
+  files.push_back({folder / "body.obj", [&heads, library] {
+                     return encode_obj(heads.body(), "a body, made by crowdface synth; cm",
+                                       {{"skin", 0}}, library);
+                   }});
+  if (skins == nullptr) return;
+  files.push_back(text_file(folder / library, "newmtl skin\nKd 1 1 1\nmap_Kd body.png\n"));
+  files.push_back({folder / "body.png", [skins, seed] {
+                     return encode_png(skins->size(), skins->size(), 3,
+                                       skins->body_albedo(seed, 1));
+                   }});
 }
 
 void synth(const SynthOptions& options) {
@@ -112,6 +128,7 @@ void synth(const SynthOptions& options) {
   }
   // List the files that all heads share: attachments, tags, region mask.
   if (options.hair) hair.add_files(directory, heads, materials, files);
+  if (options.body) add_body(directory / "body", heads, skins ? &*skins : nullptr, seed, files);
   if (options.tags || options.hair) {  // hair attachments refer to the heads' tags
     files.push_back(text_file(directory / "tags.yaml",
                               format_tags(tagged, concat("Synthetic heads of seed ", seed))));
@@ -121,6 +138,7 @@ void synth(const SynthOptions& options) {
   write_head_files("synthetic heads", files, options.force);
   log_info(concat(count, " heads of ", heads.topology().vertex_count, " vertices in ",
                   directory.string(), ", with the region mask in ", mask.string()));
+  if (options.body) log_info(concat("body in ", (directory / "body").string()));
 }
 
 void declare_synth(CLI::App& command, SynthOptions& options) {
@@ -137,6 +155,9 @@ void declare_synth(CLI::App& command, SynthOptions& options) {
              "NAME_albedo.png, NAME_normal.png, NAME_roughness.png, NAME.mtl");
   add_flag(command, "--hair", options.hair,
            "With --textures: write hair as separate meshes to DIR/attachments; implies --tags");
+  add_flag(command, "--body", options.body,
+           "Also write a body that fits the heads to DIR/body/body.obj, with --textures also its "
+           "texture; see docs/neck.md");
   add_flag(command, "--skin-only", options.skin_only,
            "Make no eyeballs and teeth: one skin mesh that includes the fronts of the eyes");
   add_flag(command, "--tags", options.tags,

@@ -105,6 +105,23 @@ TEST(Synth, HairOfItsOwnIsWhatAConfigTakes) {
   EXPECT_THAT(plan, HasSubstr("\"attachments\":[\""));
 }
 
+TEST(Synth, ABodyIsWhatAConfigTakes) {
+  const TemporaryFolder folder;
+  crowdface(0, {"synth", "-o", (folder / "heads").string(), "--count", "4", "--vertices", "5000",
+                "--textures", "64", "--body"});
+  const fs::path config = folder.write(
+      "crowd.yaml",
+      "schema: 1\ncrowd: {name: mob, count: 2}\nfaces: {directory: heads, units: cm}\n"
+      "neck: {body: heads/body/body.obj, body_texture: heads/body/body.png, show_body: true}\n"
+      "output: {directory: out, contact_sheet: {cell: 64}}\n");
+  crowdface(0, {"generate", config.string()});
+  EXPECT_TRUE(fs::exists(folder / "out/meshes/blended/mob_0001.body.png"));
+  crowdface(0, {"synth", "-o", (folder / "plain").string(), "--count", "1", "--vertices", "5000",
+                "--body"});
+  EXPECT_TRUE(fs::exists(folder / "plain/body/body.obj"));
+  EXPECT_FALSE(fs::exists(folder / "plain/body/body.png"));
+}
+
 TEST(Synth, HairWithoutAPaintedScalpIsRefused) {
   const TemporaryFolder folder;
   crowdface(64, {"synth", "-o", (folder / "heads").string(), "--hair"}, {"--hair", "--textures"});

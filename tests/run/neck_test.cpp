@@ -255,10 +255,9 @@ Surface surface_of(const fs::path& file) {
 
 /// Expects each position of the seam in the file, exactly, with the seam's normal within rounding;
 /// `found` has the normals of the first file and expects those of all others to be the same.
-void expect_seam(const fs::path& file, const Positions& seam, const Singles& normals,
-                 std::map<Single, Single>& found) {
-  SCOPED_TRACE(file.filename().string());
-  const Surface surface = surface_of(file);
+void expect_seam(const Surface& surface, const std::string& what, const Positions& seam,
+                 const Singles& normals, std::map<Single, Single>& found) {
+  SCOPED_TRACE(what);
   ASSERT_GT(surface.points.size(), 100U);
   std::map<Single, std::vector<std::size_t>> at;
   for (std::size_t i = 0; i < surface.points.size(); ++i) at[surface.points[i]].push_back(i);
@@ -274,6 +273,11 @@ void expect_seam(const fs::path& file, const Positions& seam, const Singles& nor
       }
     }
   }
+}
+
+void expect_seam(const fs::path& file, const Positions& seam, const Singles& normals,
+                 std::map<Single, Single>& found) {
+  expect_seam(surface_of(file), file.filename().string(), seam, normals, found);
 }
 
 constexpr const char* kAllWithLevels = ", meshes: [obj, ply, glb, usd, points], lods: [40 %, 10 %]";
@@ -596,27 +600,64 @@ TEST_F(Neck, TheBodysTextureAgreesWithTheFaceAtTheRing) {
   EXPECT_TRUE(verify_crowd(out).good());
 }
 
+/// The points and normals of the mesh `body` in a GLB or USD file; empty if there is none.
+Surface body_in(const fs::path& file) {
+  if (file.extension() == ".glb") {
+    const testing::GlbFile glb = testing::read_glb(file, 1);
+    EXPECT_EQ(glb.scene.at("meshes").at(1).at("name"), "body");
+    return {glb.points, glb.normals};
+  }
+  const std::string layer = testing::read_text(file);
+  const std::size_t begin = layer.find("def Mesh \"body\"");
+  if (begin == layer.npos) return {};
+  const std::string mesh = layer.substr(begin);
+  return {usd_rows(mesh, "point3f[] points = ["), usd_rows(mesh, "normal3f[] normals = [")};
+}
+
 TEST_F(Neck, GlbAndUsdFilesContainTheBody) {
   const auto out =
       run("{body: body.obj, write_body: true}", "", ", meshes: [obj, ply, glb, usd], lods: [40 %]");
-  const auto has_body = [&](const char* file) {
-    return testing::read_text(out / "meshes" / file).find("body") != std::string::npos;
-  };
-  EXPECT_TRUE(has_body("mob_0001.glb"));
-  EXPECT_TRUE(has_body("mob_0001.usda"));
-  EXPECT_FALSE(has_body("mob_0001+LOD1.glb"));
-  EXPECT_FALSE(has_body("mob_0001.obj"));
   const Job job = load_job(folder_ / "out.yaml", {});
   const Singles normals = normals_at_seam(job.inputs);
   std::map<Single, Single> found;
-  for (const char* file : {"mob_0001.glb", "mob_0002.usda", "mob_0003+LOD1.glb"}) {
+  for (const char* file :
+       {"mob_0001.glb", "mob_0002.usda", "mob_0003+LOD1.glb", "mob_0004+LOD1.usda"}) {
     expect_seam(out / "meshes" / file, seam_, normals, found);
+    // The body has the normals of the faces, not those of its own polygons alone.
+    expect_seam(body_in(out / "meshes" / file), file, seam_, normals, found);
   }
+  for (const char* file : {"mob_0001.obj", "mob_0001.ply", "mob_0001+LOD1.obj"}) {
+    EXPECT_EQ(testing::read_text(out / "meshes" / file).find("body"), std::string::npos) << file;
+  }
+  EXPECT_EQ(body_in(out / "meshes/mob_0001.glb").points.size(),
+            static_cast<std::size_t>(body_.positions.rows()));
+  EXPECT_LT(body_in(out / "meshes/mob_0001+LOD1.glb").points.size(),
+            static_cast<std::size_t>(body_.positions.rows()));
   EXPECT_TRUE(verify_crowd(out).good());
   // Faces are those of a crowd without the body.
   const auto plain = run("{body: body.obj}", "", ", meshes: [obj]", "plain");
   EXPECT_EQ(testing::read_text(out / "meshes/mob_0004.obj"),
             testing::read_text(plain / "meshes/mob_0004.obj"));
+}
+
+TEST_F(Neck, TheBodyInFilesHasTheFacesTexture) {
+  paint_heads();
+  paint_body(folder_, body_);
+  const auto out = run("{body: body.obj, body_texture: body.png, write_body: true}", kThreeRecipes,
+                       ", meshes: [glb, usd], lods: [40 %]");
+  for (const char* id : {"a", "b", "mob_0001"}) {
+    const std::string picture =
+        testing::read_text(out / "meshes/blended" / concat(id, ".body.png"));
+    for (const char* level : {"", "+LOD1"}) {
+      const fs::path file = out / "meshes" / concat(id, level);
+      EXPECT_NE(testing::read_text(file.string() + ".glb").find(picture), std::string::npos)
+          << file << " contains the texture";
+      EXPECT_THAT(testing::read_text(file.string() + ".usda"),
+                  HasSubstr(concat("@./blended/", id, ".body.png@")));
+    }
+  }
+  EXPECT_FALSE(fs::exists(out / "meshes/attachments/body")) << "no file names these";
+  EXPECT_TRUE(verify_crowd(out).good());
 }
 
 TEST_F(Neck, PicturesShowTheBodyInTheFacesColour) {

@@ -75,7 +75,8 @@ struct GlbFile {
   std::vector<std::uint32_t> corners;  ///< of all primitives
 };
 
-inline GlbFile read_glb(const std::filesystem::path& path) {
+/// \param number  index of the mesh; the first one is the face
+inline GlbFile read_glb(const std::filesystem::path& path, std::size_t number = 0) {
   BinaryReader file(read_text(path));
   file.next_text(12);
   const auto json_size = file.next<std::uint32_t>();
@@ -91,7 +92,7 @@ inline GlbFile read_glb(const std::filesystem::path& path) {
     file.go_to(buffer + view.value("byteOffset", 0U) + accessor.value("byteOffset", 0U));
     return accessor.at("count").get<std::size_t>();
   };
-  const auto& primitives = mesh.scene.at("meshes").at(0).at("primitives");
+  const auto& primitives = mesh.scene.at("meshes").at(number).at("primitives");
   const auto& attributes = primitives.at(0).at("attributes");
   for (std::size_t i = go_to(attributes.at("POSITION")); i > 0; --i) {
     mesh.points.push_back(next_triple(file));
@@ -105,7 +106,9 @@ inline GlbFile read_glb(const std::filesystem::path& path) {
       mesh.uvs.push_back({u, file.next<float>()});
     }
   }
-  mesh.ids = file.next_array<float>(go_to(attributes.at("_VERTEX_ID")));
+  if (attributes.contains("_VERTEX_ID")) {
+    mesh.ids = file.next_array<float>(go_to(attributes.at("_VERTEX_ID")));
+  }
   for (const auto& primitive : primitives) {
     for (std::size_t i = go_to(primitive.at("indices")); i > 0; --i) {
       mesh.corners.push_back(file.next<std::uint32_t>());

@@ -21,7 +21,7 @@ inline constexpr int kFaceSpaceVersion = 1;
 /// Further cache entries: neighbours, masks at vertices, samples and their cells, mirror vertices.
 inline constexpr int kSharedVersion = 1;
 /// Pictures, measurements of a skin, and mesh files of unchanged positions.
-inline constexpr int kFaceFilesVersion = 23;
+inline constexpr int kFaceFilesVersion = 24;
 /// Shapes transferred to a face of unchanged positions, and their pictures.
 inline constexpr int kShapesVersion = 9;
 /// Points that follow a face of unchanged positions.

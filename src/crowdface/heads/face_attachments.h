@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/attach/attachment_carrier.h"
@@ -21,6 +23,10 @@ struct PlacedAttachment {
   Positions positions;               ///< the attachment's vertices on the face
   /// one per face shape: displacements of the attachment's vertices
   std::vector<Displacements> moves = {};
+  /// Of a body that has a texture of its own for each face: the face's id, and the content of a PNG
+  /// file; otherwise empty.
+  std::string face = {};
+  std::string_view texture = {};
 
   AttachmentLook look() const { return {item, colour}; }
 };

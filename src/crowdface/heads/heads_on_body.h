@@ -26,7 +26,9 @@ struct HeadsOnBody {
   double mm_per_unit = 1;
   /// The body, if pictures or files show it or faces get a texture for it; else null.
   std::shared_ptr<const Attachment> body;
-  Rim body_rim;   ///< the body's vertex for each vertex of the ring; empty without `body`
+  Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
+  bool is_body(const Attachment& item) const { return body.get() == &item; }
+
   Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
 };
 

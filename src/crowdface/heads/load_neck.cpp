@@ -72,7 +72,7 @@ Positions areas_around(const Topology& topology, const Positions& positions, con
 /// The goal for the heads' rim, and the area vectors of the body's polygons around it.
 struct Body {
   Positions rim, areas;  ///< #rim by 3
-  std::shared_ptr<const Attachment> mesh = {};
+  std::shared_ptr<Attachment> mesh = {};
   Rim mesh_rim = {};
 };
 
@@ -157,10 +157,24 @@ Body find_body(const Config& config, const Inputs& inputs, const Rim& rim) {
   return {head(rim, kAllColumns), none};
 }
 
-/// The normals of skin and body together. The body's polygons may face inward.
+/// Makes the polygons of a body face outward like those of the heads, if they face inward.
+/// \param areas  the area vectors of the heads' polygons around the rim
+void face_outward(const Positions& areas, Body& body) {
+  if (areas.cwiseProduct(body.areas).sum() >= 0) return;
+  body.areas = -body.areas;
+  if (!body.mesh) return;
+  Topology& topology = body.mesh->file.topology;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const auto [begin, end] = topology.corners(f);
+    for (auto* corners : {&topology.corner_vertices, &topology.corner_uvs}) {
+      if (!corners->empty()) std::reverse(corners->begin() + begin, corners->begin() + end);
+    }
+  }
+}
+
+/// The normals of skin and body together.
 Positions normals_of(Positions areas, const Positions& of_body) {
-  const double sign = areas.cwiseProduct(of_body).sum() < 0 ? -1 : 1;
-  areas += sign * of_body;
+  areas += of_body;
   for (Index i = 0; i < areas.rows(); ++i) areas.row(i) = row3(areas, i).normalized().transpose();
   return areas;
 }
@@ -200,7 +214,7 @@ void place_heads(const Config& config, Inputs& inputs) {
   HeadSet& faces = inputs.faces;
   const double mm = mm_per(config.faces.units);
   const Rim rim = find_rim(config, inputs);
-  const Body body = find_body(config, inputs, rim);
+  Body body = find_body(config, inputs, rim);
   Positions unplaced_mean = mean_head(faces);
   std::vector<HeadsOnBody::Head> heads(faces.heads.size());
   parallel_for_each(heads.size(), [&](std::size_t h) {
@@ -212,7 +226,9 @@ void place_heads(const Config& config, Inputs& inputs) {
             {},
             NeckBend(faces.topology, inputs.adjacency, mean, rim, config.neck.falloff_mm / mm)};
   seam.fit(mean);
-  seam.normals = normals_of(areas_around(faces.topology, mean, rim), body.areas);
+  const Positions areas = areas_around(faces.topology, mean, rim);
+  face_outward(areas, body);
+  seam.normals = normals_of(areas, body.areas);
   Hasher hasher;
   hasher.add_array(std::span(std::as_const(seam.rim)))
       .add_array(numbers_of(std::as_const(seam.positions)))

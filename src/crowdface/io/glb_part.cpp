@@ -51,12 +51,13 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
                  const std::vector<GlbPartMaterial>& materials,
                  const std::vector<std::uint32_t>& face_materials,
                  const std::vector<GlbImage>& images, const CompressedRows<Influence>& influences,
-                 std::vector<std::string> targets)
+                 std::vector<std::string> targets, FixedNormals fixed)
     : name_(std::move(name)),
       topology_(topology),
       fans_(topology),
       materials_(materials),
-      targets_(std::move(targets)) {
+      targets_(std::move(targets)),
+      fixed_(std::move(fixed)) {
   require(!materials.empty() && static_cast<Index>(face_materials.size()) == topology.face_count(),
           "GlbPart: a material of each face");
   const SplitVertices split = split_vertices(topology);
@@ -123,6 +124,10 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
     add_image(scene, buffer.add_view(image_sizes_[i]), images_[i].name, images_[i].type);
   }
   buffer.pad();
+  if (!look.image.empty()) {
+    add_image(scene, buffer.add_view(look.image.size()), name_, "image/png");
+    buffer.pad();
+  }
   Json mesh = {{"name", name_}, {"primitives", std::move(primitives)}};
   set_targets(mesh, scene["accessors"].size(), targets_);
   add_targets(moves, split_, topology_.vertex_count, scene, buffer);
@@ -140,17 +145,22 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
 }
 
 void GlbPart::append(EncodedFile& file, const Positions& positions,
-                     std::span<const Displacements> moves) const {
+                     std::span<const Displacements> moves, const PartLook& look) const {
   require_finite(positions, topology_.vertex_count, name_);
-  const Positions normals = vertex_normals(fans_, topology_, positions);
+  Positions normals = vertex_normals(fans_, topology_, positions);
+  fixed_.set(normals);
   const std::size_t length = 2 * split_.size() * kVectorSize;
   char* const vectors = file.reserve(length);
   char* at = vectors;
-  for (const Positions* rows : {&positions, &normals}) {
+  for (const Positions* rows : {&positions, &std::as_const(normals)}) {
     for (const std::uint32_t vertex : split_) at = put_row(at, *rows, vertex);
   }
   file.refer_to({vectors, length});
   file.refer_to(shared_);
+  if (!look.image.empty()) {
+    file.refer_to(look.image);
+    file.add(std::string((4 - look.image.size() % 4) % 4, '\0'));
+  }
   for (const Displacements& target : moves) {
     require_finite(target.moves, target.moves.rows(), name_);
     const GlbTargetRows rows = target_rows(target.vertices, split_, topology_.vertex_count);

@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crowdface/io/encoded_file.h"
+#include "crowdface/io/fixed_normals.h"
 #include "crowdface/io/glb_skin.h"
 #include "crowdface/io/part_look.h"
 #include "crowdface/mesh/displacements.h"
@@ -28,7 +29,7 @@ struct GlbPartMaterial {
   };
   std::string name;
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
-  /// Index of the base colour image among the part's images.
+  /// Index of the base colour image among the part's images; their number: the image of a PartLook.
   std::optional<std::size_t> image = {};
   Alpha alpha = Alpha::kOpaque;
 };
@@ -50,10 +51,12 @@ class GlbPart {
   /// \param face_materials  #F indices into `materials`.
   /// \param influences  #V, for the joints of the faces' rig; empty: the mesh is not skinned.
   /// \param targets  names of the morph targets.
+  /// \param fixed  normals that do not follow from the mesh.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbPartMaterial>& materials,
           const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
-          const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {});
+          const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {},
+          FixedNormals fixed = {});
 
   /// Adds node, mesh, materials and accessors to a scene.
   /// \param size  bytes in the buffer so far, a multiple of four.
@@ -64,8 +67,8 @@ class GlbPart {
                        std::size_t size) const;
   /// Appends the data that `describe` declares. The file references memory of this object.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
-  void append(EncodedFile& file, const Positions& positions,
-              std::span<const Displacements> moves) const;
+  void append(EncodedFile& file, const Positions& positions, std::span<const Displacements> moves,
+              const PartLook& look) const;
 
   std::size_t memory_bytes() const { return shared_.size(); }
   /// Memory needed for one encode, in bytes: positions, normals with their double-precision
@@ -88,6 +91,7 @@ class GlbPart {
   std::vector<GlbImage> images_;        ///< without `bytes`
   std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
   std::vector<std::string> targets_;
+  FixedNormals fixed_;
   std::string shared_;  ///< texture coordinates, influences, triangles, images
 };
 

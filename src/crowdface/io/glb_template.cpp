@@ -331,7 +331,9 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
     written += image.size();
   }
   file.add(std::string(own_size - written, '\0'));
-  for (const PlacedGlbPart& one : parts) one.part->append(file, *one.positions, one.moves);
+  for (const PlacedGlbPart& one : parts) {
+    one.part->append(file, *one.positions, one.moves, one.look);
+  }
   return file;
 }
 

@@ -9,18 +9,13 @@
 #include <vector>
 
 #include "crowdface/io/encoded_file.h"
+#include "crowdface/io/fixed_normals.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
-
-/// Vertices whose normals do not follow from the mesh, and these normals.
-struct FixedNormals {
-  std::vector<std::uint32_t> vertices;
-  Positions normals;  ///< #vertices by 3
-};
 
 /// Writes copies of an OBJ file with other positions. Every byte comes from the file, in the order
 /// of its lines, except the x y z of `v` lines (and of `vn` lines, if any). Built once per target;

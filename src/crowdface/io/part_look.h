@@ -3,15 +3,17 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace crowdface {
 
 /// The colour of an additional mesh in the file of one face.
 struct PartLook {
   std::array<float, 3> tint = {1, 1, 1};  ///< factors on the light of the materials, linear RGB
-  /// Folder of the textures in this colour, inside the folder of the mesh's other material files;
-  /// empty: the textures are used as they are.
-  std::string folder = {};
+  /// Replaces `UsdaPart::kLookName` in the names of texture files.
+  std::string name = {};
+  /// Content of a PNG file that only this face has; empty: there is none.
+  std::string_view image = {};
 };
 
 }  // namespace crowdface

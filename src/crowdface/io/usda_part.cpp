@@ -23,11 +23,12 @@ UsdaMesh::Form form_of(const std::vector<UsdaPart::Material>& materials,
 UsdaPart::UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
                    const std::vector<Material>& materials,
                    std::vector<std::uint32_t> face_materials,
-                   const std::vector<std::string>& targets)
+                   const std::vector<std::string>& targets, FixedNormals fixed)
     : name_(std::move(name)),
       topology_(topology),
       fans_(topology_),
-      mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)) {
+      mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)),
+      fixed_(std::move(fixed)) {
   for (const Material& material : materials) surfaces_.push_back(material.surface);
 }
 
@@ -35,8 +36,10 @@ void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positi
                         std::span<const Displacements> moves, const std::string& what) const {
   file.add("\n");
   require_finite(positions, topology_.vertex_count, what);
+  Positions normals = vertex_normals(fans_, topology_, positions);
+  fixed_.set(normals);
   mesh_.add(file, {root + "/face", name_, concat(root, '/', name_, "_materials")}, positions,
-            vertex_normals(fans_, topology_, positions), moves, what);
+            normals, moves, what);
 }
 
 void UsdaPart::add_materials(EncodedFile& file, const std::string& root,
@@ -45,8 +48,8 @@ void UsdaPart::add_materials(EncodedFile& file, const std::string& root,
   for (UsdaSurface& surface : surfaces) {
     for (std::size_t c = 0; c < look.tint.size(); ++c) surface.colour[c] *= look.tint[c];
     for (std::string* name : {&surface.picture, &surface.holes}) {
-      const std::size_t at = name->find(kLookFolder);
-      if (at != std::string::npos) name->replace(at, kLookFolder.size(), look.folder);
+      const std::size_t at = name->find(kLookName);
+      if (at != std::string::npos) name->replace(at, kLookName.size(), look.name);
     }
   }
   file.add(usda_materials(root, name_ + "_materials", mesh_.materials(), surfaces));

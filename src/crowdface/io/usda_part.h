@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crowdface/io/fixed_normals.h"
 #include "crowdface/io/part_look.h"
 #include "crowdface/io/usda_material.h"
 #include "crowdface/io/usda_mesh.h"
@@ -19,8 +20,8 @@ namespace crowdface {
 /// is built once.
 class UsdaPart {
  public:
-  /// Part of a file's name that stands for the folder of a PartLook.
-  static constexpr std::string_view kLookFolder = "<COLOUR>";
+  /// Part of a file's name that stands for the name of a PartLook.
+  static constexpr std::string_view kLookName = "<LOOK>";
 
   struct Material {
     std::string name;
@@ -32,9 +33,10 @@ class UsdaPart {
   /// \param materials  at least one.
   /// \param face_materials  #F indices into `materials`.
   /// \param targets  names of the faces' targets.
+  /// \param fixed  normals that do not follow from the mesh.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
            const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
-           const std::vector<std::string>& targets);
+           const std::vector<std::string>& targets, FixedNormals fixed = {});
 
   /// Adds the mesh below the face's prim. The file references memory of this object.
   /// \param root  path of the face's root prim.
@@ -44,7 +46,7 @@ class UsdaPart {
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                 std::span<const Displacements> moves, const std::string& what) const;
   /// Adds the part's materials below the root prim.
-  /// \param look  replaces kLookFolder in the names of files.
+  /// \param look  its name replaces kLookName in the names of files.
   void add_materials(EncodedFile& file, const std::string& root, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }
@@ -56,6 +58,7 @@ class UsdaPart {
   NormalFans fans_;
   UsdaMesh mesh_;
   std::vector<UsdaSurface> surfaces_;
+  FixedNormals fixed_;
 };
 
 /// A `UsdaPart` with its positions in the layer of one face.

@@ -74,7 +74,7 @@ std::optional<VertexColours> shown_colours(const ColourRows& colours,
 }
 
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
-                                 const Inputs& inputs, bool with_body) {
+                                 const Inputs& inputs, const PicturedMesh& mesh) {
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
   std::vector<Positions> acting;
@@ -83,9 +83,13 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
     for (const Head& head : inputs.faces.heads) acting.emplace_back(head.positions + moves);
   }
   for (const Positions& head : acting) heads.push_back(&head);
-  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views,
-                     {.cut_below = with_body ? 0 : kCutBelow,
-                      .beside = reach_of(inputs.attachments, inputs.faces)});
+  FramingOptions options{.cut_below = kCutBelow,
+                         .beside = reach_of(inputs.attachments, inputs.faces)};
+  if (mesh.has_body()) {
+    options.cut_below = -PicturedMesh::kShoulders;
+    options.beside.push_back(mesh.lowest_shown());
+  }
+  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views, options);
 }
 
 }  // namespace
@@ -94,7 +98,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
                            const Inputs& inputs, const FaceTextures* textures)
     : mesh_(config, inputs, textures),
       textures_(textures),
-      cameras_(fit_to_heads(config, sheet, inputs, mesh_.has_body())),
+      cameras_(fit_to_heads(config, sheet, inputs, mesh_)),
       renderer_(mesh_.topology(), RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
                 mesh_.surfaces(),
                 &PicturedFace(mesh_, inputs.faces.heads.front().positions).positions()),

@@ -176,12 +176,16 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
     places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
   const std::vector<const Positions*> heads = positions_of(faces);
-  // The bounding box of all heads.
+  // The bounding box of all heads and the shoulders.
   low_ = heads.front()->colwise().minCoeff().transpose();
   high_ = heads.front()->colwise().maxCoeff().transpose();
   for (const Positions* head : heads) {
     low_ = low_.cwiseMin(head->colwise().minCoeff().transpose());
     high_ = high_.cwiseMax(head->colwise().maxCoeff().transpose());
+  }
+  if (shown.has_body()) {
+    low_ = low_.cwiseMin(shown.lowest_shown());
+    high_ = high_.cwiseMax(shown.lowest_shown());
   }
   add_shapes(surfaces, mean);
 }

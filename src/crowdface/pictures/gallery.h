@@ -69,7 +69,7 @@ class GalleryMeshes {
   std::vector<float> open_;  ///< vertex_visibility of these vertices on the mean head
   /// #V of the reduced mesh; empty if there are no textures.
   std::vector<TexturePlace> places_;
-  Eigen::Vector3d low_, high_;  ///< bounding box of all heads
+  Eigen::Vector3d low_, high_;  ///< bounding box of all heads and the shoulders of the body
 
   /// The vertices of the reduced mesh that a shape moves.
   struct ShownMoves {

@@ -8,6 +8,7 @@
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/pictures/cut_mesh.h"
 #include "crowdface/pictures/surfaces.h"
 
 namespace crowdface {
@@ -17,15 +18,30 @@ namespace {
 /// the heads.
 constexpr double kChest = 0.85;
 
-/// For each vertex of the body, whether it is near enough to the ring to appear in pictures.
-std::vector<bool> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
+/// For each vertex of the body, its distance from the cut; negative: pictures do not show it.
+std::vector<double> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
   const Eigen::VectorXd heights = inputs.mean * unit_vector(config.faces.up);
-  const Positions& ring = inputs.neck->seam.positions;
-  const Eigen::RowVector3d middle = ring.colwise().mean();
+  const Eigen::RowVector3d middle = inputs.neck->seam.positions.colwise().mean();
   const double reach = kChest * (heights.maxCoeff() - heights.minCoeff());
-  std::vector<bool> shown;
-  for (Index v = 0; v < body.rows(); ++v) shown.push_back((body.row(v) - middle).norm() < reach);
-  return shown;
+  std::vector<double> above;
+  for (Index v = 0; v < body.rows(); ++v) above.push_back(reach - (body.row(v) - middle).norm());
+  return above;
+}
+
+/// A place in the texture for each corner of a polygon at one of these vertices.
+std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& faces) {
+  std::vector<TexturePlace> places;
+  const VertexFaces around(faces.topology);
+  for (const std::uint32_t vertex : rim) {
+    for (const std::uint32_t face : around.of(vertex)) {
+      const auto corners = faces.topology.face(face), uvs = faces.topology.face_uvs(face);
+      for (std::size_t c = 0; c < uvs.size(); ++c) {
+        if (corners[c] != vertex || uvs[c] == kNoIndex) continue;
+        places.push_back({face, faces.uvs.row(uvs[c]).transpose().cast<float>()});
+      }
+    }
+  }
+  return places;
 }
 
 }  // namespace
@@ -35,33 +51,34 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
   if (textures == nullptr || !config.neck.show_body) return;
   const HeadsOnBody& neck = *inputs.neck;
   const BodyPainter* painter = textures->body();
-  const Topology& topology = painter != nullptr ? painter->topology() : neck.body->file.topology;
   const Positions& positions = neck.body->file.positions;
-  const std::vector<bool> shown = above_chest(config, inputs, positions);
+  const Mesh whole{painter != nullptr ? painter->topology() : neck.body->file.topology, positions,
+                   painter != nullptr ? painter->uvs() : TextureCoordinates(0, 2)};
+  const Mesh bust = cut_mesh(whole, above_chest(config, inputs, positions));
   Body body{inputs.faces.topology, inputs.faces.uvs, Positions(0, 3), {}};
   const auto uv_rows = static_cast<std::uint32_t>(body.uvs.rows());
   if (painter != nullptr) {
-    body.uvs.conservativeResize(body.uvs.rows() + painter->uvs().rows(), Eigen::NoChange);
-    body.uvs.bottomRows(painter->uvs().rows()) = painter->uvs();
+    body.uvs.conservativeResize(body.uvs.rows() + bust.uvs.rows(), Eigen::NoChange);
+    body.uvs.bottomRows(bust.uvs.rows()) = bust.uvs;
     if (body.topology.corner_uvs.empty()) {
       body.topology.corner_uvs.assign(body.topology.corner_vertices.size(), kNoIndex);
     }
   }
   // In the joined mesh, the body shares the vertices of the face's ring. Its other vertices are
   // numbered after all vertices of the face.
-  std::vector<std::uint32_t> number(shown.size(), kNoIndex), rows;
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(bust.positions.rows()), kNoIndex),
+      rows;
   for (std::size_t i = 0; i < neck.body_rim.size(); ++i) {
     number[neck.body_rim[i]] = neck.seam.rim[i];
   }
   const auto first = static_cast<std::uint32_t>(body.topology.vertex_count);
   const bool with_uvs = !body.topology.corner_uvs.empty();
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const auto face = topology.face(f);
-    if (!std::ranges::all_of(face, [&](std::uint32_t v) { return shown[v]; })) continue;
+  for (Index f = 0; f < bust.topology.face_count(); ++f) {
+    const auto face = bust.topology.face(f);
     std::vector<std::uint32_t> corners, uvs;
     for (std::size_t c = 0; c < face.size(); ++c) {
       std::uint32_t& to = number[face[c]];
-      const std::uint32_t uv = painter != nullptr ? topology.face_uvs(f)[c] : kNoIndex;
+      const std::uint32_t uv = painter != nullptr ? bust.topology.face_uvs(f)[c] : kNoIndex;
       uvs.push_back(uv == kNoIndex ? kNoIndex : uv_rows + uv);
       if (to == kNoIndex) {
         to = first + static_cast<std::uint32_t>(rows.size());
@@ -72,7 +89,8 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
     }
     body.topology.add_face(corners, with_uvs ? uvs : std::vector<std::uint32_t>());
   }
-  body.points = positions(rows, kAllColumns);
+  body.points = bust.positions(rows, kAllColumns);
+  body.ring = places_at(neck.seam.rim, inputs.faces);
   body.topology.vertex_count += body.points.rows();
   body_.emplace(std::move(body));
 }
@@ -85,6 +103,14 @@ Surfaces PicturedMesh::surfaces() const {
   if (!surfaces.paints.empty()) surfaces.paints.resize(polygons);
   if (surfaces.uvs.rows() > 0) surfaces.uvs = body_->uvs;
   return surfaces;
+}
+
+Eigen::Vector3d PicturedMesh::lowest_shown() const {
+  const Eigen::Vector3d up = unit_vector(config_.faces.up);
+  const Eigen::VectorXd heights = inputs_.mean * up;
+  const Eigen::Vector3d middle = inputs_.neck->seam.positions.colwise().mean().transpose();
+  const double low = heights.minCoeff(), lowest = low - kShoulders * (heights.maxCoeff() - low);
+  return middle + (lowest - middle.dot(up)) * up;
 }
 
 Positions PicturedMesh::with_body(const Positions& face) const {
@@ -104,8 +130,24 @@ TextureSet PicturedMesh::with_body(TextureSet textures, const BlendedPicture* bo
   if (body != nullptr) {
     textures.textures.push_back(std::make_shared<const Texture>(texture_of(*body, max_px)));
   }
-  for (TextureLayer* layer : {&textures.slopes, &textures.roughness}) {
-    if (!layer->of_face.empty()) layer->of_face.resize(polygons, TextureLayer::kNone);
+  if (!textures.slopes.of_face.empty()) {
+    textures.slopes.of_face.resize(polygons, TextureLayer::kNone);
+  }
+  TextureLayer& roughness = textures.roughness;
+  if (roughness.of_face.empty()) return textures;
+  float sum = 0, count = 0;
+  for (const TexturePlace& place : body_->ring) {
+    if (const auto rough = roughness_at(textures, place)) {
+      sum += *rough;
+      count += 1;
+    }
+  }
+  const bool known = count > 0 && body != nullptr;
+  roughness.of_face.resize(polygons, known ? static_cast<std::uint32_t>(roughness.textures.size())
+                                           : TextureLayer::kNone);
+  if (known) {
+    roughness.textures.push_back(
+        std::make_shared<const Texture>(Texture{1, 1, {Light::Constant(sum / count)}}));
   }
   return textures;
 }

@@ -6,6 +6,8 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/pictures/vertex_finish.h"
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"
@@ -17,6 +19,9 @@ namespace crowdface {
 /// is cut at the chest. Vertices and polygons of the face come first.
 class PicturedMesh {
  public:
+  /// Height of the body in pictures of faces, below the heads, as a fraction of the heads' height.
+  static constexpr double kShoulders = 0.1;
+
   /// \param inputs    must outlive this object.
   /// \param textures  paint the body; null: the body is not shown.
   PicturedMesh(const Config& config, const Inputs& inputs, const FaceTextures* textures);
@@ -29,8 +34,12 @@ class PicturedMesh {
   /// The points of the body; no rows if it is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
 
+  /// A point at the lower edge of pictures that show the body. Requires has_body().
+  Eigen::Vector3d lowest_shown() const;
+
   /// Adds the body to a face. Requires has_body().
   Positions with_body(const Positions& face) const;
+  /// The body has the mean roughness of the face at the ring.
   /// \param body    texture of the body, or null
   /// \param max_px  maximum side length of that texture
   TextureSet with_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
@@ -42,6 +51,7 @@ class PicturedMesh {
     TextureCoordinates uvs;               ///< face and body
     Positions points;                     ///< of the body, without its rim
     std::vector<std::uint32_t> first_uv;  ///< #points, a row of `uvs`; or kNoIndex
+    std::vector<TexturePlace> ring;       ///< places on the face at the ring
   };
   const Config& config_;
   const Inputs& inputs_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/io/part_look.h"
 #include "crowdface/run/mesh_level.h"
 
 namespace crowdface {
@@ -37,8 +38,9 @@ class AttachmentForms {
     std::vector<Placed> placed;
     for (const PlacedAttachment& one : attachments) {
       const AttachmentLook look = one.look();
-      placed.push_back(
-          {&forms_.at(one.item), &one.positions, one.moves, {look.tint(), look.label()}});
+      const std::string name = one.face.empty() ? look.label() : one.face;
+      placed.push_back({&forms_.at(one.item), &one.positions, one.moves,
+                        PartLook{look.tint(), name, one.texture}});
     }
     return placed;
   }

@@ -153,7 +153,9 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
   }
   if (any_format(formats, names_attachment_textures)) {
     std::vector<AttachmentLook> looks = inputs.attachments.looks(crowd);
-    if (config.neck.write_body) looks.push_back({inputs.neck->body.get()});
+    if (config.neck.write_body && config.neck.body_texture.empty()) {
+      looks.push_back({inputs.neck->body.get()});
+    }
     copies.add(looks);
   }
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);

@@ -95,10 +95,15 @@ bool FaceEncoders::needs_normals(MeshFormat format, std::size_t level, Index tar
   return true;
 }
 
-PlacedAttachment FaceEncoders::placed_body() const {
+PlacedAttachment FaceEncoders::placed_body(const FinishedFace& face) const {
   const Attachment& body = *inputs_.neck->body;
-  return {&body, std::nullopt, body.file.positions,
-          std::vector<Displacements>(inputs_.shapes.shapes.size(), {{}, Positions(0, 3)})};
+  PlacedAttachment placed{
+      &body, std::nullopt, body.file.positions,
+      std::vector<Displacements>(inputs_.shapes.shapes.size(), {{}, Positions(0, 3)})};
+  if (config_.neck.body_texture.empty()) return placed;
+  placed.face = face.face.id;
+  placed.texture = face.textures->back().front();
+  return placed;
 }
 
 void FaceEncoders::prepare(FinishedFace& face) const {

@@ -84,7 +84,8 @@ class FaceEncoders {
 
   /// Whether GLB and USD files contain the body, as an attachment of each face.
   bool hold_body() const { return config_.neck.write_body; }
-  PlacedAttachment placed_body() const;
+  /// The body in the files of a face; refers to `face`.
+  PlacedAttachment placed_body(const FinishedFace& face) const;
 
   /// Computes what all files of a face share, such as the face at each level of detail. The results
   /// refer to `face`, which must not move in memory afterwards.

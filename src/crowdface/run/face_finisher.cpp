@@ -73,7 +73,7 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   }
   if (encoders != nullptr) {
     const StageTimer timer(busy.encode);
-    if (encoders->hold_body()) face.placed_attachments.push_back(encoders->placed_body());
+    if (encoders->hold_body()) face.placed_attachments.push_back(encoders->placed_body(face));
     encoders->prepare(face);
   }
 }

@@ -99,7 +99,7 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
   CompressedRows<Influence> influences;
   if (inputs.rig.empty()) return influences;
   const Positions& points = item.file.positions;
-  const bool is_body = inputs.neck && inputs.neck->body.get() == &item;
+  const bool is_body = inputs.neck && inputs.neck->is_body(item);
   const PointGrid grid(is_body ? inputs.mean : inputs.attachments.fitted_to, skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
     return inputs.rig.skin.influences.of(grid.nearest(point).vertex);
@@ -119,9 +119,19 @@ struct GlbLook {
   std::vector<GlbImage> images;
 };
 
-GlbLook look_of(const Attachment& item) {
+/// \param own_texture  whether each face has a texture of its own for all materials
+GlbLook look_of(const Attachment& item, bool own_texture) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   GlbLook look;
+  look.of_face = std::move(named.of_face);
+  if (own_texture) {
+    for (const std::string& name : named.names) {
+      GlbPartMaterial& material = look.materials.emplace_back();
+      material.name = name;
+      material.image = 0;
+    }
+    return look;
+  }
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.emplace_back();
     look.materials.back().name = material.name;
@@ -131,18 +141,18 @@ GlbLook look_of(const Attachment& item) {
       log_warning(concat(error.what(), "; GLB files omit it"));
     }
   }
-  look.of_face = std::move(named.of_face);
   return look;
 }
 
 GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& inputs,
                 const DetailLevel* level) {
   const CompressedRows<Influence> influences = influences_of(item, inputs);
+  FixedNormals fixed = normals_at_ring(inputs, item, level);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   if (level == nullptr) {
-    return {item.name,    item.file.topology, item.file.uvs, look.materials,
-            look.of_face, look.images,        influences,    std::move(targets)};
+    return {item.name,   item.file.topology, item.file.uvs,      look.materials,  look.of_face,
+            look.images, influences,         std::move(targets), std::move(fixed)};
   }
   return {item.name,
           level->topology,
@@ -151,7 +161,8 @@ GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& input
           at_rows(look.of_face, level->faces),
           look.images,
           at_rows(influences, level->vertices),
-          std::move(targets)};
+          std::move(targets),
+          std::move(fixed)};
 }
 
 }  // namespace
@@ -160,7 +171,7 @@ MeshEncoders glb_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
   std::map<const Attachment*, GlbLook> looks;
   for (const Attachment* item : source.levels.front().items(inputs.attachments)) {
-    looks.emplace(item, look_of(*item));
+    looks.emplace(item, look_of(*item, has_texture_of_face(source, *item)));
   }
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     return part_of(item, looks.at(&item), inputs, here);

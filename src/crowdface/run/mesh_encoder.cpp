@@ -4,6 +4,7 @@
 #include <array>
 
 #include "crowdface/core/file.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/ply_template.h"
 #include "crowdface/run/glb_form.h"
@@ -85,6 +86,10 @@ constexpr bool encodings_are_in_order() {
 static_assert(encodings_are_in_order(), "every MeshFormat has its row, in the enumeration's order");
 
 }  // namespace
+
+bool has_texture_of_face(const MeshSource& source, const Attachment& item) {
+  return !source.config.neck.body_texture.empty() && source.inputs.neck->is_body(item);
+}
 
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source) {
   return kEncodings[static_cast<std::size_t>(format)].make(source);

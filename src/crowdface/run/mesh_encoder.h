@@ -61,6 +61,9 @@ inline bool has_normals(const Inputs& inputs, Index head) {
   return !inputs.files[static_cast<std::size_t>(head)].corner_normals.empty();
 }
 
+/// Whether each face has a texture of its own for this item: the body, with `neck.body_texture`.
+bool has_texture_of_face(const MeshSource& source, const Attachment& item);
+
 /// Encodes faces in one format at one level of detail. Thread-safe.
 struct MeshEncoder {
   /// Encodes a face at this level of detail. The file refers to the encoder and to the data that

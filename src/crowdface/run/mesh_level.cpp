@@ -12,7 +12,8 @@
 namespace crowdface {
 namespace {
 
-std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const MeasuredLevel> levels) {
+std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const MeasuredLevel> levels,
+                                   Borders borders) {
   const Topology& topology = item.file.topology;
   const auto triangles = static_cast<double>(topology.corner_count() - 2 * topology.face_count());
   constexpr double kMinTriangles = 300;
@@ -21,7 +22,8 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
     shares.push_back(std::min(1.0, std::max(level.level.share, kMinTriangles / triangles)));
   }
   return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}},
-                       face_materials(item.file.materials, topology.face_count()).of_face, shares);
+                       face_materials(item.file.materials, topology.face_count()).of_face, shares,
+                       borders);
 }
 
 }  // namespace
@@ -43,9 +45,8 @@ const DetailLevel* MeshLevel::find(const Attachment& item) const {
 std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> placed) const {
   std::vector<PlacedAttachment> reduced;
   for (const PlacedAttachment& one : placed) {
-    if (!attachments.contains(one.item)) continue;  // the body
     const DetailLevel& level = attachments.at(one.item);
-    reduced.push_back({one.item, one.colour, level.of(one.positions)});
+    reduced.push_back({one.item, one.colour, level.of(one.positions), {}, one.face, one.texture});
     for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
   }
   return reduced;
@@ -54,7 +55,8 @@ std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> pl
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body) {
   std::vector<MeshLevel> levels(1 + inputs.levels.size());
-  if (with_body) levels[0].body = inputs.neck->body.get();
+  const Attachment* const body = with_body ? inputs.neck->body.get() : nullptr;
+  for (MeshLevel& level : levels) level.body = body;
   if (inputs.levels.empty()) return levels;
   for (std::size_t l = 1; l < levels.size(); ++l) {
     levels[l].number = l;
@@ -64,15 +66,31 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   for (const FacePlan& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());
   std::vector<const Attachment*> items;
   for (const std::string& name : names) items.push_back(&inputs.attachments.at(name));
+  if (body != nullptr) items.push_back(body);
   std::vector<std::vector<DetailLevel>> of_items(items.size());
-  parallel_for_each(items.size(),
-                    [&](std::size_t i) { of_items[i] = levels_of(*items[i], inputs.levels); });
+  parallel_for_each(items.size(), [&](std::size_t i) {
+    // The body keeps every vertex of its ring.
+    const Borders borders = items[i] == body ? Borders::kStay : Borders::kCollapse;
+    of_items[i] = levels_of(*items[i], inputs.levels, borders);
+  });
   for (std::size_t i = 0; i < items.size(); ++i) {
     for (std::size_t l = 1; l < levels.size(); ++l) {
       levels[l].attachments.emplace(items[i], std::move(of_items[i][l - 1]));
     }
   }
   return levels;
+}
+
+FixedNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
+                             const DetailLevel* level) {
+  if (!inputs.neck || !inputs.neck->is_body(item)) return {};
+  FixedNormals fixed{inputs.neck->body_rim, inputs.neck->seam.normals};
+  if (level == nullptr) return fixed;
+  for (std::uint32_t& vertex : fixed.vertices) {
+    const auto found = std::ranges::lower_bound(level->vertices, vertex);
+    vertex = static_cast<std::uint32_t>(found - level->vertices.begin());
+  }
+  return fixed;
 }
 
 }  // namespace crowdface

@@ -14,6 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
+#include "crowdface/io/fixed_normals.h"
 
 namespace crowdface {
 
@@ -23,10 +24,9 @@ namespace crowdface {
 struct MeshLevel {
   std::size_t number = 0;             ///< 0: the whole mesh
   const DetailLevel* face = nullptr;  ///< null: the whole mesh
-  /// reduced attachments that a face wears; empty for the whole mesh
+  /// the reduced attachments that a face wears, and the reduced body; empty for the whole mesh
   std::map<const Attachment*, DetailLevel> attachments;
-
-  const Attachment* body = nullptr;  ///< the body in the files; null: none. Whole mesh only
+  const Attachment* body = nullptr;  ///< the body in the files; null: none
 
   bool whole() const { return face == nullptr; }
   const Topology& topology(const Inputs& inputs) const {
@@ -35,8 +35,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return whole() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files at this level may contain. Whole meshes: all of the crowd and the
-  /// body. Reduced meshes: those that some face wears.
+  /// The attachments that files at this level may contain, and the body. Reduced meshes: those that
+  /// some face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
@@ -69,8 +69,13 @@ CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::u
 /// The whole mesh, then the levels of detail of the inputs.
 /// \param inputs  must outlive the result.
 /// \param crowd   faces, whose attachments the levels include
-/// \param with_body  whether the whole mesh includes the body
+/// \param with_body  whether the levels include the body
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body = false);
+
+/// The normals that the body has at the ring, those of all faces; none for attachments.
+/// \param level  the level of detail of the body; null: whole
+FixedNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
+                             const DetailLevel* level);
 
 }  // namespace crowdface

@@ -9,6 +9,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/io/surface_materials.h"
 #include "crowdface/io/usda_template.h"
 #include "crowdface/io/usda_text.h"
@@ -46,12 +47,22 @@ struct PrimLook {
   std::vector<std::uint32_t> of_face;
 };
 
-PrimLook prim_look_of(const Attachment& item, std::string prim, const std::string& shared) {
+PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource& source) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+  if (has_texture_of_face(source, item)) {
+    PrimLook look{std::move(prim), {}, std::move(named.of_face)};
+    for (const std::string& name : named.names) {
+      look.materials.push_back({name, {}});
+      look.materials.back().surface.picture =
+          concat("./", kBlendedFolder, '/', UsdaPart::kLookName, ".body.png");
+    }
+    return look;
+  }
+  const std::string shared = source.shared.empty() ? "." : source.shared;
   const auto file_of = [&](const fs::path& from) {
     const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::from);
     fs::path folder = fs::path(shared) / attachment_folder(item.name);
-    if (item.tint != Tint::kNone) folder /= UsdaPart::kLookFolder;
+    if (item.tint != Tint::kNone) folder /= UsdaPart::kLookName;
     return (folder / file->relative).generic_string();
   };
   PrimLook look{std::move(prim), {}, std::move(named.of_face)};
@@ -66,15 +77,14 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const std::strin
   return look;
 }
 
-std::map<const Attachment*, PrimLook> prim_looks(const std::vector<const Attachment*>& items,
-                                                 const std::string& shared) {
+std::map<const Attachment*, PrimLook> prim_looks(const MeshSource& source) {
   UsdaNames names;
   for (const char* taken : {"face", "mesh", "materials", "skeleton", "animation", "points"}) {
     names.add(taken);
   }
   std::map<const Attachment*, PrimLook> looks;
-  for (const Attachment* item : items) {
-    looks.emplace(item, prim_look_of(*item, names.add(item->name), shared));
+  for (const Attachment* item : source.levels.front().items(source.inputs.attachments)) {
+    looks.emplace(item, prim_look_of(*item, names.add(item->name), source));
   }
   return looks;
 }
@@ -83,17 +93,18 @@ std::map<const Attachment*, PrimLook> prim_looks(const std::vector<const Attachm
 
 MeshEncoders usd_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
-  const auto looks = prim_looks(source.levels.front().items(inputs.attachments),
-                                source.shared.empty() ? "." : source.shared);
+  const auto looks = prim_looks(source);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     const auto& [prim, materials, of_face] = looks.at(&item);
+    FixedNormals fixed = normals_at_ring(inputs, item, here);
     if (here == nullptr) {
-      return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets);
+      return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets,
+                      std::move(fixed));
     }
     return UsdaPart(prim, here->topology, here->uvs, materials, at_rows(of_face, here->faces),
-                    targets);
+                    targets, std::move(fixed));
   };
   using Form = MeshWithAttachments<UsdaTemplate, UsdaPart>;
   MeshEncoders encoders;

@@ -7,6 +7,8 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/smooth_step.h"
+#include "crowdface/mesh/all_columns.h"
+#include "head_models/synth/bust.h"
 #include "head_models/synth/complexion.h"
 #include "head_models/synth/hair.h"
 #include "head_models/synth/layout.h"
@@ -40,6 +42,11 @@ SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp) : scalp
     const synth::Address& address = layout.addresses[i];
     mean_[i] = loose_ ? synth::mean_skin_with_sockets(address) : synth::mean_skin(address);
   });
+  for (std::uint32_t v = 0; v < layout.addresses.size(); ++v) {
+    const synth::Address& address = layout.addresses[v];
+    if (address.sheet != synth::Sheet::kStrip) continue;
+    if (address.b == synth::row_unit(synth::kRows - 1)) rim_.push_back(v);
+  }
   edge_cm_ = edge_of(topology_.vertex_count);
   if (loose_) loose_->append_to(topology_, uvs_);
 }
@@ -87,6 +94,10 @@ Positions SyntheticHeads::average() const {
     out.bottomRows(loose_->vertex_count()) = loose_->positions(synth::Identity::average());
   }
   return out;
+}
+
+Mesh SyntheticHeads::body() const {
+  return synth::bust_below(average()(rim_, kAllColumns));
 }
 
 std::vector<std::uint8_t> synthetic_region_mask(int size) {

@@ -53,12 +53,16 @@ class SyntheticHeads {
   double edge_cm() const { return edge_cm_; }
   /// Returns the average head without hair and relief: #V by 3, cm. Hair cards are made for it.
   Positions average() const;
+  /// Returns a body for the heads: shoulders and chest below the rim of the average head, with
+  /// texture coordinates of its own. The first vertices are those of the rim, cm.
+  Mesh body() const;
 
  private:
   Topology topology_;
   TextureCoordinates uvs_;
   double edge_cm_ = 0;
   std::vector<synth::SkinPoint> mean_;
+  std::vector<std::uint32_t> rim_;  ///< vertices of the neck's rim, counter-clockwise from above
   Scalp scalp_;
   std::optional<synth::LooseParts> loose_;
 };

@@ -5,6 +5,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "head_models/synth/bust.h"
 #include "head_models/synth/skin_paint.h"
 #include "head_models/synth/skin_surface.h"
 
@@ -14,6 +15,20 @@ namespace {
 /// Opacity of painted hair below hair cards: only roots show. A higher opacity would be visible on
 /// bald crowns of faces that are blended from heads with hair.
 constexpr double kRoots = 0.3;
+
+/// Paints `size` texels.
+/// \param colour_at  returns the colour of a texel
+template <class ColourAt>
+std::vector<std::uint8_t> painted(std::size_t size, const ColourAt& colour_at) {
+  std::vector<std::uint8_t> bytes(3 * size);
+  parallel_for_each(size, synth::kTexelsPerBlock, [&](std::size_t i) {
+    const synth::ScreenColour colour = colour_at(i);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      bytes[3 * i + static_cast<std::size_t>(c)] = synth::to_byte(colour[c]);
+    }
+  });
+  return bytes;
+}
 
 }  // namespace
 
@@ -26,14 +41,20 @@ SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp)
 
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  std::vector<std::uint8_t> bytes(3 * atlas_.size());
-  parallel_for_each(atlas_.size(), synth::kTexelsPerBlock, [&](std::size_t i) {
-    const synth::ScreenColour colour = paint.at(atlas_[i]);
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      bytes[3 * i + static_cast<std::size_t>(c)] = synth::to_byte(colour[c]);
-    }
+  return painted(atlas_.size(), [&](std::size_t i) { return paint.at(atlas_[i]); });
+}
+
+std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
+                                                      std::uint64_t index) const {
+  const synth::SkinPaint paint(seed, index, scalp_hair_);
+  const auto side = static_cast<std::size_t>(size_);
+  return painted(atlas_.size(), [&](std::size_t i) {
+    const double u = (static_cast<double>(i % side) + 0.5) / size_;
+    const double v = 1 - (static_cast<double>(i / side) + 0.5) / size_;
+    synth::SkinPlace place;
+    place.skin.position = synth::bust_point({u, v});
+    return paint.at(place);
   });
-  return bytes;
 }
 
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,

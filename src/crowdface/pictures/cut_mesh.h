@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+/// The part of a mesh where a function of the vertices, linear along edges, is not negative. Polygons
+/// that cross zero are clipped (Sutherland & Hodgman 1974). All vertices and texture coordinates of
+/// the mesh come first, used or not; the new ones follow.
+/// \param above  #V
+Mesh cut_mesh(const Mesh& mesh, std::span<const double> above);
+
+}  // namespace crowdface

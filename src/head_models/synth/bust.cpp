@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/synth/bust.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace crowdface::synth {
+namespace {
+
+using Eigen::RowVector2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A vertical section of the bust: control points of a uniform cubic B-spline, distance from the
+/// axis and height above the rim in cm. The first point is on the rim.
+constexpr std::size_t kPoints = 9;
+using Section = std::array<Vector2d, kPoints>;
+
+const Section kSide = {{{5.5, 0},
+                        {5.9, -1.0},
+                        {7.4, -2.6},
+                        {12.4, -4.0},
+                        {17.6, -5.0},
+                        {20.6, -7.6},
+                        {21.3, -12.5},
+                        {20.9, -19.5},
+                        {19.8, -28.0}}};
+const Section kFront = {{{5.5, 0},
+                         {5.6, -1.2},
+                         {6.1, -2.6},
+                         {8.4, -5.0},
+                         {11.0, -8.5},
+                         {13.1, -13.0},
+                         {14.3, -18.0},
+                         {14.6, -23.0},
+                         {14.0, -28.0}}};
+const Section kBack = {{{5.2, 0},
+                        {5.5, -1.2},
+                        {6.7, -3.0},
+                        {9.3, -6.0},
+                        {11.0, -10.0},
+                        {12.0, -14.5},
+                        {12.4, -19.0},
+                        {12.3, -23.5},
+                        {11.6, -28.0}}};
+
+const Vector3d kAxis(0, -16.4, -3.1);  ///< middle of the rim of the average head
+
+// Radii of the rim and of the lower edge in the texture.
+constexpr double kInner = 0.1, kOuter = 0.48;
+
+/// Returns the control points in a horizontal direction. \param way  unit: x and z
+Section section_at(const Vector2d& way) {
+  const double side = way.x() * way.x();
+  const double ahead = std::max(0.0, way.y());
+  const double front = ahead * ahead, back = 1 - side - front;
+  Section section;
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    section[k] = side * kSide[k] + front * kFront[k] + back * kBack[k];
+  }
+  return section;
+}
+
+/// Evaluates the spline, which begins at the first point and ends at the last one.
+/// \param share  0 … 1
+Vector2d on_spline(const Section& points, double share) {
+  const auto at = [&](int k) -> Vector2d {
+    const int last = static_cast<int>(kPoints) - 1;
+    if (k < 0) return 2 * points[0] - points[1];
+    if (k > last) return 2 * points[kPoints - 1] - points[kPoints - 2];
+    return points[static_cast<std::size_t>(k)];
+  };
+  const double place = share * static_cast<double>(kPoints - 1);
+  const int k = std::min(static_cast<int>(place), static_cast<int>(kPoints) - 2);
+  const double t = place - k, s = 1 - t;
+  return (s * s * s * at(k - 1) + (3 * t * t * t - 6 * t * t + 4) * at(k) +
+          (3 * s * s * s - 6 * s * s + 4) * at(k + 1) + t * t * t * at(k + 2)) /
+         6;
+}
+
+Vector3d placed(const Vector2d& way, const Vector2d& point) {
+  return kAxis + Vector3d(point.x() * way.x(), point.y(), point.x() * way.y());
+}
+
+}  // namespace
+
+Mesh bust_below(const Positions& rim) {
+  const auto around = static_cast<std::uint32_t>(rim.rows());
+  const std::uint32_t rings = std::max(8U, around / 2);
+  Mesh mesh;
+  mesh.positions.resize(static_cast<Index>(rings + 1) * rim.rows(), 3);
+  mesh.uvs.resize(mesh.positions.rows(), 2);
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const Vector3d start = rim.row(i).transpose();
+    const Vector2d off(start.x() - kAxis.x(), start.z() - kAxis.z()), way = off.normalized();
+    Section section = section_at(way);
+    // The rim is not quite that of the ideal bust: the difference fades over the first points.
+    const Vector2d difference = Vector2d(off.norm(), start.y() - kAxis.y()) - section[0];
+    constexpr std::array<double, 4> kFade = {1, 1, 0.6, 0.2};
+    for (std::size_t k = 0; k < kFade.size(); ++k) section[k] += kFade[k] * difference;
+    for (std::uint32_t ring = 0; ring <= rings; ++ring) {
+      const double share = static_cast<double>(ring) / rings;
+      const Index row = static_cast<Index>(ring) * rim.rows() + i;
+      const Vector3d point = ring == 0 ? start : placed(way, on_spline(section, share));
+      mesh.positions.row(row) = point.transpose();
+      const double radius = kInner + (kOuter - kInner) * share;
+      mesh.uvs.row(row) << 0.5 + radius * way.x(), 0.5 - radius * way.y();
+    }
+  }
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t up = ring * around, low = up + around, next = (i + 1) % around;
+      mesh.topology.add_face(std::array{low + i, low + next, up + next, up + i});
+    }
+  }
+  mesh.topology.vertex_count = mesh.positions.rows();
+  mesh.topology.corner_uvs = mesh.topology.corner_vertices;
+  return mesh;
+}
+
+Vector3d bust_point(const RowVector2d& uv) {
+  const Vector2d off(uv.x() - 0.5, 0.5 - uv.y());
+  const double radius = off.norm();
+  const Vector2d way = radius > 0 ? Vector2d(off / radius) : Vector2d(0, 1);
+  const double share = std::clamp((radius - kInner) / (kOuter - kInner), 0.0, 1.0);
+  return placed(way, on_spline(section_at(way), share));
+}
+
+}  // namespace crowdface::synth

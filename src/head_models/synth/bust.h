@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface::synth {
+
+/// Returns a bust below a neck: shoulders and chest without arms, open at top and bottom. Its
+/// texture coordinates show it from above, with the front at the bottom of the picture.
+/// \param rim  the lower end of the neck of the average head, #rim by 3, cm, counter-clockwise seen
+///             from above. The first vertices of the result are these.
+Mesh bust_below(const Positions& rim);
+
+/// Returns the point of an ideal bust at texture coordinates, cm, up to the edges of the bust.
+Eigen::Vector3d bust_point(const Eigen::RowVector2d& uv);
+
+}  // namespace crowdface::synth
