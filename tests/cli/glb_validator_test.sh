@@ -7,7 +7,7 @@ set -euo pipefail
 program=$1 root=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$program" synth -o "$folder/heads" --count 2 --vertices 5000 --textures 64 --quiet
+"$program" synth -o "$folder/heads" --count 2 --vertices 5000 --textures 64 --body --quiet
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 2}
@@ -17,6 +17,15 @@ output: {directory: out, meshes: [glb], contact_sheet: none}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
 "$root/scripts/check_glb.sh" "$folder"/out/meshes/*.glb
+
+# The same on a body: with its own texture, and with a texture of each face, also at a level of detail.
+for texture in "" ", body_texture: heads/body/body.png"; do
+  sed "s|^output: {directory: out|neck: {body: heads/body/body.obj, write_body: true$texture}\noutput: {directory: on_body, lods: [30 %]|" \
+    "$folder/config.yaml" >"$folder/on_body.yaml"
+  "$program" generate "$folder/on_body.yaml" --cache "$folder/cache" --force --quiet
+  [ "$(grep -l '"name":"body"' "$folder"/on_body/meshes/*.glb | wc -l)" -eq 4 ] || { echo "not all files contain the body"; exit 1; }
+  "$root/scripts/check_glb.sh" "$folder"/on_body/meshes/*.glb
+done
 
 # The same with a rig: two joints put into the first of these files, as a rigger's program would.
 cat >"$folder/bind.mjs" <<'JS'
