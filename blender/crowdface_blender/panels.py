@@ -118,9 +118,9 @@ class CROWDFACE_PT_review(Panel):
         for item in marked:
             self.layout.label(text=f"{item.name}: {item.mark}")
             if item.mark == 'variant':
-                row = self.layout.row(align=True)
-                row.prop_search(item, "variant_of", state, "faces", text="")
-                row.prop(item, "distance")
+                column = self.layout.column(align=True)
+                column.prop_search(item, "variant_of", state, "faces", text="")
+                column.prop(item, "distance")
         self.layout.operator("crowdface.review", icon='FILE_REFRESH')
 
 
