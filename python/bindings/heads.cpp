@@ -185,23 +185,21 @@ class Smoothing {
                         "operator", kind)),
                 heads_.heads.front().positions) {}
 
-  std::vector<Positions> smoothed(const Positions& positions,
+  Index vertex_count() const { return filter_.vertex_count(); }
+
+  std::vector<Positions> smoothed(const Eigen::Ref<const Positions>& positions,
                                   const std::vector<std::uint64_t>& levels) const {
-    if (positions.rows() != filter_.vertex_count()) {
-      throw InvalidInput(concat("positions: expected ", filter_.vertex_count(), " rows, found ",
-                                positions.rows()));
-    }
     return smooth(filter_, positions, levels);
   }
 
   Positions blended(const std::string& recipe, const std::vector<std::string>& regions,
-                    const std::optional<RegionWeights::Alpha>& masks) const {
+                    std::optional<RegionWeights::Alpha> masks) const {
     PlanNames names;
     for (const Head& head : heads_.heads) names.heads.push_back(head.name);
     names.regions = regions;
     const FacePlan face = parse_recipe(recipe, names, "recipe").face;
     RegionWeights weights = whole_head(heads_.topology);
-    if (masks) weights.alpha = *masks;
+    if (masks) weights.alpha = std::move(*masks);
     if (weights.alpha.rows() != filter_.vertex_count() ||
         static_cast<std::size_t>(weights.alpha.cols()) != regions.size()) {
       throw InvalidInput(concat("masks: expected an array of ", filter_.vertex_count(), " by ",
@@ -216,7 +214,8 @@ class Smoothing {
   ChebyshevFilter filter_;
 };
 
-Eigen::MatrixXd distances(const HeadSet& heads, const std::vector<Positions>& faces,
+Eigen::MatrixXd distances(const HeadSet& heads,
+                          const std::vector<Eigen::Map<const Positions>>& faces,
                           const std::string& area, const std::string& front,
                           const std::string& unit) {
   const auto axis = parse_axis(front);
@@ -227,19 +226,13 @@ Eigen::MatrixXd distances(const HeadSet& heads, const std::vector<Positions>& fa
       heads.topology, find_components(build_adjacency(heads.topology)), mean_head(heads),
       value_of<FaceArea>({{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}}, "area", area),
       *axis);
-  for (const Positions& face : faces) {
-    if (face.rows() != heads.topology.vertex_count) {
-      throw InvalidInput(
-          concat("faces: expected ", heads.topology.vertex_count, " rows, found ", face.rows()));
-    }
-  }
   const auto count = static_cast<Index>(faces.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
   parallel_for_each(count, [&](Index i) {
+    const Positions face = faces[static_cast<std::size_t>(i)];
     for (Index j = 0; j < i; ++j) {
-      result(i, j) = face_distance(faces[static_cast<std::size_t>(i)],
-                                   faces[static_cast<std::size_t>(j)], areas) *
-                     mm_per(*length);
+      result(i, j) =
+          face_distance(face, faces[static_cast<std::size_t>(j)], areas) * mm_per(*length);
     }
   });
   return result + result.transpose();
@@ -315,25 +308,29 @@ void bind_heads(py::module_& module) {
            py::arg("heads"), py::arg("boundary"), py::arg("operator"))
       .def(
           "smooth",
-          [](const Smoothing& smoothing, const Positions& positions,
+          [](const Smoothing& smoothing, const PositionsArray& positions,
              const std::vector<std::uint64_t>& iterations) {
-            return result_of([&] { return smoothing.smoothed(positions, iterations); });
+            const auto rows = rows_of(positions, smoothing.vertex_count(), "positions");
+            return result_of([&] { return smoothing.smoothed(rows, iterations); });
           },
           py::arg("positions"), py::arg("iterations"))
       .def(
           "blend",
           [](const Smoothing& smoothing, const std::string& recipe,
-             const std::vector<std::string>& regions,
-             const std::optional<RegionWeights::Alpha>& masks) {
-            return result_of([&] { return smoothing.blended(recipe, regions, masks); });
+             const std::vector<std::string>& regions, std::optional<RegionWeights::Alpha> masks) {
+            return result_of([&] { return smoothing.blended(recipe, regions, std::move(masks)); });
           },
           py::arg("recipe"), py::arg("regions"), py::arg("masks"));
 
   module.def(
       "distances",
-      [](const HeadSet& heads, const std::vector<Positions>& faces, const std::string& area,
+      [](const HeadSet& heads, const std::vector<PositionsArray>& faces, const std::string& area,
          const std::string& front, const std::string& unit) {
-        return result_of([&] { return distances(heads, faces, area, front, unit); });
+        std::vector<Eigen::Map<const Positions>> rows;
+        for (const PositionsArray& face : faces) {
+          rows.push_back(rows_of(face, heads.topology.vertex_count, "faces"));
+        }
+        return result_of([&] { return distances(heads, rows, area, front, unit); });
       },
       py::arg("heads"), py::arg("faces"), py::arg("area"), py::arg("front"), py::arg("unit"));
 }

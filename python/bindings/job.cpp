@@ -58,6 +58,7 @@ class PythonJob {
                          : load_job(source.file, source.overrides, cache_)) {}
 
   const Job& job() const { return job_; }
+  Index vertex_count() const { return job_.inputs.faces.topology.vertex_count; }
 
   std::vector<std::string> cast() {
     MeshDefects defects;
@@ -85,14 +86,14 @@ class PythonJob {
   }
 
   // As for written faces, shapes and attachments belong to the rounded positions.
-  std::vector<Displacements> shapes(const std::string& recipe, const Positions& face) {
-    require_rows(face);
+  std::vector<Displacements> shapes(const std::string& recipe,
+                                    const Eigen::Ref<const Positions>& face) {
     if (!shapes_) shapes_.emplace(job_.config, job_.inputs);
     return shapes_->of_face(face_of(recipe).recipe, as_written(face));
   }
 
-  std::vector<PlacedAttachment> attachments(const std::string& recipe, const Positions& positions) {
-    require_rows(positions);
+  std::vector<PlacedAttachment> attachments(const std::string& recipe,
+                                            const Eigen::Ref<const Positions>& positions) {
     if (!attachments_) attachments_.emplace(job_.config, job_.inputs);
     return attachments_->attachments_of(face_of(recipe), as_written(positions));
   }
@@ -100,11 +101,6 @@ class PythonJob {
  private:
   FacePlan face_of(const std::string& recipe) const {
     return parse_recipe(recipe, job_.names, "recipe").face;
-  }
-  void require_rows(const Positions& positions) const {
-    const Index count = job_.inputs.faces.topology.vertex_count;
-    if (positions.rows() == count) return;
-    throw InvalidInput(concat("positions: expected ", count, " rows, found ", positions.rows()));
   }
   const Prepared& prepared() {
     if (!prepared_) prepared_ = prepare(job_.config, job_.inputs, job_.smoothing, cache_);
@@ -149,6 +145,7 @@ WrapOptions wrap_options(const std::map<std::string, std::string>& texts) {
       {"front", &WrapOptions::front},
       {"scan_up", &WrapOptions::scan_up},
       {"scan_front", &WrapOptions::scan_front},
+      {"texture", &WrapOptions::texture},
   };
   WrapOptions options;
   for (const auto& [name, text] : texts) options.*value_of(fields, "wrap", name) = text;
@@ -226,9 +223,10 @@ void bind_job(py::module_& module) {
           py::arg("recipes"), py::arg("progress"))
       .def(
           "shapes",
-          [](PythonJob& job, const std::string& recipe, const Positions& positions) {
+          [](PythonJob& job, const std::string& recipe, const PositionsArray& positions) {
             std::vector<Displacements> shapes;
-            long_call(py::none(), [&] { shapes = job.shapes(recipe, positions); });
+            const auto rows = rows_of(positions, job.vertex_count(), "positions");
+            long_call(py::none(), [&] { shapes = job.shapes(recipe, rows); });
             py::dict result;
             for (std::size_t i = 0; i < shapes.size(); ++i) {
               const auto count = static_cast<Index>(shapes[i].vertices.size());
@@ -243,9 +241,10 @@ void bind_job(py::module_& module) {
           py::arg("recipe"), py::arg("positions"))
       .def(
           "attachments",
-          [](PythonJob& job, const std::string& recipe, const Positions& positions) {
+          [](PythonJob& job, const std::string& recipe, const PositionsArray& positions) {
             std::vector<PlacedAttachment> placed;
-            long_call(py::none(), [&] { placed = job.attachments(recipe, positions); });
+            const auto rows = rows_of(positions, job.vertex_count(), "positions");
+            long_call(py::none(), [&] { placed = job.attachments(recipe, rows); });
             py::dict result;
             for (PlacedAttachment& one : placed) {
               result[py::str(one.item->name)] = py::cast(std::move(one.positions));
@@ -272,14 +271,16 @@ void bind_job(py::module_& module) {
       py::arg("only_plan"), py::arg("progress"));
   module.def(
       "wrap",
-      [](const std::map<std::string, std::string>& texts, bool picture, bool estimate,
+      [](const std::map<std::string, std::string>& texts, bool picture, bool estimate, bool delight,
          const py::object& progress) {
         WrapOptions options = wrap_options(texts);
         options.no_pictures = !picture;
         options.estimate = estimate;
+        options.delight = delight;
         long_call(progress, [&] { wrap_scans(options); });
       },
-      py::arg("texts"), py::arg("picture"), py::arg("estimate"), py::arg("progress"));
+      py::arg("texts"), py::arg("picture"), py::arg("estimate"), py::arg("delight"),
+      py::arg("progress"));
   module.def(
       "gather",
       [](const fs::path& folder, const fs::path& cache, const py::object& progress) {

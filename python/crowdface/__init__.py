@@ -307,6 +307,8 @@ def wrap(
     *,
     out: Optional[PathLike] = None,
     landmarks: Union[PathLike, Mapping[str, Any], None] = None,
+    texture: int = 0,
+    delight: bool = False,
     picture: bool = False,
     estimate: bool = False,
     progress: Optional[Progress] = None,
@@ -316,10 +318,13 @@ def wrap(
 
     template, scan: a mesh file, or arrays as Heads with one head. out: an OBJ file to write, with
     its report beside it. landmarks: a file, or the content of a YAML file as a dict:
-    {"template": {name: vertex}, "scan": {name: [x, y, z]}}. picture: also write a picture beside
-    `out`. estimate: also estimate the error of correspondence. options: template_landmarks, model,
+    {"template": {name: vertex}, "scan": {name: [x, y, z]}}; "none": also detect none. texture:
+    texels per side of the textures that are baked beside `out` from the scan's colours; 0: none.
+    delight: remove the light from these colours. picture: also write a picture beside `out`. estimate: also estimate the error of correspondence. options: template_landmarks, model,
     ignore, units, scan_units, up, front, scan_up, scan_front, as on the command line.
     """
+    if texture and out is None:
+        raise UsageError("texture: expected out=FILE.obj, beside which the textures are written")
     with tempfile.TemporaryDirectory(prefix="crowdface-") as folder:
 
         def file_of(mesh: Union[PathLike, Heads], name: str) -> str:
@@ -344,7 +349,9 @@ def wrap(
         texts = {"template": file_of(template, "template"), "scan": file_of(scan, "scan")}
         if landmarks is not None:
             texts["landmarks"] = os.fspath(landmarks)
-        _crowdface.wrap({**options, **texts, "out": str(head)}, picture, estimate, progress)
+        if texture:
+            texts["texture"] = str(texture)
+        _crowdface.wrap({**options, **texts, "out": str(head)}, picture, estimate, delight, progress)
         report = json.loads(head.with_suffix(".wrap.json").read_text(encoding="utf-8"))
         return Wrapped(_crowdface.read_heads([head], None).positions(0), report)
 

@@ -62,6 +62,11 @@ class Face:
         return self.columns.get("age")
 
     @property
+    def changed(self) -> Tuple[str, ...]:
+        """Who changed which keys of the face, such as "config: age" or "review 2: hair"."""
+        return tuple(self.recipe.get("changed", ()))
+
+    @property
     def traits(self) -> Dict[str, float]:
         """Measurements that the config names, in mm, degrees or as ratios."""
         return dict(self.recipe.get("traits", {}))
@@ -178,11 +183,13 @@ class Crowd(Mapping[str, Face]):
         reject: Iterable[str] = (),
         lock: Optional[Mapping[str, Iterable[str]]] = None,
         notes: Optional[Mapping[str, str]] = None,
+        changes: Optional[Mapping[str, Mapping[str, Any]]] = None,
     ) -> Path:
         """Writes a review file for this crowd.
 
         keep, reject: ids of faces. lock: rejected faces of which these regions stay, by id.
-        notes: a remark for a rejected face, by id. Pass the file to `run_round`.
+        notes: a remark for a rejected face, by id. changes: by id, the keys of `changes` in
+        docs/config.md, such as {"market_0013": {"age": "older"}}. Pass the file to `run_round`.
         """
         marks: Dict[str, Any] = {face: "keep" for face in keep}
         marks.update({face: "reject" for face in reject})
@@ -191,17 +198,20 @@ class Crowd(Mapping[str, Face]):
         for face, note in (notes or {}).items():
             mark = marks.get(face)
             marks[face] = {**(mark if isinstance(mark, dict) else {"lock": []}), "note": note}
-        unknown = [face for face in marks if face not in self._faces]
+        unknown = [face for face in [*marks, *(changes or {})] if face not in self._faces]
         if unknown:
             raise UsageError(f"{self.folder}: the crowd has no faces {', '.join(unknown)}")
         sampled = sum(face.index is not None for face in self.values())
-        review = {"schema": 1, "count": sampled, "faces": marks}
+        review: Dict[str, Any] = {"schema": 1, "count": sampled, "faces": marks}
+        if changes:
+            review["changes"] = changes
         path = Path(file)
         path.write_text(json.dumps(review, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
         return path
 
     def run_round(self, review: PathLike, **options: Any) -> "Crowd":
-        """Casts the rejected faces of a review again and makes their files; returns this crowd.
+        """Redraws the rejected faces of a review, applies its changes and makes the files of these
+        faces; returns this crowd.
 
         options: the keyword arguments of `generate`, such as `progress`.
         """

@@ -139,6 +139,34 @@ def test_a_round_redraws_what_a_review_rejects(place, config, made):
         crowd.write_review(place / "other.yaml", reject=["small_0009"])
 
 
+def test_single_faces_are_changed(place, config, made):
+    changes = {
+        "small_0002": {"variant_of": "small_0001", "distance": "0.5 mm"},
+        "small_0003": {"wears": []},
+        "small_0004": {"lock": ["top"]},
+    }
+    crowd = crowdface.generate(config, out=place / "changed")
+    crowd.run_round(crowd.write_review(place / "changes.yaml", changes=changes))
+    assert [face.changed for face in crowd.values()] == [
+        (), ("review 1: variant_of",), ("review 1: wears",), ("review 1: lock",)
+    ]  # fmt: skip
+    assert crowd["small_0003"].attachments == ()
+    meshes = {face.id: face.mesh().read_bytes() for face in crowd.values()}
+    assert meshes["small_0001"] == (made / "meshes/small_0001.obj").read_bytes()
+    # The same changes in the config of a job give the same faces.
+    job = crowdface.Job({**config, "changes": changes})
+    recipes = job.cast()
+    assert [recipe.get("changed", []) for recipe in recipes] == [
+        [line.replace("review 1", "config") for line in face.changed] for face in crowd.values()
+    ]
+    for recipe, positions in zip(recipes, job.blend_all(recipes)):
+        np.testing.assert_array_equal(single(positions), single(crowd[recipe["id"]].positions()))
+    apart = crowdface.distances(job.heads, [crowd[face].positions() for face in list(crowd)[:2]])
+    assert 0.4 < apart[0, 1] < 0.6
+    with pytest.raises(crowdface.UsageError, match="small_0009"):
+        crowd.write_review(place / "other.yaml", changes={"small_0009": {"age": "older"}})
+
+
 def test_progress_is_reported_and_cancels(place, config, made):
     stages = []
 

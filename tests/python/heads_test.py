@@ -2,6 +2,7 @@
 import gc
 import os
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -53,6 +54,43 @@ def test_arrays_are_views_that_keep_the_heads_alive(place):
     del heads
     gc.collect()
     assert [array.sum() for array in arrays] == sums
+
+
+def test_distances_keep_no_copies_of_faces():
+    # Copies of 40 faces would take 96 MB.
+    script = """
+import resource
+import numpy as np
+import crowdface
+random = np.random.default_rng(1)
+face = random.normal(size=(100000, 3))
+heads = crowdface.Heads([face], np.arange(99999).reshape(-1, 3))
+crowdface.distances(heads, [face] * 2)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+crowdface.distances(heads, [face] * 40)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+"""
+    said = subprocess.run([sys.executable, "-c", script], check=True, stdout=subprocess.PIPE, text=True)
+    assert int(said.stdout) < 40000
+
+
+def test_other_arrays_are_converted(heads):
+    positions = heads.positions(0)
+    smoothing = crowdface.Smoothing(heads)
+    expected = smoothing.smooth(positions, 5)
+    padded = np.zeros((len(positions), 6))
+    padded[:, :3] = positions
+    for other in (np.asfortranarray(positions), padded[:, :3], positions.tolist()):
+        np.testing.assert_array_equal(smoothing.smooth(other, 5), expected)
+    rounded = positions.astype(np.float32)
+    np.testing.assert_array_equal(
+        smoothing.smooth(rounded, 5), smoothing.smooth(rounded.astype(np.float64), 5)
+    )
+    for wrong in (positions[1:], positions[:, :2], positions.ravel(), [positions]):
+        with pytest.raises(crowdface.InvalidInput, match=r"positions: expected an array \(4849, 3\), found \("):
+            smoothing.smooth(wrong, 5)
+        with pytest.raises(crowdface.InvalidInput, match=r"faces: expected an array \(4849, 3\), found \("):
+            crowdface.distances(heads, [positions, wrong])
 
 
 def test_heads_are_made_from_arrays(heads):

@@ -36,6 +36,33 @@ def test_wraps_as_the_program(place, program, landmarks):
     np.testing.assert_array_equal(arrays.positions, wrapped.positions)
 
 
+def test_bakes_the_colours_of_a_scan(place, program, landmarks):
+    file = place / "colour_landmarks.yaml"
+    file.write_text(json.dumps(landmarks))
+    template, scan = place / "heads/synth_01.obj", place / "heads/synth_02.obj"
+    for folder in ("by_program", "by_python"):
+        (place / folder).mkdir()
+    program("wrap", "-q", template, scan, "--landmarks", file, "--no-pictures", "--texture", 64,
+            "--delight", "-o", place / "by_program/head.obj")  # fmt: skip
+    out = place / "by_python/head.obj"
+    crowdface.wrap(template, scan, landmarks=landmarks, out=out, texture=64, delight=True)
+    files = {path.name: path.read_bytes() for path in (place / "by_program").iterdir()}
+    assert "head.colour.png" in files and "head.filled.png" in files
+    ours = {path.name: path.read_bytes() for path in (place / "by_python").iterdir()}
+    assert {name for name in files if ours[name] != files[name]} <= {"head.wrap.json"}
+    with pytest.raises(crowdface.UsageError, match="out=FILE.obj"):
+        crowdface.wrap(template, scan, texture=64)
+    with pytest.raises(crowdface.UsageError, match="--texture"):
+        crowdface.wrap(template, scan, out=out, delight=True)
+
+
+def test_wraps_without_any_landmarks(place):
+    template, scan = place / "heads/synth_01.obj", place / "heads/synth_02.obj"
+    directions = {"scan_up": "+Y", "scan_front": "+Z"}
+    assert crowdface.wrap(template, scan, **directions).report["landmarks"]
+    assert not crowdface.wrap(template, scan, landmarks="none", **directions).report["landmarks"]
+
+
 def test_a_bad_wrap_is_an_error(place):
     template = place / "heads/synth_01.obj"
     with pytest.raises(crowdface.UsageError, match="units"):
