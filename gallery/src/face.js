@@ -2,6 +2,7 @@
 import { el, short } from './dom.js';
 import { bandsOf, isLoaded, loadFace, locksAll, relativesOf } from './crowd.js';
 import { picture } from './grid.js';
+import { linkViews } from './linked_views.js';
 import { headsMean, traitText, wordsOf } from './traits.js';
 import { Turntable } from './turntable.js';
 
@@ -17,6 +18,8 @@ export class FacePage {
   constructor(crowd, review, go) {
     Object.assign(this, { crowd, review, go });
     this.stage = el('div', { class: 'stage' });
+    this.otherStage = el('div', { class: 'stage other' });
+    this.otherName = el('p', { class: 'othername', hidden: true });
     this.status = el('p', { class: 'status', hidden: true });
     this.choices = el('div', { class: 'choices' });
     this.side = el('div', { class: 'side' });
@@ -29,7 +32,7 @@ export class FacePage {
         el('button', { onclick: () => this.step(-1), title: 'Previous (←)', 'aria-label': 'Previous' }, '‹'),
         el('button', { onclick: () => this.step(1), title: 'Next (→)', 'aria-label': 'Next' }, '›')),
       el('div', { class: 'columns' },
-        el('section', { class: 'left' }, el('div', { class: 'box' }, this.stage, this.status),
+        el('section', { class: 'left' }, this.box = el('div', { class: 'box' }, this.stage, this.otherStage, this.otherName, this.status),
           this.choices, this.rendersBox = el('div', { class: 'renders' })),
         this.side));
     this.faces = [];
@@ -62,22 +65,23 @@ export class FacePage {
       ? [el('img', { src: face.picture, alt: `Renders of ${face.id}` })] : []));
     this.side.replaceChildren(...[this.marks(), this.about(), this.expressions(), this.family(), this.traits(),
       this.recipe(), this.neighbours()].filter(Boolean));
-    this.compare('face');
+    this.compare(this.isDouble ? this.compared : 'face');
   }
 
   // -- the view to turn --
 
-  table() {
-    if (this.turntable) return this.turntable;
+  table(name = 'turntable', stage = this.stage) {
+    if (this[name]) return this[name];
     try {
-      this.turntable = new Turntable();
+      this[name] = new Turntable();
     } catch {
       this.say('This browser shows no 3D (WebGL is off).');
       return null;
     }
-    this.stage.replaceChildren(this.turntable.node);
-    new ResizeObserver(() => this.turntable.fit()).observe(this.stage);
-    return this.turntable;
+    stage.replaceChildren(this[name].node);
+    new ResizeObserver(() => this[name].fit()).observe(stage);
+    if (stage === this.otherStage) linkViews([this.turntable, this[name]]);
+    return this[name];
   }
 
   say(text) {
@@ -85,19 +89,42 @@ export class FacePage {
     this.status.textContent = text ?? '';
   }
 
-  /// Shows the face, its target or its nearest neighbour from the same side.
+  /// What the face can be compared with: [folder, file, name, what the button says] each.
+  subjects() {
+    const { face, crowd } = this;
+    const of = (other, word) => [`data/faces/${other.folder}`, other.id, other.id, `${word}${other.id}`];
+    const near = crowd.byId.get(face.near[0]?.id);
+    const before = this.before !== face && this.before !== near ? this.before : null;
+    return {
+      face: of(face, ''),
+      target: ['data/heads/', face.target, `head ${face.target}`,
+        `${face.mixture ? 'largest part of its target' : 'target'} ${face.target}`],
+      ...(near ? { near: of(near, 'nearest ') } : {}),
+      ...(before ? { before: of(before, 'before ') } : {}),
+    };
+  }
+
+  /// Shows the face or another subject from the same side; with two views the other one beside the face.
   async compare(what) {
     const { face } = this;
-    const near = this.crowd.byId.get(face.near[0]?.id);
-    const subjects = {
-      face: [`data/faces/${face.folder}`, face.id], target: ['data/heads/', face.target, `head ${face.target}`],
-      near: [`data/faces/${near?.folder ?? ''}`, near?.id],
-    };
-    const [folder, file, name = file] = subjects[what];
-    this.compared = what;
+    this.compared = this.isDouble && what === 'face' ? 'target' : what;
+    if (!this.subjects()[this.compared]) this.compared = this.isDouble ? 'target' : 'face';
     this.drawChoices();
-    const table = this.table();
+    this.box.classList.toggle('two', Boolean(this.isDouble));
+    this.otherName.hidden = !this.isDouble;
+    await this.showIn(this.table(), this.isDouble ? 'face' : this.compared);
+    if (!this.isDouble || this.face !== face) return;
+    this.otherName.textContent = this.subjects()[this.compared][2];
+    const other = this.table('otherTable', this.otherStage);
+    await this.showIn(other, this.compared);
+    other?.lookAs(this.turntable);
+    other?.act(this.values);
+  }
+
+  async showIn(table, what) {
     if (!table) return;
+    const { face } = this;
+    const [folder, file, name] = this.subjects()[what];
     table.fit();
     try {
       await table.show(`${folder}${file}.js`, name);
@@ -107,18 +134,26 @@ export class FacePage {
     }
   }
 
+  setDouble(on) {
+    this.isDouble = on;
+    this.compare(on ? this.compared : 'face');
+  }
+
   drawChoices() {
-    const near = this.face.near[0];
-    const subject = (what, text) => el('button', {
-      class: this.compared === what ? 'on' : '', onclick: () => this.compare(what),
-    }, text);
+    const subjects = Object.entries(this.subjects()).filter(([what]) => !this.isDouble || what !== 'face');
     this.choices.replaceChildren(
-      el('div', { class: 'group' }, subject('face', this.face.id),
-        subject('target', `${this.face.mixture ? 'largest part of its target' : 'target'} ${this.face.target}`),
-        near ? subject('near', `nearest ${near.id}`) : null),
+      el('button', {
+        class: this.isDouble ? 'on' : '', 'aria-pressed': String(Boolean(this.isDouble)),
+        title: 'The face and another one, seen by the same camera (S)', onclick: () => this.setDouble(!this.isDouble),
+      }, 'Side by side'),
+      el('div', { class: 'group', role: 'group', 'aria-label': this.isDouble ? 'Beside the face' : 'What is shown' },
+        subjects.map(([what, [, , , text]]) => el('button', {
+          class: this.compared === what ? 'on' : '', 'aria-pressed': String(this.compared === what),
+          title: this.isDouble ? `${text} beside the face` : `Show ${text}`, onclick: () => this.compare(what),
+        }, text))),
       el('span', { class: 'grow' }),
-      el('div', { class: 'group' }, Object.entries(viewNames).map(([view, text]) =>
-        el('button', { onclick: () => this.turntable?.view(view) }, text))));
+      el('div', { class: 'group', role: 'group', 'aria-label': 'Standard views' }, Object.entries(viewNames).map(([view, text]) =>
+        el('button', { title: `${text} view`, onclick: () => this.turntable?.view(view) }, text))));
   }
 
   // -- marks --
@@ -151,7 +186,7 @@ export class FacePage {
     };
     const verdicts = el('div', {});
     const note = el('textarea', {
-      class: 'note', rows: '2', maxlength: '500', placeholder: 'Note (N)',
+      class: 'note', rows: '2', maxlength: '500', placeholder: 'Note (N)', 'aria-label': 'Note', title: 'A note about this face (N)',
       value: review.of(face)?.note ?? '',
       oninput: () => review.change(face, { note: note.value.trim() }),
       onkeydown: (event) => {
@@ -207,7 +242,7 @@ export class FacePage {
     const { shapes } = this.crowd;
     if (shapes.length === 0) return null;
     this.values ??= shapes.map(() => 0);
-    const act = () => this.turntable?.act(this.values);
+    const act = () => [this.turntable, this.isDouble && this.otherTable].forEach((table) => table && table.act(this.values));
     const sliders = shapes.map((name, s) => el('input', {
       type: 'range', min: 0, max: 1, step: 0.01, value: this.values[s], 'aria-label': name,
       oninput: (event) => {
@@ -221,7 +256,7 @@ export class FacePage {
       act();
     };
     return el('section', { class: 'expressions' },
-      el('header', {}, el('h2', {}, 'Expressions'), el('span', { class: 'grow' }), el('button', { onclick: rest }, 'At rest')),
+      el('header', {}, el('h2', {}, 'Expressions'), el('span', { class: 'grow' }), el('button', { title: 'All expressions to zero', onclick: rest }, 'At rest')),
       shapes.map((name, s) => el('label', {}, el('span', {}, name), sliders[s])));
   }
 
@@ -345,7 +380,7 @@ export class FacePage {
       f: () => table?.view('front'), q: () => table?.view('three_quarter'),
       p: () => table?.view('profile'), t: () => this.compare(this.compared === 'target' ? 'face' : 'target'),
       c: () => this.face.near[0] && this.compare(this.compared === 'near' ? 'face' : 'near'),
-      ',': () => table?.turn(-10), '.': () => table?.turn(10),
+      s: () => this.setDouble(!this.isDouble), ',': () => table?.turn(-10), '.': () => table?.turn(10),
     };
     const act = keys[event.key];
     act?.();

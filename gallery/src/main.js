@@ -62,18 +62,19 @@ class Page {
 
   sidebar() {
     const { crowd } = this;
-    const select = (name, title, entries) => {
+    const select = (name, title, entries, tip = `Faces by ${title.toLowerCase()}`) => {
       const node = el('select', {
-        name, onchange: () => this.filter({ [name]: node.value }),
+        name, title: tip, onchange: () => this.filter({ [name]: node.value }),
       }, entries.map(([value, text]) => el('option', { value }, text)));
       return el('label', {}, title, node);
     };
     this.search = el('input', {
-      type: 'search', placeholder: 'Search (/)', oninput: () => this.filter({ search: this.search.value }),
+      type: 'search', placeholder: 'Search (/)', 'aria-label': 'Search', title: 'Words in id, family, group, target, tags, attachments or notes (/)',
+      oninput: () => this.filter({ search: this.search.value }),
     });
     const tags = crowd.tags.map((tag) => {
       const button = el('button', {
-        class: 'tag', onclick: () => {
+        class: 'tag', title: `Only faces tagged ${tag}`, onclick: () => {
           button.classList.toggle('on');
           this.filter({ tags: this.filters.tags.includes(tag)
             ? this.filters.tags.filter((other) => other !== tag) : [...this.filters.tags, tag] });
@@ -86,7 +87,7 @@ class Page {
       'aria-label': 'Size of the pictures',
     });
     this.tabs = ['faces', 'plane'].map((name) => el('button', {
-      class: 'tab', 'data-tab': name, onclick: () => { location.hash = `#/${name}`; },
+      class: 'tab', 'data-tab': name, title: name === 'faces' ? 'All faces (G)' : 'Where the faces lie on the plane (M)', onclick: () => { location.hash = `#/${name}`; },
     }, name === 'faces' ? 'Faces' : 'Plane'));
     this.counts = el('div', { class: 'counts' });
     return el('aside', {},
@@ -111,8 +112,8 @@ class Page {
       crowd.traits.length > 0 ? new TraitPanel(crowd, (change) => this.filter(change)).node : null,
       el('label', {}, 'Size', this.size), this.summary,
       el('span', { class: 'grow' }), this.counts,
-      el('button', { class: 'export', onclick: () => this.export() }, 'Export review.yaml'),
-      el('button', { class: 'plain', onclick: () => this.help() }, 'Keys (?)'));
+      el('button', { class: 'export', title: 'Saves the marks as a file for generate --review (E)', onclick: () => this.export() }, 'Export review.yaml'),
+      el('button', { class: 'plain', title: 'All keys (?)', onclick: () => this.help() }, 'Keys (?)'));
   }
 
   resize(px) {
@@ -206,7 +207,7 @@ class Page {
     const keys = [['← → ↑ ↓', 'walk through the faces'], ['Enter', 'open'], ['Esc', 'back'],
       ['K, R', 'keep, reject; again: remove the mark'], ['1 2 3 …', 'lock a region or band and redraw the rest'],
       ['N', 'note'], ['/', 'search'], ['G, M', 'faces, plane'], ['F, Q, P', 'front, three-quarter, profile'],
-      [', .', 'turn'], ['T, C', 'switch to the target, to the nearest face, and back'], ['E', 'export review.yaml']];
+      [', .', 'turn'], ['T, C', 'switch to the target, to the nearest face, and back'], ['S', 'side by side'], ['E', 'export review.yaml']];
     const dialog = el('dialog', { onclick: () => dialog.close(), onclose: () => dialog.remove() },
       el('h2', {}, 'Keys'), el('dl', {}, keys.map(([key, does]) =>
         [el('dt', {}, el('kbd', {}, key)), el('dd', {}, does)])));

@@ -28,6 +28,14 @@ export function planeFrame(points, room = 1.16) {
   };
 }
 
+/// Names keep their size on the screen.
+function legible(svg) {
+  new ResizeObserver(([{ contentRect: { width } }]) => {
+    if (width > 0) svg.style.setProperty('--unit', `${side / width}px`);
+  }).observe(svg);
+  return svg;
+}
+
 /// A head's picture in a ring, drawn around the origin.
 export function anchorMark(head, radius = 17) {
   const id = `clip ${head.name} ${Math.random()}`.replace(/[^\w]/g, '_');
@@ -59,7 +67,7 @@ export class Plane {
     const { at } = planeFrame(this.crowd.heads.map((head) => head.anchor).concat(
       this.crowd.onPlane.flatMap((face) => Object.values(face.regions)
         .flatMap((region) => bandsOf(this.crowd, region).map(([, numbers]) => numbers.position)).filter(Boolean))));
-    const choose = el('select', { onchange: () => this.recolour(choose.value) },
+    const choose = el('select', { title: 'What the colours of the dots say', onchange: () => this.recolour(choose.value) },
       el('option', { value: 'target' }, 'target'), el('option', { value: 'family' }, 'family'),
       el('option', { value: 'mark' }, 'mark'));
     const regions = this.crowd.regions.length > 0 ? this.crowd.regions : ['all'];
@@ -97,7 +105,7 @@ export class Plane {
       el('g', { transform: `translate(${at(head.anchor)})` }, anchorMark(head))));
     return el('figure', {}, el('figcaption', {}, band ? `${name}, ${band}` : name,
       missing > 0 ? el('small', {}, ` · ${missing} ${missing === 1 ? 'has' : 'have'} no place on the plane`) : null),
-    el('svg', { viewBox: `0 0 ${side} ${side}` }, heads, dots));
+    legible(el('svg', { viewBox: `0 0 ${side} ${side}` }, heads, dots)));
   }
 
   recolour(by) {

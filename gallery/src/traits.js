@@ -21,7 +21,7 @@ export class TraitPanel {
   /// \param change  is called with {traits: ranges} when the filter changes.
   constructor(crowd, change) {
     Object.assign(this, { crowd, change, ranges: {} });
-    this.choice = el('select', { name: 'trait', onchange: () => this.draw() },
+    this.choice = el('select', { name: 'trait', title: 'Which measurement the histogram and the filter are about', onchange: () => this.draw() },
       crowd.traits.map(({ name }) => el('option', { value: name }, wordsOf(name))));
     const end = (at, text) => el('input', {
       type: 'number', step: 'any', placeholder: text, 'aria-label': text, 'data-end': text,

@@ -6,14 +6,14 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { openPage } from './open_page.mjs';
+import { fine, openPage } from './open_page.mjs';
 import { wornPixels } from './worn_pixels.mjs';
 
 const [folder, reviewFile, pictures] = process.argv.slice(2);
 if (!reviewFile) throw new Error('usage: node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES]');
 const address = pathToFileURL(join(resolve(folder), 'index.html')).href;
 
-const { browser, page, problems, take } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
+const { browser, page, problems, take, audit, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
 
 const count = (selector) => page.locator(selector).count();
 const ids = () => page.$$eval('.cell', (cells) => cells.map((cell) => cell.dataset.id));
@@ -182,6 +182,26 @@ await page.keyboard.press('t');
 await page.waitForFunction(() => window.crowdface.page.face.turntable.shown.startsWith('head '));
 await page.keyboard.press('t');
 
+// Another face stands beside the face, seen by the same camera.
+const [ownView, otherView] = ['.stage:not(.other)', '.stage.other'].map((part) => page.locator(`.box ${part} .turntable`));
+await page.keyboard.press('f');
+await page.keyboard.press('s');
+await page.waitForFunction(() => window.crowdface.page.face.otherTable?.shown?.startsWith('head '));
+const [leftBox, rightBox] = [await ownView.boundingBox(), await otherView.boundingBox()];
+assert.ok(leftBox.x + leftBox.width <= rightBox.x + 1 && Math.abs(leftBox.width - rightBox.width) < 3, 'two halves');
+const [ownFront, targetFront] = [await stillPicture(ownView), await stillPicture(otherView)];
+await take('side_by_side');
+await page.keyboard.press('.');
+assert.ok(!(await stillPicture(ownView)).equals(ownFront) && !(await stillPicture(otherView)).equals(targetFront), 'both turn');
+await page.keyboard.press('f');
+assert.ok((await stillPicture(otherView)).equals(targetFront) && (await stillPicture(ownView)).equals(ownFront), 'and back');
+await page.keyboard.press('c');
+await page.waitForFunction(() => !window.crowdface.page.face.otherTable.shown.startsWith('head '));
+assert.ok(!(await stillPicture(otherView)).equals(targetFront), 'another face is another picture');
+assert.ok((await stillPicture(ownView)).equals(ownFront), 'the face itself stays');
+await page.keyboard.press('s');
+assert.ok(await otherView.isHidden());
+
 // A lock that is taken back leaves the mark as it was.
 if (crowd.regions.length > 1) {
   const lock = page.locator('.locks button').first();
@@ -246,6 +266,19 @@ await page.locator('.change', { hasText: 'Variant of' }).click();
 assert.equal((await marks())[similar].change.variant_of, aged);
 await page.keyboard.press('Escape');
 await page.waitForSelector('main.all:not([hidden])');
+
+// Everything has its tooltip and a name, is legible, and is within reach in small windows.
+for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [853, 600], [390, 844]]) {
+  await page.setViewportSize({ width, height });
+  for (const place of ['faces', 'plane', `face/${similar}`]) {
+    await page.evaluate((to) => { location.hash = `#/${to}`; }, place);
+    await page.waitForTimeout(300);
+    await take(`${place.split('/')[0]}_at_${width}`);
+    assert.deepEqual(await audit(), fine, `${place} at ${width} pixels`);
+  }
+}
+await page.setViewportSize({ width: 1440, height: 900 });
+await page.evaluate(() => { location.hash = '#/faces'; });
 
 // Export.
 const download = page.waitForEvent('download');

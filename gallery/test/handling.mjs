@@ -4,12 +4,13 @@
 //   node handling.mjs ADDRESS PHOTO [PICTURES_FOLDER]
 // The last line says "all right".
 import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
 import { openPage } from './open_page.mjs';
 
 const [address, photo, pictures] = process.argv.slice(2);
 if (!photo) throw new Error('usage: node handling.mjs ADDRESS PHOTO [PICTURES]');
 
-const { browser, page, problems, take } = await openPage({ width: 1440, height: 900, pictures, own: address });
+const { browser, page, problems, take, colourAt, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: address });
 
 const shown = () => page.waitForFunction(() => !window.crowdface.editor.pending);
 const settled = () => page.waitForFunction(() => {
@@ -20,6 +21,8 @@ const message = () => page.locator('.message').innerText();
 const button = (name) => page.getByRole('button', { name, exact: true });
 const undoTitle = () => button('Undo').getAttribute('title');
 const place = async (region) => [await page.getByLabel(`${region}, to the right`).inputValue(), await page.getByLabel(`${region}, up`).inputValue()];
+const typedNumbers = async (region) => [await page.getByLabel(`Smoothness of ${region}, typed`).inputValue(),
+  await page.getByLabel(`Strength of ${region}, typed`).inputValue()];
 const type = async (field, text) => {
   await field.fill(text);
   await field.press('Enter');
@@ -30,8 +33,6 @@ const clickOnHead = async (part) => {
   const view = await canvas.boundingBox();
   await page.mouse.click(view.x + view.width / 2, view.y + part * view.height);
 };
-/// What is seen of an element, as PNG.
-const picture = (locator) => locator.screenshot();
 
 await page.goto(address);
 await page.waitForSelector('.board');
@@ -125,31 +126,26 @@ await page.keyboard.press('f');
 await page.keyboard.press('s');
 await other.waitFor();
 await isStill();
-await page.waitForTimeout(900); // until the views rest
 const [own, beside] = [await canvas.boundingBox(), await other.boundingBox()];
 assert.ok(own.x + own.width <= beside.x + 1 && Math.abs(own.width - beside.width) < 2, 'two halves');
 const another = heads.find((name) => name !== heads[0]);
 await page.getByLabel('Face beside', { exact: true }).selectOption(another);
 await isStill();
-await page.waitForTimeout(900);
-const front = await picture(other);
+const front = await stillPicture(other);
 await take('beside');
 await page.mouse.move(own.x + 0.1 * own.width, own.y + own.height / 2);
 await page.mouse.down();
 await page.mouse.move(own.x + 0.1 * own.width + 90, own.y + own.height / 2, { steps: 5 });
 await page.mouse.up();
-await page.waitForTimeout(900);
-const turned = await picture(other);
+const turned = await stillPicture(other);
 assert.ok(!turned.equals(front), 'the other one turns, too');
 await page.keyboard.press('f');
-await page.waitForTimeout(900);
-assert.ok((await picture(other)).equals(front), 'and back');
-const left = await picture(canvas);
+assert.ok((await stillPicture(other)).equals(front), 'and back');
+const left = await stillPicture(canvas);
 await page.getByLabel('Face beside', { exact: true }).selectOption(heads[0]);
 await isStill();
-await page.waitForTimeout(900);
-assert.ok(!(await picture(other)).equals(front), 'another head looks otherwise');
-assert.ok((await picture(canvas)).equals(left), 'the edited face stays');
+assert.ok(!(await stillPicture(other)).equals(front), 'another head looks otherwise');
+assert.ok((await stillPicture(canvas)).equals(left), 'the edited face stays');
 await page.waitForTimeout(600);
 await page.reload();
 await other.waitFor();
@@ -157,6 +153,147 @@ await settled();
 assert.equal(await page.getByLabel('Face beside', { exact: true }).inputValue(), heads[0]);
 await button('Close the face beside').click();
 assert.ok(await other.isHidden());
+
+// The library: a head onto the plane, a region and the face; a face onto a region and the face; what is worn.
+await page.keyboard.press('Escape');
+const tab = (name) => page.locator(`.library button[data-shelf="${name}"]`);
+const picked = (name) => page.locator(`.library .portrait[data-name="${name}"]`);
+const step = async (act, pattern) => {
+  await act();
+  await page.waitForFunction((text) => new RegExp(text).test(document.querySelector('.toolbar button[title^="Undo"]').title), pattern);
+  await settled();
+};
+const lentTo = (region) => page.locator(`.regioncard[data-region="${region}"] .lends`).innerText();
+const headAt = async (name) => {
+  const box = await page.locator(`.head[data-head="${name}"] .anchor > circle`).first().boundingBox();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+};
+await tab('Heads').click();
+assert.equal(await page.locator('.library .portrait img').count(), heads.length);
+const cardOf = (region) => page.locator(`.regioncard[data-region="${region}"] h3`);
+await step(() => picked(heads[3]).dragTo(cardOf(regions[1])), `Undo: ${heads[3]} on ${regions[1]}`);
+assert.equal(await lentTo(regions[1]), `${heads[3]} 100 %`);
+const board = page.locator('.board');
+const isAt3 = await headAt(heads[3]);
+const boardBox = await board.boundingBox();
+const target = { x: isAt3[0] - boardBox.x + 34, y: isAt3[1] - boardBox.y + 22 };
+await step(() => picked(heads[3]).dragTo(board, { targetPosition: target }), `Undo: ${heads[3]} moved`);
+assert.ok(await page.locator(`.head[data-head="${heads[3]}"]`).evaluate((node) => node.classList.contains('away')));
+const now3 = await headAt(heads[3]);
+assert.ok(Math.hypot(now3[0] - isAt3[0] - 34, now3[1] - isAt3[1] - 22) < 12, 'it stands where it was dropped');
+const notTarget = await page.locator('.head:not(.target)').first().getAttribute('data-head');
+await step(() => picked(notTarget).dragTo(canvas), `Undo: target ${notTarget}`);
+assert.equal(await page.locator('.head.target').getAttribute('data-head'), notTarget);
+await tab('Faces').click();
+await page.waitForFunction(() => [...document.querySelectorAll('.library img')].every((image) => image.complete && image.naturalWidth > 0));
+await take('library');
+const placesBefore = await Promise.all(regions.map(place));
+await step(() => picked('mob_0003').dragTo(cardOf(regions[2])), `Undo: mob_0003 on ${regions[2]}`);
+const placesAfter = await Promise.all(regions.map(place));
+assert.deepEqual(placesAfter.slice(0, 2), placesBefore.slice(0, 2), 'other regions stay');
+assert.notDeepEqual(placesAfter[2], placesBefore[2]);
+const ofRegion = await typedNumbers(regions[2]);
+// By a click, where the list says.
+await step(() => picked('mob_0003').click(), 'Undo: mob_0003 opened');
+assert.equal(await page.getByLabel('Name of the face').inputValue(), 'mob_0003_edited');
+assert.deepEqual(await typedNumbers(regions[2]), ofRegion, 'the region was as in that face');
+await page.getByLabel('Where a click puts it').selectOption(regions[0]);
+await step(() => picked('mob_0001').click(), `Undo: mob_0001 on ${regions[0]}`);
+await tab('hat').click();
+const hat = (name) => page.locator(`.library .portrait[data-name="${name}"] img`);
+await hat('card').waitFor();
+await hat('none').waitFor();
+assert.notEqual(await hat('card').getAttribute('src'), await hat('none').getAttribute('src'), 'the pictures show what is worn');
+const forehead = async () => {
+  const view = await canvas.boundingBox();
+  return colourAt(view.x + 0.43 * view.width, view.y + 0.24 * view.height);
+};
+const isRed = ([r, g, b]) => r > 1.8 * g && r > 1.8 * b;
+await page.keyboard.press('f');
+await picked('none').dragTo(canvas);
+await settled();
+await page.waitForTimeout(1200);
+const bareForehead = await forehead();
+await picked('card').dragTo(canvas);
+await settled();
+await page.waitForTimeout(1200);
+await take('worn');
+assert.ok(!isRed(bareForehead) && isRed(await forehead()), `red where the card is: ${bareForehead}, ${await forehead()}`);
+await tab('hat').click();
+
+// A photo lies behind or beside the head; points that are clicked on both turn the camera to where the photo was taken.
+await page.keyboard.press('Escape');
+await page.keyboard.press('f');
+await page.waitForTimeout(900);
+const places = [[0.5, 0.3], [0.33, 0.36], [0.66, 0.36], [0.5, 0.5], [0.42, 0.72], [0.58, 0.72]];
+const headBox = await canvas.boundingBox();
+const onPage = ([x, y]) => [Math.round(headBox.x + x * headBox.width), Math.round(headBox.y + y * headBox.height)];
+const inPhoto = await page.evaluate((pixels) => {
+  const { view } = window.crowdface.editor;
+  const box = view.node.getBoundingClientRect();
+  const points = pixels.map(([x, y]) => view.hit(x, y).point);
+  view.view('three_quarter');
+  view.turn(-8);
+  view.camera.updateMatrixWorld();
+  return points.map((point) => {
+    const at = view.camera.position.clone().fromArray(point).applyMatrix4(view.group.matrix).project(view.camera);
+    return [((at.x + 1) / 2) * box.width, ((1 - at.y) / 2) * box.height];
+  });
+}, places.map(onPage));
+const taken = await facing();
+const photoOfHead = `${photo}.of_head.png`;
+writeFileSync(photoOfHead, await stillPicture(canvas));
+await page.keyboard.press('f');
+const bareBeside = await colourAt(headBox.x + 20, headBox.y + 300);
+await page.locator('.photobox input[type=file]').setInputFiles(photo);
+await page.waitForSelector('.photostage:not([hidden])');
+const covered = await colourAt(headBox.x + 0.5 * headBox.width, headBox.y + 0.5 * headBox.height);
+await page.getByLabel('Opacity of the head').fill('0');
+assert.notDeepEqual(await colourAt(headBox.x + 0.5 * headBox.width, headBox.y + 0.5 * headBox.height), covered, 'the opacity counts');
+await page.getByLabel('Opacity of the head').fill('0.6');
+await page.locator('.photobox input[type=file]').setInputFiles(photoOfHead);
+await page.waitForFunction((width) => Math.abs(document.querySelector('.photo').naturalWidth - width) < 2, headBox.width);
+await button('Match points').click();
+const hint = page.locator('.photobox [role=status]');
+const photoPlace = ([x, y]) => page.evaluate(([u, v]) => {
+  const stage = document.querySelector('.photostage').getBoundingClientRect();
+  const at = new DOMMatrix(getComputedStyle(document.querySelector('.photo')).transform).transformPoint(new DOMPoint(u, v));
+  return [stage.left + at.x, stage.top + at.y];
+}, [x, y]);
+for (const [i, at] of places.entries()) {
+  if (i > 0) await page.keyboard.press('f'); // from where the place on the head is known
+  assert.match(await hint.innerText(), /Click a place on the head/);
+  await page.mouse.click(...onPage(at));
+  assert.match(await hint.innerText(), /same place on the photo/);
+  await page.mouse.click(...await photoPlace(inPhoto[i]));
+  if (i === 1) await take('photo_points');
+}
+await page.waitForTimeout(900);
+assert.ok(Math.abs(await facing() - taken) < 2, `seen from ${await facing()}°, taken from ${taken}°`);
+assert.match(await message(), /The camera matches 6 points to \d+\.\d mm/);
+const marks = await page.locator('.photomarks g').evaluateAll((nodes) => nodes.map((node) => {
+  const box = node.querySelector('circle').getBoundingClientRect();
+  return [box.x, box.y];
+}));
+assert.equal(marks.length, 12);
+for (let i = 0; i < marks.length; i += 2) {
+  const distance = Math.hypot(marks[i][0] - marks[i + 1][0], marks[i][1] - marks[i + 1][1]);
+  assert.ok(distance < 6, `point ${i / 2 + 1} lies ${distance} pixels from its place on the photo`);
+}
+await take('photo_matched');
+await button('Match points').click();
+await page.keyboard.press('f');
+await button('Look from there').click();
+assert.ok(Math.abs(await facing() - taken) < 2);
+await button('Beside').click();
+await take('photo_beside');
+const half = await page.locator('.photostage').boundingBox();
+assert.ok(half.x >= (await canvas.boundingBox()).x + (await canvas.boundingBox()).width - 1, 'beside the head');
+await page.reload();
+await settled();
+await page.waitForSelector('.photostage.right:not([hidden])');
+await page.locator('.photobox button[data-mode=off]').click();
+assert.deepEqual(await colourAt(headBox.x + 20, headBox.y + 300), bareBeside, 'the photo is off');
 
 assert.deepEqual(problems, []);
 await browser.close();

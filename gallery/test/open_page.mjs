@@ -4,10 +4,37 @@ import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 
+/// What is wrong with no page: text below 12 pixels, things to take below 28, controls that scrolling does not bring into
+/// the window, that have no tooltip or no name.
+export const fine = { sizes: [], narrow: [], lost: [], untold: [], nameless: [] };
+
+function auditPage() {
+  const isSeen = (node) => !node.closest('[hidden]') && node.getClientRects().length > 0;
+  const sizes = [...document.querySelectorAll('body *')].filter((node) => {
+    const writes = [...node.childNodes].some((child) => child.nodeType === 3 && child.textContent.trim());
+    const scale = node.ownerSVGElement ? node.ownerSVGElement.getScreenCTM().a : 1;
+    return writes && isSeen(node) && parseFloat(getComputedStyle(node).fontSize) * scale < 11.99;
+  }).map((node) => node.textContent);
+  const controls = [...document.querySelectorAll('button, input, select, textarea')].filter(isSeen);
+  const lost = controls.filter((node) => {
+    node.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+    const box = node.getBoundingClientRect();
+    return box.left < -1 || box.right > innerWidth + 1 || box.top < -1 || box.bottom > innerHeight + 1 || box.width < 8;
+  });
+  const takes = '.handle .knob, .head .anchor > circle:not(.targetring), .card .portrait';
+  const narrow = [...document.querySelectorAll(takes)].filter(isSeen).map((node) => node.getBoundingClientRect().width).filter((wide) => wide < 28);
+  const told = (nodes) => nodes.map((node) => node.outerHTML.slice(0, 200));
+  return {
+    sizes, narrow, lost: told(lost), untold: told(controls.filter((node) => !node.title && !node.closest('[title]'))),
+    nameless: told(controls.filter((node) => !node.getAttribute('aria-label') && !node.textContent.trim() && !node.labels?.length)),
+  };
+}
+
 /// \param pictures  the folder that take(NAME) writes to; nothing: it does nothing.
 /// \param own       what begins a request that the page may make.
 /// \return          problems: what went wrong on the page so far, a sentence each; colourAt(x, y): [red, green, blue]
-///                  that is seen there.
+///                  that is seen there;
+///                  stillPicture(locator), audit().
 export async function openPage({ width = 1280, height = 720, pictures, own = null } = {}) {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
@@ -37,5 +64,15 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
       return [...context.getImageData(1, 1, 1, 1).data].slice(0, 3);
     }, shot.toString('base64'));
   };
-  return { browser, context, page, problems, take, colourAt };
+  /// What is seen of an element once it no longer changes, as PNG.
+  const stillPicture = async (locator) => {
+    let before = await locator.screenshot();
+    for (;;) {
+      await page.waitForTimeout(800); // hair comes last
+      const now = await locator.screenshot();
+      if (now.equals(before)) return now;
+      before = now;
+    }
+  };
+  return { browser, context, stillPicture, page, problems, take, colourAt, audit: () => page.evaluate(auditPage) };
 }

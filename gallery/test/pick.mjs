@@ -5,7 +5,7 @@
 // "all right".
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { openPage } from './open_page.mjs';
+import { fine, openPage } from './open_page.mjs';
 
 const [address, templateFile, scanFile, pictures] = process.argv.slice(2);
 if (!scanFile) throw new Error('usage: node pick.mjs ADDRESS TEMPLATE.obj SCAN.obj [PICTURES]');
@@ -14,7 +14,7 @@ const vertices = (file) => readFileSync(file, 'utf8').split('\n').filter((line) 
 const ofTemplate = vertices(templateFile);
 const ofScan = vertices(scanFile);
 
-const { browser, page, problems, take, colourAt } = await openPage({ pictures, own: address });
+const { browser, page, problems, take, colourAt, audit } = await openPage({ pictures, own: address });
 page.on('dialog', (dialog) => { problems.push(`dialog: ${dialog.message()}`); dialog.accept(); });
 
 const picker = (ask, argument) => page.evaluate(
@@ -58,6 +58,14 @@ await take('opened');
 const besideEye = (side) => onScreen('scan', ofScan[proposed[`eye_outer_${side}`]].map((value, axis) => value - (axis === 2 ? 25 : 0)));
 const [ofLeft, ofRight] = [await colourAt(...await besideEye('left')), await colourAt(...await besideEye('right'))];
 assert.ok(ofLeft[2] > 1.5 * ofLeft[0] && ofRight[0] > ofRight[2], `blue on the left: ${ofLeft}; skin on the right: ${ofRight}`);
+
+// Everything has its tooltip and a name, is legible, and is within reach in small windows.
+for (const [width, height] of [[1440, 900], [1024, 768], [853, 600], [390, 844], [1280, 720]]) {
+  await page.setViewportSize({ width, height });
+  await page.waitForTimeout(300);
+  await take(`at_${width}`);
+  assert.deepEqual(await audit(), fine, `at ${width} pixels`);
+}
 
 // What the template's shape tells takes one click, on the scan.
 await choose('nose_tip');

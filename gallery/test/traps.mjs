@@ -4,12 +4,12 @@
 //   node traps.mjs ADDRESS [PICTURES_FOLDER]
 // The last line says "all right".
 import assert from 'node:assert/strict';
-import { openPage } from './open_page.mjs';
+import { fine, openPage } from './open_page.mjs';
 
 const [address, pictures] = process.argv.slice(2);
 if (!address) throw new Error('usage: node traps.mjs ADDRESS [PICTURES]');
 
-const { browser, context, page, problems, take } = await openPage({ width: 1440, height: 900, pictures, own: address });
+const { browser, context, page, problems, take, audit } = await openPage({ width: 1440, height: 900, pictures, own: address });
 
 const settled = () => page.waitForFunction(() => {
   const { editor: it } = window.crowdface;
@@ -70,6 +70,14 @@ assert.match(await message(), /500 is outside/);
 assert.ok(Math.abs(await spread()) > 0.4 * Math.abs(wide), 'heads stay apart');
 await page.keyboard.press('Control+z');
 await settled();
+
+// A face that the program would reject is told of on the page, in words.
+for (const region of regions) await type(typed(region, 'Strength'), '4');
+await settled();
+assert.match(await page.locator('.measures').innerText(), /generate would reject this face: [a-z ]+/);
+for (let i = 0; i < regions.length; i += 1) await page.keyboard.press('Control+z');
+await settled();
+assert.doesNotMatch(await page.locator('.measures').innerText(), /would reject/);
 
 // No two controllers bear the same letter.
 const letters = await page.locator('.handle text').allTextContents();
@@ -212,8 +220,14 @@ await page.waitForSelector('.board');
 await settled();
 assert.equal(await typed(first, 'Strength').inputValue(), '1.25', 'a tab that closes overwrites nothing');
 
-// Everything has its tooltip, is legible, and is within reach in small windows.
-for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [853, 600], [390, 844]]) {
+// Everything has its tooltip, is legible, and is within reach in small windows, with all that can be open.
+await page.locator('.library button[data-shelf=Faces]').click();
+await page.locator('.photobox input[type=file]').setInputFiles({ name: 'photo.png', mimeType: 'image/png', buffer: await page.screenshot() });
+await page.waitForSelector('.photostage:not([hidden])');
+await page.keyboard.press('m');
+await page.keyboard.press('s');
+await page.waitForSelector('.besidebar:not([hidden])');
+for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [1152, 720], [960, 600], [853, 600], [390, 844]]) {
   await page.setViewportSize({ width, height });
   await page.waitForFunction(() => { // until the plane has its new size
     const { board } = window.crowdface.editor;
@@ -221,28 +235,7 @@ for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [853, 600]
     return Math.abs(board.unit * Math.min(box.width, box.height) - 460) < 1;
   });
   await take(`at_${width}`);
-  const found = await page.evaluate(() => {
-    const sizes = [];
-    for (const node of document.querySelectorAll('body *')) {
-      const writes = [...node.childNodes].some((child) => child.nodeType === 3 && child.textContent.trim());
-      if (!writes || node.closest('[hidden]') || node.getBoundingClientRect().width === 0) continue;
-      const scale = node.ownerSVGElement ? node.ownerSVGElement.getScreenCTM().a : 1;
-      if (parseFloat(getComputedStyle(node).fontSize) * scale < 11.99) sizes.push(node.textContent);
-    }
-    const controls = [...document.querySelectorAll('button, input, select')].filter((node) => !node.closest('[hidden]'));
-    const lost = controls.filter((node) => {
-      node.scrollIntoView({ block: 'nearest', inline: 'nearest' });
-      const box = node.getBoundingClientRect();
-      return box.left < -1 || box.right > innerWidth + 1 || box.top < -1 || box.bottom > innerHeight + 1 || box.width < 8;
-    });
-    const narrow = [...document.querySelectorAll('.handle .knob, .head .anchor > circle:not(.targetring)')]
-      .map((node) => node.getBoundingClientRect().width).filter((wide) => wide < 28);
-    return {
-      sizes, narrow, lost: lost.map((node) => node.outerHTML),
-      untold: controls.filter((node) => !node.title).map((node) => node.outerHTML),
-    };
-  });
-  assert.deepEqual(found, { sizes: [], narrow: [], lost: [], untold: [] }, `at ${width} pixels`);
+  assert.deepEqual(await audit(), fine, `at ${width} pixels`);
 }
 
 // A question that the program asks back is no fault, although the browser notes it.

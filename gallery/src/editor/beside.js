@@ -31,6 +31,7 @@ export class Beside {
   setOn(on) {
     const { editor } = this;
     this.on = on;
+    if (on && editor.photo.mode === 'beside') editor.photo.setMode('off');
     if (on && !this.view) this.open();
     this.bar.hidden = !on;
     editor.node.querySelector('.viewbox').classList.toggle('two', on);

@@ -33,7 +33,7 @@ export class HeadHand {
   }
 
   down({ button, clientX, clientY, pointerId, isPrimary }) {
-    if (this.pressed || this.editor.painting?.on || button !== 0 || !isPrimary) {
+    if (this.pressed || this.editor.painting?.on || this.editor.photo.matching || button !== 0 || !isPrimary) {
       this.end();
       return;
     }

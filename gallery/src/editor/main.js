@@ -7,11 +7,13 @@ import { History } from '../history.js';
 import { Beside } from './beside.js';
 import { showElsewhere, showGenerate, showPutBack, showReplace } from './dialogs.js';
 import { Exact } from './exact.js';
+import { Library } from './library.js';
 import { Measurements } from './measurements.js';
 import { Newest } from './newest.js';
 import { HeadHand } from './head_hand.js';
 import { HeadView } from './head_view.js';
 import { openPainting } from './painting.js';
+import { Photo } from './photo.js';
 import { PlaneBoard } from './plane_board.js';
 import { ProgramPage } from '../program_page.js';
 import {
@@ -65,6 +67,10 @@ class Editor extends ProgramPage {
       fail: (error) => this.say(error.message, true),
     });
     this.build();
+    this.photo = new Photo(this);
+    this.shelf.node.append(this.photo.node);
+    this.attempt(() => this.photo.restore());
+    this.takeDrops();
     this.hand = new HeadHand(this);
     this.history.listeners.push(() => this.stepped());
     this.view.controls.addEventListener('end', () => this.remember());
@@ -117,6 +123,8 @@ class Editor extends ProgramPage {
     this.board = new PlaneBoard(this);
     this.panel = new RegionPanel(this);
     this.shelf = new Shelf(this);
+    this.library = new Library(this);
+    this.shelf.node.append(this.library.node);
     this.tools = toolbar(this);
     this.beside = new Beside(this);
     this.viewTools = viewBar(this);
@@ -135,6 +143,17 @@ class Editor extends ProgramPage {
         el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
         el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.measurements.node)),
       this.message);
+  }
+
+  /// Where pictures of the library can be dropped.
+  takeDrops() {
+    const { library, board } = this;
+    library.takesDrops(this.node.querySelector('.viewbox'), () => ({}));
+    library.takesDrops(board.node, (event) => {
+      const region = event.target.closest('.handle')?.dataset.region;
+      return region ? { region } : { point: board.placeAt(event.clientX, event.clientY) };
+    });
+    for (const card of this.panel.node.querySelectorAll('.regioncard')) library.takesDrops(card, () => ({ region: card.dataset.region }));
   }
 
   // -- what is shown, and steps --
@@ -345,10 +364,15 @@ class Editor extends ProgramPage {
     this.commit({ ...document, recipe: { ...recipe, target: name } }, `target ${name}`);
   }
 
+  /// Where a head stands on the plane.
+  headPlace(name) {
+    return this.document.anchors?.[name] ?? this.job.heads[headIndex(this.job, name)].anchor;
+  }
+
   /// All controllers that are not locked go to a head.
   gather(name) {
     let { document } = this;
-    const anchor = document.anchors?.[name] ?? this.job.heads[headIndex(this.job, name)].anchor;
+    const anchor = this.headPlace(name);
     const regions = { ...document.recipe.regions };
     for (const region of this.job.regions) {
       if (this.isLocked(region.name)) continue;
@@ -433,6 +457,24 @@ class Editor extends ProgramPage {
     this.view.blender.blend(lists, shares);
     const picture = this.view.picture();
     if (other) this.shares = null;
+    this.exactOf = null;
+    this.refresh();
+    return picture;
+  }
+
+  facePicture(name) { return this.pictureOf(this.openedFace(name)); }
+
+  /// The face with something on, beside what it wears.
+  async wornPicture(kind, name) {
+    const { document, view } = this;
+    const face = await postForBinary('face', { recipe: wire(this.job, document), face: document.face, wears: { ...this.look.wears, [kind]: name } });
+    const all = await Promise.all(face.worn.map(async (item) =>
+      [await view.worn.prepare(item, () => getJson(`attachments/${item}`)), face[`worn ${item}`]]));
+    view.worn.show(all);
+    view.worn.setCheap(view.software);
+    view.worn.node.visible = true;
+    const picture = view.picture();
+    view.worn.setCheap(false);
     this.exactOf = null;
     this.refresh();
     return picture;
@@ -585,6 +627,7 @@ class Editor extends ProgramPage {
     this.light = (await getBinary('light')).light;
     this.view.setLight(this.light);
     this.beside.view?.setLight(this.light);
+    this.attempt(() => this.library.takePictures());
     if (typeof this.look.beside === 'string') this.beside.setOn(true);
   }
 
@@ -644,6 +687,7 @@ class Editor extends ProgramPage {
 
   closeAll() {
     this.hand.select(null);
+    if (this.photo.matching) this.photo.setMatching(false);
     this.shelf.closePicks();
     if (this.painting?.on) this.painting.setOn(false);
     if (!this.shelf.path.hidden) this.shelf.endTravel(false);

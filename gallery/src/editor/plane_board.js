@@ -200,6 +200,12 @@ export class PlaneBoard {
     return point.map((value) => Number(value.toFixed(4)));
   }
 
+  /// The place of the plane under a pixel of the window.
+  placeAt(x, y) {
+    const at = new DOMPoint(x, y).matrixTransform(this.svg.getScreenCTM().inverse());
+    return this.frame.back([at.x, at.y]).map((value) => Number(value.toFixed(4)));
+  }
+
   /// A drag of a region's controller from elsewhere: (dx, dy) => document, in pixels as on the board.
   dragOf(name) {
     const { frame } = this;
