@@ -5,8 +5,11 @@
 # against the heads' own vertices in mm, median / 95 %.
 #
 #   scripts/measure_wrap.sh HEADS_DIR [HEAD …] [--templates one,mean,model] [--estimate]
+#                           [--landmarks picked|found|none] [--next N]
 #
 # HEADS_DIR holds OBJ files in centimetres in the model's topology; HEAD counts from 0 (default: 0 4 5 9 10).
+# Without picked landmarks, the scans are one surface with the eyes, and the detected landmarks, the agreement of
+# features and the warnings are printed. N: the template "one" is the head N after the scanned head.
 set -euo pipefail
 
 [ $# -ge 1 ] || { sed -n '/^#   scripts/s/^#   //p' "$0" >&2; exit 64; }

@@ -76,6 +76,9 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
       command, "--estimate", options.estimate,
       "Wrap several more times without some landmarks, and report how far these end from their "
       "picked places (unseen_mm and correspondence_mm)");
+  add_flag(command, "--strict", options.strict,
+           "Write no head whose face, eyes, nose, mouth or ears are doubtful, only its picture and "
+           "report");
   add_flag(command, "--no-pictures", options.no_pictures, "Write no picture beside the report");
   add_flag(command, "--force", options.force,
            "Wrap all scans again, including those already wrapped");

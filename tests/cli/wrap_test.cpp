@@ -27,6 +27,11 @@ class Wrap : public ::testing::Test {
 
   static constexpr const char* kPlaces =
       "{a: 400, b: 900, c: 1500, d: 2100, e: 2700, f: 3300, g: 3900}";
+  /// Landmarks on lips and corners of the mouth, and places on the chin below them, as a user picks
+  /// them who takes one for the other.
+  static constexpr const char* kOnMouth = ", u: 3670, l: 3652, r: 3625, s: 3589}";
+  static constexpr const char* kOnChin =
+      ", u: [0, -9.06, 9.07], l: [0, -10.4, 9.1], r: [3.4, -9.6, 7.8], s: [3.7, -9.6, 7.6]}";
   TemporaryFolder folder_;
   fs::path heads_ = folder_ / "heads", scans_ = folder_ / "scans", landmarks_;
 };
@@ -118,6 +123,41 @@ TEST_F(Wrap, AFaceThatTheReliefShowsNeedsNoLandmarks) {
   const auto run = crowdface(0, {"wrap", head(1).string(), head(2).string(), "-o", out.string()});
   EXPECT_THAT(run.err, ::testing::HasSubstr("a face that looks along +Z with +Y up"));
   EXPECT_TRUE(fs::exists(out));
+}
+
+TEST_F(Wrap, StrictWritesNoHeadWhoseMouthIsDoubtful) {
+  const std::string places = std::string(kPlaces).substr(0, std::string(kPlaces).size() - 1);
+  const std::string strayed = folder_.write(
+      "strayed.yaml", concat("template: ", places, kOnMouth, "\nscan: ", places, kOnChin));
+  const fs::path out = folder_ / "head.obj";
+  auto command = single(strayed, out);
+  crowdface(0, command, {"the mouth is doubtful", "head.obj, "});
+  EXPECT_THAT(read_file(folder_ / "head.wrap.json"), ::testing::HasSubstr("\"mouth\": 0."));
+  fs::remove(out);
+  fs::remove(folder_ / "head.wrap.png");
+  command.emplace_back("--strict");
+  crowdface(65, command, {"--strict: the mouth is doubtful"});
+  EXPECT_FALSE(fs::exists(out));
+  EXPECT_TRUE(fs::exists(folder_ / "head.wrap.png"));
+  crowdface(0,
+            {"wrap", head(1).string(), head(1).string(), "--landmarks", landmarks_.string(), "-o",
+             out.string(), "--strict"},
+            {"head.obj, "});
+}
+
+TEST_F(Wrap, ASingleWrapSaysThatItUsesLandmarksBesideTheScan) {
+  fs::copy(head(2), scans_ / "person.obj");
+  const std::string beside = folder_.write("scans/person.yaml", concat("scan: ", kPlaces));
+  const std::string scan = (scans_ / "person.obj").string(), said = "uses the landmarks in ";
+  const auto dry = [&](const std::string& landmarks) {
+    std::vector<std::string> command = {"wrap", head(1).string(),    scan,
+                                        "-o",   folder_ / "out.obj", "--dry-run"};
+    if (!landmarks.empty()) command.insert(command.end(), {"--landmarks", landmarks});
+    return crowdface(0, command).err;
+  };
+  EXPECT_THAT(dry(""), ::testing::HasSubstr(said + beside));
+  EXPECT_THAT(dry(beside), ::testing::Not(::testing::HasSubstr(said)));
+  EXPECT_THAT(dry("none"), ::testing::Not(::testing::HasSubstr(said)));
 }
 
 TEST_F(Wrap, NoneTurnsOffPickedAndDetectedLandmarks) {

@@ -2,6 +2,8 @@
 // How well `wrap` finds heads again: each becomes a scan, is wrapped by a template that does not know
 // it, and is compared with its own vertices. scripts/measure_wrap.sh runs this.
 //   crowdface_measure_wrap HEADS_DIR [HEAD …] [--templates one,mean,model] [--estimate]
+//                          [--landmarks picked|found|none] [--next N]
+// N: the template "one" is the head N after the scanned head.
 // Heads are numbered from 0 in the order of their names; seconds are of processor time.
 #include <algorithm>
 #include <cstdio>
@@ -12,10 +14,17 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/alignment.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/found_landmarks.h"
+#include "crowdface/pick/proposed_landmarks.h"
 #include "crowdface/validity/triangles.h"
+#include "crowdface/wrap/feature_check.h"
+#include "crowdface/wrap/report.h"
+#include "crowdface/wrap/scan_face.h"
 #include "crowdface/wrap/wrap.h"
 
 #include "wrap/truth_scan.h"
@@ -96,10 +105,14 @@ Regions regions_of(const WrapTemplate& head, const std::map<std::string, std::ui
   return regions;
 }
 
+/// Lips whose median error is larger are wrong.
+constexpr double kWrongLipsMm = 5;
+
 struct Measured {
   std::vector<double> skin, face, eyes, lips, surface;
   Index flipped = 0;
   double seconds = 0;
+  std::string notes = {};  ///< what the program says of this head
 };
 
 void print_row(const std::string& name, const Measured& m) {
@@ -108,6 +121,7 @@ void print_row(const std::string& name, const Measured& m) {
               percentile(m.face, 0.5), percentile(m.face, 0.95), percentile(m.eyes, 0.5),
               percentile(m.lips, 0.5), percentile(m.surface, 0.95), static_cast<long>(m.flipped),
               m.seconds);
+  if (!m.notes.empty()) std::printf("%s", m.notes.c_str());
   std::fflush(stdout);
 }
 
@@ -116,11 +130,51 @@ void add(const std::vector<double>& from, std::vector<double>& to) {
 }
 
 Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapTemplate& head,
-                 const testing::TruthScan& truth, const Regions& regions) {
+                 const testing::TruthScan& truth, const Regions& regions, const std::string& used) {
   const std::clock_t start = std::clock();
-  const WrapResult result = wrap(shape, model, truth.scan, truth.landmarks, std::nullopt);
   Measured m;
+  std::optional<PoseHint> hint;
+  std::vector<WrapLandmark> landmarks = truth.landmarks;
+  const auto marks_here = propose_landmarks(shape);
+  if (used != "picked") {
+    const auto face = find_scan_face(truth.scan, hint);
+    if (!face) {
+      m.notes = "  no face found\n";
+      return m;
+    }
+    hint = PoseHint{face->axes.up, face->axes.front, face};
+    landmarks.clear();
+    if (used == "found") {
+      landmarks = find_landmarks(shape, marks_here, truth.scan, *hint);
+    }
+  }
+  const WrapResult result =
+      wrap_checked(shape, model, face_features(shape, marks_here), truth.scan, landmarks, hint);
   m.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  if (used != "picked") {
+    for (const LandmarkResidual& landmark : result.landmarks) {
+      const auto at = std::ranges::find(landmarks, landmark.name, &WrapLandmark::name);
+      const Eigen::Vector3d there = row3(truth.pose.apply(head.positions), at->vertex);
+      m.notes += concat("  ", landmark.name, ": detected ",
+                        format_fixed((there - at->place).norm() / truth.pose.scale, 1),
+                        " mm from its place, ends ", format_fixed(landmark.final_mm, 1),
+                        " mm from where it was detected\n");
+    }
+    m.notes += "  agreement:";
+    for (const FeatureAgreement& feature : result.features) {
+      m.notes += concat(" ", feature.name, " ", format_fixed(feature.agreement, 2));
+    }
+    m.notes += concat(", dropped ", result.dropped.size(), "\n");
+    const SkinRegions named = face_regions(shape);
+    for (const std::string& warning : wrap_warnings(shape, result, named, 0)) {
+      m.notes += concat("  warning: ", warning, "\n");
+    }
+    try {
+      refuse_bad_wrap(shape, result, named);
+    } catch (const InvalidInput& error) {
+      m.notes += concat("  refused: ", error.what(), "\n");
+    }
+  }
   const Positions found = inverse(truth.pose).apply(result.pose.apply(result.positions));
   for (std::size_t i = 0; i < head.skin.vertices.size(); ++i) {
     const auto v = static_cast<Index>(head.skin.vertices[i]);
@@ -154,11 +208,16 @@ int main(int argc, char** argv) {
   }
   std::sort(files.begin(), files.end());
   std::vector<std::size_t> chosen;
-  std::string templates = "one,mean,model";
+  std::string templates = "one,mean,model", landmarks = "picked";
   bool estimate = false;
+  std::size_t next = 1;
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--templates") == 0 && i + 1 < argc) {
       templates = argv[++i];
+    } else if (std::strcmp(argv[i], "--next") == 0 && i + 1 < argc) {
+      next = parse_unsigned(argv[++i]).value_or(1);
+    } else if (std::strcmp(argv[i], "--landmarks") == 0 && i + 1 < argc) {
+      landmarks = argv[++i];
     } else if (std::strcmp(argv[i], "--estimate") == 0) {
       estimate = true;
     } else if (const auto number = parse_unsigned(argv[i]); number && *number < files.size()) {
@@ -177,11 +236,13 @@ int main(int argc, char** argv) {
   for (const WrapLandmark& landmark : kIctLandmarks) marks[landmark.name] = landmark.vertex;
 
   std::map<std::string, Measured> all;
+  std::map<std::string, int> wrong_lips;
   std::printf("%-22s %-13s %-13s %-6s %-6s %-6s flips\n", "template", "all skin", "face", "eyes",
               "lips", "to scan");
   for (const std::size_t h : chosen) {
     const WrapTemplate head = make_template(topology, heads[h], {});
-    const testing::TruthScan truth = testing::make_truth_scan(head, kIctLandmarks, {.seed = h + 1});
+    const testing::TruthScan truth = testing::make_truth_scan(
+        head, kIctLandmarks, {.fused = landmarks != "picked", .seed = h + 1});
     const Regions regions = regions_of(head, marks);
     std::vector<Positions> others;
     for (std::size_t i = 0; i < heads.size(); ++i) {
@@ -199,8 +260,9 @@ int main(int argc, char** argv) {
     };
     const auto run = [&](const char* name, const WrapTemplate& shape, const ShapeModel* model) {
       if (templates.find(name) == std::string::npos) return;
-      const Measured m = measure(shape, model, head, truth, regions);
+      const Measured m = measure(shape, model, head, truth, regions, landmarks);
       print_row(concat(name, " for ", h), m);
+      if (m.lips.empty() || percentile(m.lips, 0.5) > kWrongLipsMm) ++wrong_lips[name];
       Measured& sum = all[name];
       add(m.skin, sum.skin);
       add(m.face, sum.face);
@@ -210,7 +272,7 @@ int main(int argc, char** argv) {
       sum.flipped += m.flipped;
       sum.seconds += m.seconds / static_cast<double>(chosen.size());
     };
-    run("one", make_template(topology, heads[(h + 1) % heads.size()], {}), nullptr);
+    run("one", make_template(topology, heads[(h + next) % heads.size()], {}), nullptr);
     const ShapeModel whole = make_model(others);
     const WrapTemplate mean = make_template(topology, whole.mean, {});
     run("mean", mean, nullptr);
@@ -218,5 +280,9 @@ int main(int argc, char** argv) {
     run("model", mean, &of_skin);
     if (estimate) print_estimate(mean, of_skin);
   }
-  for (const auto& [name, m] : all) print_row(concat(name, ", all"), m);
+  for (const auto& [name, m] : all) {
+    print_row(concat(name, ", all"), m);
+    std::printf("  %d of %zu heads have their lips more than %g mm off\n", wrong_lips[name],
+                chosen.size(), kWrongLipsMm);
+  }
 }

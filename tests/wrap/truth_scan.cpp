@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "crowdface/core/random.h"
+#include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/wrap/surface_tree.h"
@@ -191,6 +192,29 @@ Scan shuffled(const Scan& scan, std::uint64_t seed) {
   return result;
 }
 
+/// Joins each further piece of the surface to the largest one by a triangle between the nearest
+/// vertices.
+void fuse(Scan& scan) {
+  const Topology topology = topology_of(scan.triangles, scan.positions.rows());
+  const Components pieces = find_components(build_adjacency(topology));
+  const std::uint32_t largest = pieces.largest();
+  std::map<std::uint32_t, std::pair<double, Triangle>> bridges;
+  for (const Triangle& own : scan.triangles) {
+    const std::uint32_t piece = pieces.of_vertex[own[0]];
+    if (piece == largest) continue;
+    for (const Triangle& other : scan.triangles) {
+      if (pieces.of_vertex[other[0]] != largest) continue;
+      const double distance =
+          (scan.positions.row(own[0]) - scan.positions.row(other[0])).squaredNorm();
+      const auto [known, added] = bridges.try_emplace(piece, 1e300, Triangle{});
+      if (distance < known->second.first) {
+        known->second = {distance, {own[0], own[1], other[0]}};
+      }
+    }
+  }
+  for (const auto& [piece, bridge] : bridges) scan.triangles.push_back(bridge.second);
+}
+
 Similarity random_pose(std::uint64_t seed) {
   const RandomKey key{seed, 0, "truth/pose"};
   const Eigen::Vector3d axis = normal3(key).normalized();
@@ -211,6 +235,7 @@ TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandma
       Splitter(head.positions, visible_triangles(head), options.seed).run(options.triangles);
   scatter(scan, options.seed);
   cut_holes(scan, options);
+  if (options.fused) fuse(scan);
   scan = shuffled(scan, options.seed);
   const Positions normals = vertex_normals_or_zero(scan.triangles, scan.positions);
   for (Index v = 0; v < scan.positions.rows(); ++v) {

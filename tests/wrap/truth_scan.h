@@ -18,6 +18,7 @@ struct TruthOptions {
   double hole_radius_mm = 9;
   double landmark_error_mm = 1;  ///< along each axis, one standard deviation
   bool moved = true;             ///< turned, moved and rescaled
+  bool fused = false;            ///< one surface, as scanners make: eyeballs are not separate
   std::uint64_t seed = 1;
 };
 

@@ -20,6 +20,9 @@ constexpr double kFarMm = 25;
 /// Largest distance between a found landmark and the template's, after a fit to all landmarks.
 /// Faces of different people differ by less.
 constexpr double kOffMm = 14;
+/// Uncertainty of found landmarks: twice the errors of 1.3 to 2.4 mm that scripts/measure_wrap.sh
+/// shows, because the errors of neighbouring landmarks are alike.
+constexpr double kFoundErrorMm = 5;
 
 /// Landmarks of a scan whose head has the axes `axes`; empty if the mesh is not usable as a head
 /// (for example too small).
@@ -83,7 +86,7 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
       if (!known.is_found_on_scans || of_template == here.end() || found == of_scan.end()) continue;
       const std::uint32_t vertex = of_template->second, there = found->second;
       if ((row3(placed, there) - row3(shape.positions, vertex)).norm() > kFarMm) continue;
-      landmarks.push_back({name, vertex, row3(scan.positions, there), true});
+      landmarks.push_back({name, vertex, row3(scan.positions, there), true, kFoundErrorMm});
     }
     drop_outliers(shape, landmarks);
     if (landmarks.size() > most.size()) most = std::move(landmarks);

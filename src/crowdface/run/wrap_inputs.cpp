@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 /// Part of the digest of the inputs. Increase this number when a change of the code changes the
 /// heads, so that finished heads are wrapped again.
-constexpr int kWrapVersion = 6;
+constexpr int kWrapVersion = 7;
 
 Axis axis_of(const std::string& option, const std::string& text) {
   const auto axis = parse_axis(text);
@@ -172,10 +172,12 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
   if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
   inputs.hint = pose_hint(options);
+  const auto proposed = propose_landmarks(inputs.shape);
+  inputs.features = face_features(inputs.shape, proposed);
   if (options.landmarks == kNoLandmarks) {
     digest.add("--landmarks none");
   } else {
-    inputs.proposed = propose_landmarks(inputs.shape);
+    inputs.proposed = proposed;
   }
   if (!options.landmarks.empty() && options.landmarks != kNoLandmarks) {
     inputs.landmarks = read_landmarks(
@@ -192,6 +194,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
     digest.add(text);
   }
   if (options.estimate) digest.add("--estimate");
+  if (options.strict) digest.add("--strict");
   inputs.texture_size = texture_size_of(options);
   if (inputs.texture_size > 0) {
     digest.add("--texture").add(inputs.texture_size).add(options.delight ? 1 : 0);

@@ -27,6 +27,7 @@ struct WrapOptions {
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture;  ///< texels per side
   bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
+  bool strict = false;  ///< refuses doubtful heads
 };
 
 /// In place of the file of `--landmarks`: reads no landmarks and detects none.
@@ -44,6 +45,7 @@ struct WrapInputs {
   std::size_t model_heads = 0;      ///< number of heads of the shape model
   LandmarkFile landmarks;
   std::map<std::string, std::uint32_t> proposed;  ///< detected landmarks: name, template vertex
+  std::vector<FaceFeature> features;              ///< features of the template's face
   int texture_size = 0;                           ///< texels per side of baked textures; 0: none
   Digest digest;                                  ///< digest of all inputs in this struct
 };

@@ -68,6 +68,11 @@ std::vector<Task> tasks_of(const WrapOptions& options, const WrapTextures* textu
   if (options.landmarks == kNoLandmarks) {
     for (Task& task : tasks) task.own_landmarks.clear();
   }
+  if (const fs::path& beside = tasks.front().own_landmarks;
+      options.batch.empty() && !beside.empty() && beside != fs::path(options.landmarks)) {
+    log_info(concat(options.scan, ": uses the landmarks in ", beside.string(), ", beside the scan",
+                    " (--landmarks none: no landmarks)"));
+  }
   if (textures == nullptr) return tasks;
   for (Task& task : tasks) {
     task.textures = textures->files_of(task.head, task.report.parent_path());
@@ -223,8 +228,8 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan, hint);
   const WrapResult result = [&] {
     try {
-      WrapResult wrapped =
-          wrap(shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
+      WrapResult wrapped = wrap_checked(shared.shape, shared.model ? &*shared.model : nullptr,
+                                        shared.features, scan, landmarks, hint);
       refuse_bad_wrap(shared.shape, wrapped, shared.regions);
       return wrapped;
     } catch (const InvalidInput& error) {
@@ -238,6 +243,15 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
       wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);
   WrapFacts facts{options.shape, task.scan.string(),         inputs.hex(), {},
                   scale,         left_out(shared, landmarks)};
+  if (!options.no_pictures) {
+    write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
+                                          task.scan.filename().string()));
+  }
+  if (const auto doubts = wrap_doubts(shared.shape, result); options.strict && !doubts.empty()) {
+    write_file(task.report,
+               format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
+    throw InvalidInput(concat(task.scan.string(), ": --strict: ", join(doubts, "; ")));
+  }
   EncodedFile head =
       encode_obj_like(shared.file, shared.file.topology,
                       Positions(result.positions * (scale / shared.mm)), task.head.string());
@@ -254,10 +268,6 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   }
   head.write(task.head);
   facts.mesh = head.digest().hex();
-  if (!options.no_pictures) {
-    write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
-                                          task.scan.filename().string()));
-  }
   if (options.estimate) {
     facts.unseen_mm = unseen_landmarks(shared.shape, shared.model ? &*shared.model : nullptr, scan,
                                        landmarks, hint);
@@ -268,9 +278,11 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
     log_warning(concat(task.scan.string(), ": ", warning));
   }
   const WrapDistances distances = distances_of(shared.shape, result);
-  log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
-                  format_fixed(distances.median, 2), " mm from the scan (95 %: ",
-                  format_fixed(distances.percentile_95, 2), "), ", landmarks.size(), " landmarks"));
+  log_info(
+      concat(task.scan.string(), ": ", task.head.string(), ", ", format_fixed(distances.median, 2),
+             " mm from the scan (95 %: ", format_fixed(distances.percentile_95, 2), "), ",
+             result.landmarks.size(), " landmarks",
+             result.dropped.empty() ? "" : concat("; wrong and not used: ", join(result.dropped))));
 }
 
 void check_one(const WrapInputs& shared, const Task& task) {

@@ -106,6 +106,17 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
   return surfaces;
 }
 
+/// Paints the doubtful features red. Nothing if there are none.
+std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const WrapResult& result) {
+  if (std::ranges::none_of(result.features, &FeatureAgreement::doubtful)) return std::nullopt;
+  Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(shape.topology.vertex_count);
+  for (const FeatureAgreement& feature : result.features) {
+    if (!feature.doubtful()) continue;
+    for (const std::uint32_t v : feature.skin) doubtful(shape.skin.vertices[v]) = 1;
+  }
+  return mask_colours(doubtful, heat_colour(1));
+}
+
 }  // namespace
 
 WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result) {
@@ -123,9 +134,18 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
   return visible == 0 ? 0 : static_cast<double>(without) / static_cast<double>(visible);
 }
 
-std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
-                                       const SkinRegions& regions, std::size_t model_heads) {
+std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result) {
   std::vector<std::string> warnings;
+  for (const FeatureAgreement& feature : result.features) {
+    if (!feature.doubtful()) continue;
+    warnings.push_back(concat("the ", feature.name,
+                              " is doubtful: on the wrapped head it does not look like the "
+                              "template's (agreement ",
+                              format_fixed(feature.agreement, 2), ", expected ",
+                              format_fixed(kDoubtfulAgreement, 2),
+                              " or more): check the picture, where it is red, and pick landmarks "
+                              "there"));
+  }
   for (const LandmarkResidual& landmark : result.landmarks) {
     if (!landmark.outlier) continue;
     if (landmark.by_shape) {
@@ -140,6 +160,22 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
         "landmark ", quoted(landmark.name), " ends ", format_fixed(landmark.final_mm, 1),
         " mm from where it was picked, far more than the others: check it on template and scan"));
   }
+  const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
+  if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
+    warnings.push_back(concat(
+        "no face was recognised on the ",
+        shape.face ? "scan"
+                   : concat("template (",
+                            reason_of_no_face(shape.topology, head_shape(shape), shape.axes), ')'),
+        ", so the place of the face is not verified: check the picture, or pick four landmarks or "
+        "more"));
+  }
+  return warnings;
+}
+
+std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
+                                       const SkinRegions& regions, std::size_t model_heads) {
+  std::vector<std::string> warnings = wrap_doubts(shape, result);
   const std::vector<std::string> faults = scan_faults(shape, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
   const double share = share_far(seen_distances(shape, result));
@@ -152,16 +188,6 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   if (const double lacking = share_without_data(shape, result); lacking > kMaxWithoutData) {
     warnings.push_back(concat("the scan has no data for ", format_fixed(100 * lacking, 0),
                               " % of the skin, whose shape is estimated"));
-  }
-  const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
-  if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
-    warnings.push_back(concat(
-        "no face was recognised on the ",
-        shape.face ? "scan"
-                   : concat("template (",
-                            reason_of_no_face(shape.topology, head_shape(shape), shape.axes), ')'),
-        ", so the place of the face is not verified: check the picture, or pick four landmarks or "
-        "more"));
   }
   if (result.flipped > 0) {
     warnings.push_back(concat(result.flipped, " triangles are flipped"));
@@ -231,6 +257,9 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                    {"pose_mm", rounded(landmark.pose_mm)},
                                    {"final_mm", rounded(landmark.final_mm)},
                                    {"outlier", landmark.outlier}});
+    if (landmark.by_shape) {
+      report["landmarks"].back()["detected_within_mm"] = rounded(landmark.error_mm);
+    }
     for (const auto& [key, all] :
          {std::pair{"left_out_mm", &facts.left_out_mm}, std::pair{"unseen_mm", &facts.unseen_mm}}) {
       const auto found = all->find(landmark.name);
@@ -242,6 +271,10 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
     for (const auto& [name, mm] : facts.unseen_mm) all.push_back(mm);
     report["correspondence_mm"] = spread_json(all);
   }
+  for (const FeatureAgreement& feature : result.features) {
+    report["features"][feature.name] = rounded(feature.agreement);
+  }
+  if (!result.dropped.empty()) report["dropped_landmarks"] = result.dropped;
   report["warnings"] = warnings;
   return report.dump(2) + "\n";
 }
@@ -260,15 +293,17 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
     distances(shape.skin.vertices[i]) = result.distance_mm(static_cast<Index>(i));
   }
   const VertexColours colours = heat_colours(distances, kScaleEndMm);
+  const std::optional<VertexColours> doubts = doubt_colours(shape, result);
   std::vector<Rgb8Image> scans, wrapped, heat;
   for (const Camera& camera : cameras) {
     scans.push_back(of_scan.render(standing, camera));
-    wrapped.push_back(of_head.render(result.positions, camera));
+    wrapped.push_back(of_head.render(result.positions, camera, doubts ? &*doubts : nullptr));
     heat.push_back(of_head.render(result.positions, camera, &colours));
   }
-  const std::vector<SheetCell> cells = {{side_by_side(scans), "scan"},
-                                        {side_by_side(wrapped), "wrapped template"},
-                                        {side_by_side(heat), "distance to the scan"}};
+  const std::vector<SheetCell> cells = {
+      {side_by_side(scans), "scan"},
+      {side_by_side(wrapped), doubts ? "wrapped template, doubtful parts red" : "wrapped template"},
+      {side_by_side(heat), "distance to the scan"}};
   const Rgb8Image sheet =
       contact_sheet(cells, {.columns = 1, .title = title, .legend = HeatLegend{kScaleEndMm, "mm"}});
   return encode_png(sheet.width, sheet.height, 3, sheet.pixels);

@@ -27,6 +27,10 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_heads);
 
+/// Those of the warnings that say that the head may be wrong in a place: features, found landmarks
+/// and the place of the face.
+std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result);
+
 /// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                      const SkinRegions& regions);

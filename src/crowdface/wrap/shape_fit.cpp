@@ -168,7 +168,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = placed.row(landmark.vertex).transpose();
     equations.add(jacobian_of(model, fit, landmark.vertex, point - middle), landmark.place - point,
-                  std::sqrt(for_landmarks) * Eigen::Matrix3d::Identity());
+                  std::sqrt(for_landmarks * landmark.weight()) * Eigen::Matrix3d::Identity());
   }
   for (Index k = 0; k < modes; ++k) equations.hold(kPoseUnknowns + k, -fit.coefficients(k), 1);
   if (modes > 0) {  // the model, not the pose, explains differences in size

@@ -11,12 +11,21 @@
 
 namespace crowdface {
 
+/// Uncertainty of a picked landmark, which includes that people's faces differ there.
+inline constexpr double kPickedErrorMm = 3;
+
 /// A landmark marked on both template and scan.
 struct WrapLandmark {
   std::string name;
   std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< position on the scan
   bool by_shape = false;  ///< found by the program, not picked by the user
+  /// Uncertainty of the place, one standard deviation along each axis. The squared distance of a
+  /// landmark has the weight 1/error_mm².
+  double error_mm = kPickedErrorMm;
+
+  /// The weight relative to a picked landmark.
+  double weight() const { return kPickedErrorMm * kPickedErrorMm / (error_mm * error_mm); }
 };
 
 /// The similarity that best maps a template's landmarks to the scan's, in least squares.

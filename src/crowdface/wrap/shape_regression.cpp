@@ -172,7 +172,7 @@ Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Pos
       for (Index k = 0; k < 3; ++k) {
         asked.push_back({landmark.vertex, Eigen::Vector3d::Unit(k),
                          landmark.place(k) - model.mean(landmark.vertex, k),
-                         options.landmark_mm * options.landmark_mm});
+                         landmark.error_mm * landmark.error_mm});
       }
     }
     current = model.mean + regression.displacements(asked);

@@ -17,8 +17,8 @@ struct RegressionOptions {
   /// Standard deviation, along each axis, of an additional smooth variation with the same
   /// correlation length. It is needed because a few heads span too little of the possible shapes.
   double smooth_mm = 1.8;
-  double noise_mm = 1, landmark_mm = 3;  ///< standard deviations of scan and landmarks
-  std::size_t places = 800;              ///< number of sampled vertices of the skin
+  double noise_mm = 1;       ///< standard deviation of the scan
+  std::size_t places = 800;  ///< number of sampled vertices of the skin
   std::vector<double> search_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round
 };
 

@@ -15,6 +15,7 @@
 #include "crowdface/wrap/bend_skin.h"
 #include "crowdface/wrap/centred_scan.h"
 #include "crowdface/wrap/detail.h"
+#include "crowdface/wrap/feature_check.h"
 #include "crowdface/wrap/mirrored_landmarks.h"
 #include "crowdface/wrap/scan_face.h"
 #include "crowdface/wrap/shape_regression.h"
@@ -34,7 +35,9 @@ std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
   std::vector<WrapLandmark> result;
   for (const WrapLandmark& landmark : landmarks) {
     const std::uint32_t row = place_in(skin.vertices, landmark.vertex);
-    if (row != kNoIndex) result.push_back({landmark.name, row, landmark.place, landmark.by_shape});
+    if (row == kNoIndex) continue;
+    result.push_back(landmark);
+    result.back().vertex = row;
   }
   return result;
 }
@@ -47,6 +50,7 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
     result.push_back({landmark.name, (carried(pose, point) - landmark.place).norm() / pose.scale});
     result.back().by_shape = landmark.by_shape;
+    result.back().error_mm = landmark.error_mm;
   }
   return result;
 }
@@ -238,6 +242,51 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, standing);
   result.pose.translation += moved.middle;
   return result;
+}
+
+WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
+                        const std::vector<FaceFeature>& features, const Scan& scan,
+                        const std::vector<WrapLandmark>& all_landmarks,
+                        const std::optional<PoseHint>& hint) {
+  const auto worst = [](const WrapResult& result) {
+    const auto feature =
+        std::ranges::min_element(result.features, {}, &FeatureAgreement::agreement);
+    return feature == result.features.end() ? 1.0 : feature->agreement;
+  };
+  const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks) {
+    WrapResult result = wrap(shape, model, scan, landmarks, hint);
+    const std::vector<double> agreements = relief_agreements(shape, features, result.positions);
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      result.features.push_back({features[i].name, agreements[i], features[i].skin});
+    }
+    return result;
+  };
+  WrapResult best = wrapped_with(all_landmarks);
+  // Landmarks found by shape may be wrong together: all those of the mouth in the crease of the
+  // chin. Only a fit without them shows this.
+  const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
+    const std::uint32_t row = place_in(shape.skin.vertices, landmark.vertex);
+    return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {
+      return feature.doubtful() && std::ranges::binary_search(feature.skin, row);
+    });
+  };
+  std::vector<WrapLandmark> landmarks = all_landmarks;
+  for (const bool drops_all : {false, true}) {
+    if (worst(best) >= kDoubtfulAgreement) break;
+    const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
+      return landmark.by_shape && (drops_all || is_of_doubtful_feature(landmark));
+    });
+    if (dropped == 0) continue;
+    WrapResult other = wrapped_with(landmarks);
+    if (worst(other) <= worst(best)) continue;
+    for (const WrapLandmark& landmark : all_landmarks) {
+      if (std::ranges::find(landmarks, landmark.name, &WrapLandmark::name) == landmarks.end()) {
+        other.dropped.push_back(landmark.name);
+      }
+    }
+    best = std::move(other);
+  }
+  return best;
 }
 
 std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/wrap/feature_check.h"
 #include "crowdface/wrap/guess_pose.h"
 #include "crowdface/wrap/shape_fit.h"
 #include "crowdface/wrap/shape_model.h"
@@ -20,12 +21,27 @@ struct LandmarkResidual {
   double final_mm = 0;    ///< distance after the wrap
   bool by_shape = false;  ///< see `WrapLandmark::by_shape`
   bool outlier = false;   ///< final distance far above the others: probably misplaced
+  double error_mm = 0;    ///< see `WrapLandmark::error_mm`
+};
+
+/// A feature with less agreement is doubtful.
+inline constexpr double kDoubtfulAgreement = 0.7;
+
+/// How well a feature of the wrapped template agrees with the template's, see `relief_agreements`.
+struct FeatureAgreement {
+  std::string name;
+  double agreement = 1;
+  std::vector<std::uint32_t> skin;  ///< rows of the skin, ascending
+  bool doubtful() const { return agreement < kDoubtfulAgreement; }
 };
 
 struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
   Similarity pose;      ///< transform from the template's frame (mm) to the scan's
   std::vector<LandmarkResidual> landmarks;
+  std::vector<FeatureAgreement> features;  ///< set by `wrap_checked` only
+  /// Landmarks that `wrap_checked` found and did not use, because a feature was doubtful with them.
+  std::vector<std::string> dropped;
   double pose_residual_mm = 0;     ///< median distance after the similarity
   Eigen::VectorXd distance_mm;     ///< #skin: distance from the wrapped skin to the scan
   std::vector<bool> without_data;  ///< #skin: no scan data nearby, or only the scan's boundary
@@ -50,6 +66,17 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 /// data near the landmarks.
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
+
+/// Wraps, and checks with `relief_agreements` whether each feature of the template ended on the same
+/// feature of the scan. If a feature is doubtful, repeats the wrap without the landmarks by shape
+/// that lie on this feature, and then without all landmarks by shape. Returns the result whose worst
+/// feature agrees best.
+/// \param features  see `face_features`; may be empty
+/// \param shape, model, scan, landmarks, hint  as for `wrap`
+WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
+                        const std::vector<FaceFeature>& features, const Scan& scan,
+                        const std::vector<WrapLandmark>& landmarks,
+                        const std::optional<PoseHint>& hint);
 
 /// Leave-out validation: the distance in mm between each landmark's picked position and its
 /// position in a wrap that does not use this landmark. The distance estimates the error of

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "crowdface/wrap/wrap_template.h"
+
+namespace crowdface {
+
+/// A part of the face whose relief differs from the skin around it: the mouth, the nose, an eye, an
+/// ear.
+struct FaceFeature {
+  std::string name;
+  std::vector<std::uint32_t> skin;  ///< rows of the skin, ascending
+};
+
+/// Finds the features of a template's face around its landmarks. Omits features that lack a
+/// landmark.
+/// \param landmarks  landmarks of the template by name, as vertex numbers (see propose_landmarks)
+std::vector<FaceFeature> face_features(const WrapTemplate& shape,
+                                       const std::map<std::string, std::uint32_t>& landmarks);
+
+/// Compares the relief of each feature before and after a wrap: the correlation of the heights of
+/// the skin over a quadratic surface fitted to the feature. Above 0.75 if the feature lies on the
+/// same feature of the scan (measured by scripts/measure_wrap.sh), mostly below 0.5 if it lies
+/// elsewhere.
+/// \param wrapped  positions of the whole template, #V by 3
+/// \return #features
+std::vector<double> relief_agreements(const WrapTemplate& shape,
+                                      const std::vector<FaceFeature>& features,
+                                      const Positions& wrapped);
+
+}  // namespace crowdface

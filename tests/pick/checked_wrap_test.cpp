@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/pick/proposed_landmarks.h"
+#include "crowdface/wrap/report.h"
+#include "crowdface/wrap/wrap.h"
+
+#include "pick/some_template.h"
+
+namespace crowdface::testing {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// A scan of a head that the template is not, and the landmarks that lie on it.
+class CheckedWrap : public ::testing::Test {
+ protected:
+  CheckedWrap() {
+    for (const auto& [name, vertex] : here_) {
+      landmarks_.push_back({name, vertex, row3(there_, vertex), true});
+    }
+  }
+
+  /// Moves the landmarks of the mouth down to the chin, all alike, as a detection does that takes
+  /// the crease of the chin for the mouth.
+  void move_mouth(bool by_shape) {
+    for (WrapLandmark& landmark : landmarks_) {
+      const bool is_mouth = landmark.name.starts_with("mouth") || landmark.name.starts_with("lip");
+      landmark.by_shape = by_shape;
+      if (is_mouth) landmark.place.y() -= 17;
+    }
+    std::erase_if(landmarks_,
+                  [](const WrapLandmark& landmark) { return landmark.name.starts_with("chin"); });
+  }
+
+  /// How far the lips of a wrapped head are from the lips of the scan.
+  double lips_off(const WrapResult& result) const {
+    return (row3(result.positions, here_.at("lip_lower")) - row3(there_, here_.at("lip_lower")))
+        .norm();
+  }
+
+  double agreement(const WrapResult& result, const std::string& name) const {
+    const auto feature = std::ranges::find(result.features, name, &FeatureAgreement::name);
+    return feature == result.features.end() ? -1 : feature->agreement;
+  }
+
+  WrapResult wrapped() const {
+    return wrap_checked(shape_, nullptr, features_, scan_, landmarks_,
+                        PoseHint{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()});
+  }
+
+  WrapTemplate shape_ = some_template();
+  Positions there_ = 10 * some_head(1);
+  Scan scan_{shape_.skin.of(there_), shape_.skin.triangles};
+  std::map<std::string, std::uint32_t> here_ = propose_landmarks(shape_);
+  std::vector<FaceFeature> features_ = face_features(shape_, here_);
+  std::vector<WrapLandmark> landmarks_;
+};
+
+TEST_F(CheckedWrap, RightLandmarksGiveFeaturesThatAgree) {
+  const WrapResult result = wrapped();
+  ASSERT_GE(features_.size(), 4U);
+  for (const FeatureAgreement& feature : result.features) {
+    EXPECT_GT(feature.agreement, 0.75) << feature.name;
+  }
+  EXPECT_TRUE(wrap_doubts(shape_, result).empty());
+  EXPECT_TRUE(result.dropped.empty());
+}
+
+TEST_F(CheckedWrap, FoundLandmarksThatPutTheMouthOnTheChinAreDropped) {
+  move_mouth(true);
+  const WrapResult trusted = wrap(shape_, nullptr, scan_, landmarks_, std::nullopt);
+  EXPECT_GT(lips_off(trusted), 5) << "the landmarks mislead the wrap";
+  const WrapResult result = wrapped();
+  EXPECT_LT(lips_off(result), lips_off(trusted) - 1);
+  EXPECT_THAT(result.dropped, Contains("lip_lower"));
+  EXPECT_GT(agreement(result, "mouth"), 0.75);
+  EXPECT_TRUE(wrap_doubts(shape_, result).empty());
+}
+
+TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
+  move_mouth(false);
+  const WrapResult result = wrapped();
+  EXPECT_GT(lips_off(result), 5);
+  EXPECT_TRUE(result.dropped.empty());
+  EXPECT_LT(agreement(result, "mouth"), kDoubtfulAgreement);
+  EXPECT_THAT(wrap_doubts(shape_, result), Contains(HasSubstr("the mouth is doubtful")));
+}
+
+}  // namespace
+}  // namespace crowdface::testing
