@@ -688,6 +688,43 @@ TEST_F(Neck, PicturesShowTheBodyInTheFacesColour) {
             testing::read_text(folder_ / "shown/meshes/mob_0002.obj"));
 }
 
+/// The largest change of light from one row to the next at the seam, in the middle of a picture.
+/// \param below  the picture whose lowest rows, which show the body, are used
+double largest_step(const Image& image, const Image& below) {
+  const auto value = [&](int y) {
+    const Image& from = y < image.height * 92 / 100 ? image : below;
+    double sum = 0;
+    for (int x = image.width / 2 - 3; x < image.width / 2 + 3; ++x) sum += from.at(x, y, 0) / 6;
+    return sum;
+  };
+  double step = 0;
+  for (int y = image.height * 84 / 100; y + 1 < image.height; ++y) {
+    step = std::max(step, std::abs(value(y + 1) - value(y)));
+  }
+  return step;
+}
+
+TEST_F(Neck, NoSeamShowsOnSheets) {
+  paint_heads();
+  paint_body(folder_, body_);
+  const fs::path config = folder_.write(
+      "out.yaml",
+      concat("schema: 1\ncrowd: {name: mob, count: 0}\n",
+             "faces: {directory: heads, units: cm}\nneck: {body: body.obj, "
+             "body_texture: body.png, show_body: true}\n",
+             kThreeRecipes,
+             "output: {directory: out, meshes: [points], contact_sheet: {cell: 256}}\n"));
+  generate(config, {}, {folder_ / "cache", Replace::kRefuse, false});
+  const auto picture = [&](const char* id) {
+    return read_image(folder_ / "out/renders" / concat(id, ".png"));
+  };
+  const Image a = picture("a"), b = picture("b"), c = picture("c");
+  const double across = largest_step(a, c);
+  for (const Image* face : {&a, &b, &c}) {
+    EXPECT_LT(largest_step(*face, *face), 0.3 * across) << "a face on the body of another";
+  }
+}
+
 TEST_F(Neck, OnlyABodyCanBeShown) {
   const Mesh head{heads_.topology(), read_obj(folder_ / "heads/head_2.obj").positions, {}};
   encode_obj(head, "").write(folder_ / "body.obj");
