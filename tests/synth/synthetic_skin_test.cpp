@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -51,7 +52,33 @@ TEST(SyntheticSkins, SameSeedSameBytesOnEveryMachine) {
   EXPECT_NE(albedo, small.albedo(3, 3));
   EXPECT_NE(albedo, small.albedo(4, 2));
   EXPECT_EQ(Hasher().add_array(std::span(albedo)).digest().hex(),
-            "49b0eb74539a8034714beafc78dc5675");
+            "6e023416b2ffa6a7f3a0282e10d568ae");
+}
+
+// The pupil used to be five texels wide and three high.
+TEST(SyntheticSkins, PupilsAreRound) {
+  constexpr int kSize = 1024;
+  const std::vector<std::uint8_t> albedo = SyntheticSkins(kSize).albedo(1, 1);
+  const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kSize);
+  for (const double side : {1.0, -1.0}) {
+    int left = kSize, right = 0, top = kSize, bottom = 0, count = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const auto i = static_cast<std::size_t>(y * kSize + x);
+        const bool dark = std::max({albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]}) < 16;
+        if (!dark || atlas[i].ball < 0.5 || (x > kSize / 2) != (side > 0)) continue;
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+        ++count;
+      }
+    }
+    const double width = right - left + 1, height = bottom - top + 1;
+    EXPECT_GT(width, 20);
+    EXPECT_NEAR(height / width, 1.18, 0.08) << "texels are wider than high";
+    EXPECT_NEAR(count / (width * height), std::numbers::pi / 4, 0.05) << "a disc, not a square";
+  }
 }
 
 TEST(SyntheticSkins, EveryToneOccursAndShows) {

@@ -114,9 +114,8 @@ void LooseParts::add_eyeball(double side, int n) {
       // The texture shows the front hemisphere as a disc and the back as a ring around the disc.
       const double flat = std::sqrt(p.x() * p.x() + p.y() * p.y());
       const double out = p.z() > 0 ? 0.8 * flat : 0.9 - 0.1 * flat;
-      const Vector2d around =
-          flat > 0 ? Vector2d(p.x() * side / flat, p.y() / flat) : Vector2d(1, 0);
-      uvs_.push_back(unwrap_hole(Sheet::kEye, side, out * around));
+      const Vector2d around = flat > 0 ? Vector2d(p.x() / flat, p.y() / flat) : Vector2d(1, 0);
+      uvs_.push_back(unwrap_eyeball(side, out * around));
     }
     return slot;
   };

@@ -19,7 +19,7 @@ class LooseParts {
   explicit LooseParts(double edge_cm);
 
   /// Appends faces and texture coordinates to those of the skin. The texture coordinates lie in the
-  /// holes of eyes and mouth (unwrap_hole).
+  /// pictures of the eyeballs (unwrap_eyeball) and the hole of the mouth (unwrap_hole).
   void append_to(Topology& topology, TextureCoordinates& uvs) const;
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }

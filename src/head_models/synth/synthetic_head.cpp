@@ -113,9 +113,12 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   std::vector<std::uint8_t> out;
   for (int row = 0; row < size; ++row) {
     const double v = 1 - (row + 0.5) / size;
-    const auto top = synth::to_byte(smooth_step(upper - half, upper + half, v));
-    const auto bottom = synth::to_byte(smooth_step(lower + half, lower - half, v));
     for (int column = 0; column < size; ++column) {
+      // The pictures of the eyeballs belong to the region of the eyes.
+      const Eigen::RowVector2d place((column + 0.5) / size, v);
+      const double at = synth::on_eyeball_disc(place).norm() < 1.1 ? eye : v;
+      const auto top = synth::to_byte(smooth_step(upper - half, upper + half, at));
+      const auto bottom = synth::to_byte(smooth_step(lower + half, lower - half, at));
       out.push_back(top);
       out.push_back(static_cast<std::uint8_t>(255 - top - bottom));
       out.push_back(bottom);

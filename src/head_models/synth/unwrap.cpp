@@ -35,10 +35,24 @@ double down(double unit) {
   return piecewise(unit, row_unit, kHeights.data(), kRows - 1);
 }
 
+/// Half the width of the map, and its height below the cap, in the unit of kWidths.
+double half_width() {
+  return across(column_unit(kColumns - 1));
+}
+double strip_height() {
+  return down(row_unit(kRows - 1));
+}
+
 Eigen::RowVector2d scaled(double x, double y) {
-  const double half = across(column_unit(kColumns - 1)), height = down(row_unit(kRows - 1));
+  const double half = half_width(), height = strip_height();
   return {kMargin + (1 - 2 * kMargin) * (x + half) / (2 * half),
           kMargin + (1 - 2 * kMargin) * (height - y) / (height + kCapHeight)};
+}
+
+// The pictures of the eyeballs fill the corners of the map beside the cap.
+constexpr double kDisc = 4.9;  ///< radius
+Eigen::Vector2d disc_centre() {
+  return {(across(column_unit(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
 /// Half-axes of the edge of an opening and of its hole, relative to the window.
@@ -46,7 +60,7 @@ struct Opening {
   Eigen::Vector2d edge, hole;
 };
 Opening opening_of(Sheet sheet) {
-  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};  // space for the eyeball's texture
+  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};
   if (sheet == Sheet::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
   if (sheet == Sheet::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
   return {{0.4, 0.4}, {0.4, 0.4}};
@@ -80,6 +94,21 @@ Eigen::Vector2d on_square(double around) {
   if (around < 2) return {2 * (around - 1) - 1, -1};
   if (around < 3) return {1, 2 * (around - 2) - 1};
   return {1 - 2 * (around - 3), 1};
+}
+
+Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d centre = disc_centre();
+  return scaled(side * centre.x() + kDisc * place.x(), centre.y() - kDisc * place.y());
+}
+
+Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv) {
+  const Eigen::RowVector2d low = scaled(-half_width(), strip_height()),
+                           high = scaled(half_width(), -kCapHeight);
+  const double x = half_width() * (2 * (uv.x() - low.x()) / (high.x() - low.x()) - 1);
+  const double y =
+      strip_height() - (strip_height() + kCapHeight) * (uv.y() - low.y()) / (high.y() - low.y());
+  const Eigen::Vector2d centre = disc_centre();
+  return {(std::abs(x) - centre.x()) / kDisc, (centre.y() - y) / kDisc};
 }
 
 double strip_v(double unit) {

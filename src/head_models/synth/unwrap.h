@@ -15,6 +15,15 @@ Eigen::RowVector2d unwrap(const Address& address);
 /// \param place  point in the unit disc, which maps to the hole.
 Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place);
 
+/// Returns texture coordinates on the picture of an eyeball, a disc beside the cap: large enough that
+/// the pupil is round in a texture of 1,024 texels.
+/// \param place  point in the unit disc.
+Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
+
+/// Returns the place of texture coordinates on the picture of an eyeball, on either side; outside the
+/// unit disc if they are elsewhere.
+Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv);
+
 /// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
 double strip_v(double unit);
 
