@@ -4,16 +4,16 @@
 # each parser's own code its inputs and the tests of its module reach. What is found stays in
 # build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
 #
-#   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of obj mask material
-#                                           yaml review edits pattern plan cache ledger scan landmarks rig http. 0 s: coverage of what is there
+#   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of all parsers below. 0 s: coverage of what is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-1200}
 shift || true
 parsers=("$@")
-[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask material yaml review edits pattern plan cache ledger scan landmarks rig http)
+[ ${#parsers[@]} -gt 0 ] || parsers=(obj mask material yaml review edits pattern beside override plan cache ledger crowd_files
+  scan landmarks points weights rig http morph)
 
-# The files that make a parser, in src/crowdface: what they share is counted with each.
+# The files that make a parser, in src/crowdface or src/head_models: what they share is counted with each.
 declare -A sources=(
   [obj]='io/obj_file.cpp io/obj_scan.cpp'
   [mask]='io/image.cpp'
@@ -22,16 +22,22 @@ declare -A sources=(
   [review]='config/review_keys.cpp config/yaml.cpp'
   [edits]='config/edits.cpp config/recipes_keys.cpp config/yaml.cpp'
   [pattern]='config/input_files.cpp'
+  [beside]='config/head_tags.cpp config/attachments_keys.cpp config/traits_keys.cpp config/yaml.cpp'
+  [override]='config/yaml_edit.cpp config/config_difference.cpp config/yaml.cpp'
   [plan]='crowd/plan_file.cpp'
   [cache]='heads/head_cache.cpp'
   [ledger]='crowd/ledger.cpp'
   [scan]='wrap/scan_*.cpp'
   [landmarks]='pick/landmark_file.cpp config/yaml.cpp'
   [http]='page/http_head.cpp'
+  [crowd_files]='crowd/likeness_file.cpp crowd/shard.cpp'
+  [points]='heads/load_points.cpp config/yaml.cpp'
+  [weights]='region/vertex_weights.cpp io/npy_array.cpp'
+  [morph]='morph/three_mesh.cpp morph/fitted_mesh.cpp'
   [rig]='io/gltf_rig.cpp io/glb_container.cpp'
 )
 
-tested=(io config crowd heads wrap pick)  # modules
+tested=(io config crowd heads wrap pick region)  # modules
 
 scripts/install_dependencies.sh --fuzz
 scripts/build.sh fuzz $(printf 'crowdface_%s_fuzz ' "${parsers[@]}") \
@@ -43,7 +49,7 @@ export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 rm -f "$out"/*_test.profraw
 # The words that the readers of configs, plans and reviews know.
-grep -oh '"[a-z_][a-z_]*"' src/crowdface/{config/*,crowd/plan*}.cpp | sort -u >"$out/words.dict"
+grep -oh '"[a-z_][a-z_]*"' src/crowdface/{config/*,crowd/*}.cpp src/head_models/morph/*.cpp | sort -u >"$out/words.dict"
 
 # Seeds that are no files of tests/fuzz.
 more_seeds() {
@@ -56,7 +62,7 @@ more_seeds() {
 # Until the parser has had its time of a processor, however busy the machine is with other things.
 fuzz() {
   local parser=$1 dictionary=() left=$seconds TIMEFORMAT='%U %S'
-  case $parser in yaml | review | edits | plan) dictionary=(-dict="$out/words.dict") ;; esac
+  case $parser in yaml | review | edits | beside | override | points | plan | crowd_files | morph) dictionary=(-dict="$out/words.dict") ;; esac
   : >"$out/$parser.log"
   while [ "$left" -gt 0 ]; do
     { time "$out/bin/crowdface_${parser}_fuzz" "$out/corpus/$parser" "tests/fuzz/corpus/$parser" \
@@ -84,7 +90,7 @@ coverage() {
   llvm-profdata merge -o "$out/$parser.profdata" "$out/$parser.profraw" \
     "$(test_profile io)" "$(test_profile config)" "$(test_profile crowd)" \
     "$(test_profile heads '*Cache*:*MadeAnew*')" "$(test_profile wrap 'ScanFile*')" \
-    "$(test_profile pick '*Landmark*')"
+    "$(test_profile pick '*Landmark*')" "$(test_profile region)"
   local seen=("$program" -instr-profile="$out/$parser.profdata") module
   for module in "${tested[@]}"; do seen+=(-object "$out/bin/crowdface_${module}_test"); done
   llvm-cov show "${seen[@]}" >"$out/$parser.lines.txt"

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
+#include "crowdface/core/error.h"
+#include "crowdface/page/answer_request.h"
 #include "crowdface/page/http_head.h"
 
 #include "fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(crowdface::fuzz::text_of(data, size));
+  try {
+    const auto body = crowdface::body_of({"POST", "api/face", text});
+    crowdface::text_in(body, "id");
+    crowdface::number_in(body, "size", 0, 1);
+  } catch (const crowdface::Error&) {
+  }
   const auto head = crowdface::parse_http_head(text);
   if (!head) return 0;
   if (head->method.empty() || !text.ends_with("\r\n\r\n")) std::abort();

@@ -11,13 +11,15 @@
 
 namespace crowdface::fuzz {
 
-/// A folder with heads, a mask and a review, and room for one more file.
+/// A folder with heads, an empty wardrobe, a mask and a review, and room for one more file.
 class JobFolder {
  public:
   explicit JobFolder(const std::string& name)
       : folder_(std::filesystem::temp_directory_path() /
                 ("crowdface_fuzz_" + name + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_ / "heads");
+    for (const char* folder : {"heads", "wardrobe"}) {
+      std::filesystem::create_directories(folder_ / folder);
+    }
     for (const char* head : {"ann", "bob", "cyd"}) {
       write(std::string("heads/") + head + ".obj", "v 0 0 0\n");
     }
