@@ -272,15 +272,16 @@ void bind_job(py::module_& module) {
   module.def(
       "wrap",
       [](const std::map<std::string, std::string>& texts, bool picture, bool estimate, bool delight,
-         const py::object& progress) {
+         bool strict, const py::object& progress) {
         WrapOptions options = wrap_options(texts);
         options.no_pictures = !picture;
         options.estimate = estimate;
         options.delight = delight;
+        options.strict = strict;
         long_call(progress, [&] { wrap_scans(options); });
       },
       py::arg("texts"), py::arg("picture"), py::arg("estimate"), py::arg("delight"),
-      py::arg("progress"));
+      py::arg("strict"), py::arg("progress"));
   module.def(
       "gather",
       [](const fs::path& folder, const fs::path& cache, const py::object& progress) {

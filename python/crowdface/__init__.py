@@ -311,6 +311,7 @@ def wrap(
     delight: bool = False,
     picture: bool = False,
     estimate: bool = False,
+    strict: bool = False,
     progress: Optional[Progress] = None,
     **options: str,
 ) -> Wrapped:
@@ -320,7 +321,9 @@ def wrap(
     its report beside it. landmarks: a file, or the content of a YAML file as a dict:
     {"template": {name: vertex}, "scan": {name: [x, y, z]}}; "none": also detect none. texture:
     texels per side of the textures that are baked beside `out` from the scan's colours; 0: none.
-    delight: remove the light from these colours. picture: also write a picture beside `out`. estimate: also estimate the error of correspondence. options: template_landmarks, model,
+    delight: remove the light from these colours. picture: also write a picture beside `out`.
+    estimate: also estimate the error of correspondence. strict: raise InvalidInput if features of
+    the face are doubtful, and write no head. options: template_landmarks, model,
     ignore, units, scan_units, up, front, scan_up, scan_front, as on the command line.
     """
     if texture and out is None:
@@ -351,7 +354,8 @@ def wrap(
             texts["landmarks"] = os.fspath(landmarks)
         if texture:
             texts["texture"] = str(texture)
-        _crowdface.wrap({**options, **texts, "out": str(head)}, picture, estimate, delight, progress)
+        texts["out"] = str(head)
+        _crowdface.wrap({**options, **texts}, picture, estimate, delight, strict, progress)
         report = json.loads(head.with_suffix(".wrap.json").read_text(encoding="utf-8"))
         return Wrapped(_crowdface.read_heads([head], None).positions(0), report)
 

@@ -116,7 +116,12 @@ def run(
     progress: Progress,
 ) -> Path: ...
 def wrap(
-    texts: Mapping[str, str], picture: bool, estimate: bool, delight: bool, progress: Progress
+    texts: Mapping[str, str],
+    picture: bool,
+    estimate: bool,
+    delight: bool,
+    strict: bool,
+    progress: Progress,
 ) -> None: ...
 def gather(folder: Path, cache: Path, progress: Progress) -> None: ...
 def verify(folder: Path) -> Dict[str, Any]: ...

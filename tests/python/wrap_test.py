@@ -63,6 +63,26 @@ def test_wraps_without_any_landmarks(place):
     assert not crowdface.wrap(template, scan, landmarks="none", **directions).report["landmarks"]
 
 
+def test_strict_refuses_a_doubtful_head(place, landmarks):
+    template, scan = (crowdface.read_heads(place / f"heads/synth_0{i}.obj") for i in (1, 2))
+
+    def in_front(head, below_nose):
+        """The vertex in the middle of the face, this many cm below the tip of the nose."""
+        x, y, z = head.positions(0).T
+        off = np.abs(x) + np.abs(y - (y[z.argmax()] - below_nose))
+        return int(np.where(off < 0.5, z, -np.inf).argmax())
+
+    mouth = {"template": in_front(template, 3.5), "scan": in_front(scan, 6.5)}
+    strayed = {
+        "template": {**landmarks["template"], "lip": mouth["template"]},
+        "scan": {**landmarks["scan"], "lip": scan.positions(0)[mouth["scan"]].tolist()},
+    }
+    assert crowdface.wrap(template, scan, landmarks=strayed).positions.shape == (4849, 3)
+    with pytest.raises(crowdface.InvalidInput, match="--strict: .*doubtful"):
+        crowdface.wrap(template, scan, landmarks=strayed, strict=True)
+    crowdface.wrap(template, template, strict=True)
+
+
 def test_a_bad_wrap_is_an_error(place):
     template = place / "heads/synth_01.obj"
     with pytest.raises(crowdface.UsageError, match="units"):
