@@ -24,8 +24,8 @@ struct AttachmentDraw {
   /// has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
-  /// By group; "" holds those of faces without an entry: fractions of the faces with a named hair
-  /// colour. The other faces have the colour of their heads.
+  /// By group: fractions of the faces with a named hair colour; "" is for groups without an entry
+  /// and faces without a group. All other faces have the colour of their heads.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twins = {};  ///< families whose members are twins
 };
@@ -51,10 +51,10 @@ struct AttachmentDraw {
 /// - Each face has a hair colour: a child's is one of its parents' colours or lies between them;
 /// a family without parents shares one; otherwise it is drawn from `hair_colours` or is the colour
 /// that the head's tags name (`brown_hair`). Age makes it grey.
-/// - A sampled face gets an item that the fewest earlier sampled faces wear, a member of a family
-/// one that the fewest earlier members wear.
-/// - A face does not wear the item of the face before it in a similar colour, if it may wear
-/// another.
+/// - A sampled face gets an item that the fewest earlier sampled faces wear. A member of a family
+/// gets an item that the fewest earlier members wear.
+/// - If a face may wear another item, it does not wear the item of the previous face in a similar
+/// colour.
 ///
 /// Finally, each item in turn removes the items that it excludes.
 ///

@@ -38,7 +38,7 @@ struct AppliedChange {
 struct ChangedFace {
   FacePlan face;  ///< without colours and attachments
   FaceSpace::Point point;
-  std::vector<AppliedChange> changes = {};  ///< in their order; those of the config come first
+  std::vector<AppliedChange> changes = {};  ///< as applied: changes of the config first
   TraitLimits traits = {};                  ///< the limits of all changes
   bool is_other_person = false;             ///< the face was drawn again
   std::optional<FacePlan> variant_of = {};  ///< the face that this face is a variant of

@@ -25,7 +25,7 @@ struct ColourDraw {
 /// heads whose tags agree with the face's typical head, and of up to one half of a second such
 /// head. Random numbers depend only on the face's index (or its id, if the face is not sampled), so
 /// other faces do not change them. A family has one complexion: a face with parents gets half of
-/// each parent's colours, as far as the tags of those heads agree with its own; other members get
+/// each parent's colours, without heads whose tags do not agree with the face; other members get
 /// the colours drawn for the family. Faces that already have colours keep them.
 ///
 /// \param crowd  In the order of the plan: parents before children.

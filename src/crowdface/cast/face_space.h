@@ -11,7 +11,7 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: the functions whose sums are the faces, in the basis of scalar functions
+  /// #functions by #P: the basis of scalar functions; faces are sums of these functions
   FloatRows functions;
   FloatRows directions;  ///< #D by 3·#P: principal directions of aligned faces
   /// #regions (empty for one region), #D by #D: metric times the region's weights

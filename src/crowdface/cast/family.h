@@ -17,8 +17,8 @@ struct Parent {
   bool drawn = false;  ///< the parent does not exist yet: casting draws a face with this id
   std::optional<std::size_t> group =
       {};  ///< drawn parent: group whose parameters are used; empty: the crowd's
-  /// Possible targets of a parent that is drawn with the crowd's parameters: the heads of women or
-  /// of men, if the tags tell. Empty: all targets of the crowd.
+  /// Possible targets of a parent that is drawn with the crowd's parameters: the heads tagged
+  /// female or male. Empty: all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
 };
 

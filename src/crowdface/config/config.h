@@ -229,7 +229,7 @@ struct Config {
     std::vector<TraitTarget> targets;  ///< the file's content, ascending by trait
   };
   TraitTable population;    ///< the asked distributions of the sampled faces
-  TraitTable quantiles_of;  ///< whose quantiles `traits` names, in place of those of the heads
+  TraitTable quantiles_of;  ///< distributions for the percents in `traits`; empty: the heads
 
   struct Reviews {
     std::vector<std::filesystem::path> files;

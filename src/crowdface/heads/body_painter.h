@@ -16,8 +16,8 @@ namespace crowdface {
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
-  /// \param texture  an image in the body's texture coordinates. Empty: the body has the colours of
-  ///                 the ring alone, in texture coordinates of its own.
+  /// \param texture  an image in the body's texture coordinates. Empty: the body takes its colours
+  ///                 only from the ring and gets new texture coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
   /// The body's polygons with the texture coordinates of `paint`.

@@ -23,8 +23,8 @@ struct PlacedAttachment {
   Positions positions;               ///< the attachment's vertices on the face
   /// one per face shape: displacements of the attachment's vertices
   std::vector<Displacements> moves = {};
-  /// Of a body that has a texture of its own for each face: the face's id, and the content of a PNG
-  /// file; otherwise empty.
+  /// For a body with a separate texture for each face: the face's id, and the content of a PNG
+  /// file. Otherwise empty.
   std::string face = {};
   std::string_view texture = {};
 

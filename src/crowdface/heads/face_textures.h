@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Names of the images that each face has of its own: first the colour images, then those of each
-/// other kind.
+/// Names of the images that are made for each face: first the colour images, then the images of
+/// each other kind.
 std::vector<PictureName> own_pictures(const Inputs& inputs);
 
 inline bool has_own_textures(const Inputs& inputs) {
@@ -62,7 +62,7 @@ class FaceTextures {
   };
   std::vector<Picture> pictures_;
   const Inputs& inputs_;
-  /// whether colours are blended; if not, a face has those of its target
+  /// whether colours are blended; if not, a face has the colours of its target
   bool are_blended_;
   std::vector<double> region_shares_;  ///< share of each region in the face
   std::vector<bool> of_target_;        ///< #V, see blend_vertex_colours

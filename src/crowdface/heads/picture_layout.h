@@ -17,7 +17,7 @@ struct PictureSource {
   Index face = 0;
 };
 
-/// Assigns an image to each polygon: that of the first head with a texture there. The images have
+/// Assigns to each polygon the image of the first head with a texture there. The images have
 /// no size yet.
 /// \return #images
 std::vector<PictureSource> lay_out_pictures(const HeadsTextures& found, TextureLayout& layout);

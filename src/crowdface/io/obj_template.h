@@ -56,7 +56,7 @@ class ObjTemplate {
   };
   /// A range of places, formatted by one thread.
   struct Block {
-    /// Start of the block's range of the text: the end of the preceding place.
+    /// Offset in the text at which the block starts: the end of the preceding place.
     std::uint64_t begin = 0;
     std::uint64_t end = 0;     ///< end of the last place
     std::uint64_t buffer = 0;  ///< offset of the output

@@ -28,7 +28,7 @@ struct ReliefMatch {
   /// The agreement, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15 if
   /// they are elsewhere.
   double votes = -1;
-  /// index of those of the requested axes that are nearest to the face's axes
+  /// index of the requested axes that are nearest to the face's axes
   std::size_t view = 0;
   double degrees_off = 0;  ///< angle between these requested axes and the axes of the face
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°

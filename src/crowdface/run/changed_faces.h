@@ -19,7 +19,7 @@ namespace crowdface {
 /// - A face that was drawn again gets colours and attachments of its own, see
 ///   draw_attachments_alone. A variant has the colours of the face that it is a variant of.
 ///
-/// \param attachments, colours  as those of the crowd were drawn.
+/// \param attachments, colours  the options with which the crowd was drawn.
 /// \param kinds  group of each sampled face, or −1.
 /// \param crowd  the faces as they were cast, with colours and attachments.
 void replace_changed_faces(const Config& config, const AttachmentDraw& attachments,

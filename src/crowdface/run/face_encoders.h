@@ -107,7 +107,7 @@ class FaceEncoders {
  private:
   /// Whether files of this format have vertex normals at this level of detail.
   bool needs_normals(MeshFormat format, std::size_t level, Index target) const;
-  /// Vertex normals; at the neck's ring those that all faces share.
+  /// Vertex normals; at the neck's ring, the normals that all faces share.
   Positions normals_of(const Positions& positions) const;
   FaceMesh mesh_on(std::size_t level, FinishedFace& face) const;
 
@@ -124,8 +124,8 @@ class FaceEncoders {
   std::optional<NormalFans> fans_;
 };
 
-/// The shapes for which an attachment has files: those for which the faces have files, if the
-/// attachment bends; otherwise none.
+/// The shapes for which an attachment has files: none if the attachment is rigid, otherwise the
+/// shapes for which the faces have files.
 std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
                                        const Inputs& inputs);
 

@@ -30,7 +30,7 @@ struct HeadLandmarks {
 /// \throws UsageError if a place in the file is not on the heads, or a name is not of a landmark.
 HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
 
-/// The measurements of a mesh: #measurements, nothing for those that are not available.
+/// The measurements of a mesh: #measurements; unavailable measurements are empty.
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit);
 
@@ -44,7 +44,7 @@ std::vector<std::vector<double>> named_head_traits(const Config& config, const I
 /// \throws UsageError if the config names a measurement that is not available on these heads.
 void require_named_traits(const Config& config, const HeadLandmarks& landmarks);
 
-/// A readable table of the measurements of all heads, and of those that are not available.
+/// A readable table of the measurements of all heads; it also lists unavailable measurements.
 std::string format_head_traits(const Config& config, const Inputs& inputs,
                                const HeadLandmarks& landmarks);
 

@@ -35,8 +35,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return whole() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files at this level may contain, and the body. Reduced meshes: those that
-  /// some face wears.
+  /// The attachments that files at this level may contain, and the body. Reduced levels contain
+  /// only attachments that some face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
@@ -73,7 +73,7 @@ CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::u
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body = false);
 
-/// The normals that the body has at the ring, those of all faces; none for attachments.
+/// The normals at the ring, which the body shares with all faces; none for attachments.
 /// \param level  the level of detail of the body; null: whole
 FixedNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
                              const DetailLevel* level);

@@ -34,7 +34,7 @@ struct TraitTarget {
   bool operator==(const TraitTarget&) const = default;
 };
 
-/// Returns `common`, with the limits of `own` in place of those of the same traits.
+/// Returns the limits of `own`, and the limits of `common` on all other traits.
 TraitLimits with_own(const TraitLimits& common, const TraitLimits& own);
 
 /// The values of the heads, and the quantiles that limits may name.

@@ -32,8 +32,8 @@ std::vector<bool> used_vertices(const Scan& scan);
 /// about 0.5 for half a head, 0.8 for a face alone.
 double missing_share(const Scan& scan);
 
-/// The vertices of boundary loops that are at least `min_length` long, ascending: where a surface
-/// ends.
+/// The vertices at which the surface ends, ascending: the vertices of all boundary loops that are
+/// at least `min_length` long.
 std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangles,
                                            const Positions& positions, double min_length);
 

@@ -46,9 +46,9 @@ struct WrapResult {
   Eigen::VectorXd distance_mm;     ///< #skin: distance from the wrapped skin to the scan
   std::vector<bool> without_data;  ///< #skin: no scan data nearby, or only the scan's boundary
   Index flipped = 0;               ///< number of flipped triangles in the skin
-  /// Distance in mm between two points: the point between the eyes of the wrapped template, and
-  /// that of the face that the scan's relief shows. Nothing if one of the two faces was not found,
-  /// or if enough landmarks were picked.
+  /// Distance in mm from the point between the eyes of the wrapped template to the same point of
+  /// the face that the scan's relief shows. Nothing if one of the two faces was not found, or if
+  /// enough landmarks were picked.
   std::optional<double> face_off_mm;
 };
 

@@ -12,9 +12,9 @@ namespace crowdface::synth {
 /// Computes the skin colour and roughness of one person.
 class SkinPaint {
  public:
-  /// \param scalp_hair  1: all hair is painted; below 1: opacity of the roots on the scalp, below hair
-  ///                    that is separate meshes, as are brows and beards. The roots have no hair
-  ///                    colour.
+  /// \param scalp_hair  1: all hair is painted. Below 1: hair, brows, beards are separate meshes,
+  ///                    and only roots are painted on the scalp, with this opacity and without
+  ///                    hair colour.
   SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
       : SkinPaint(seed, index, scalp_hair, draw_complexion(seed, index)) {}
   SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair, const Complexion& look);
