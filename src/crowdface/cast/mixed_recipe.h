@@ -10,8 +10,8 @@ namespace crowdface {
 double mixed(double a, double b, double t);
 /// Returns (1 − t)·a + t·b of two bands' numbers.
 BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale);
-/// Returns (1 − t)·from + t·to: targets, asymmetry and all bands. The face is mirrored as `from` is;
-/// everything else is that of `to`.
+/// Returns (1 − t)·from + t·to: targets, asymmetry and all bands. Mirroring comes from `from`,
+/// everything else from `to`.
 Recipe mixed(const Recipe& from, const Recipe& to, double t, const LevelScale& scale);
 
 }  // namespace crowdface
