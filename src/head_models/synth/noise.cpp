@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace crowdface::synth {
 namespace {
@@ -25,6 +26,40 @@ std::array<double, 4> spline(double t) {
           t * t * t / 6};
 }
 
+/// The coefficients of the 4 × 4 × 4 lattice points around a cell: [z][4 x + y].
+using Coefficients = std::array<std::array<double, 16>, 4>;
+
+/// Returns the coefficients around a cell. Neighbouring texels are mostly in the same cells, so each
+/// thread keeps the cells that it used last, in a direct-mapped cache.
+const Coefficients& coefficients_of(std::uint64_t key, const std::array<std::int64_t, 3>& cell) {
+  struct Entry {
+    std::uint64_t key;
+    std::array<std::int64_t, 3> cell;
+    Coefficients coefficients;
+    bool filled;
+  };
+  constexpr std::size_t kEntries = 1024;
+  thread_local std::vector<Entry> entries(kEntries);
+  std::uint64_t place = key;
+  for (const std::int64_t c : cell)
+    place = (place ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
+  Entry& entry = entries[(place >> 32) % kEntries];
+  if (entry.filled && entry.key == key && entry.cell == cell) return entry.coefficients;
+  entry.key = key;
+  entry.cell = cell;
+  entry.filled = true;
+  for (std::size_t line = 0; line < 16; ++line) {
+    const auto x = static_cast<std::uint64_t>(cell[0]) + line / 4;
+    const auto y = static_cast<std::uint64_t>(cell[1]) + line % 4;
+    const std::uint64_t start = key ^ (x * 0x8CB92BA72F3D8DD7ULL + y * 0xD6E8FEB86659FD93ULL);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto z = static_cast<std::uint64_t>(cell[2]) + k;
+      entry.coefficients[k][line] = signed_unit(scramble(start + z * 0xA0761D6478BD642FULL));
+    }
+  }
+  return entry.coefficients;
+}
+
 }  // namespace
 
 std::uint64_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
@@ -39,19 +74,16 @@ double SmoothNoise::at(const Eigen::Vector3d& point) const {
     cell[k] = static_cast<std::int64_t>(below);
     weights[k] = spline(x - below);
   }
+  const Coefficients& coefficients = coefficients_of(key_, cell);
+  std::array<double, 16> rows{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t line = 0; line < 16; ++line) {
+      rows[line] += weights[2][k] * coefficients[k][line];
+    }
+  }
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) {
-      const auto x = static_cast<std::uint64_t>(cell[0] + static_cast<std::int64_t>(i));
-      const auto y = static_cast<std::uint64_t>(cell[1] + static_cast<std::int64_t>(j));
-      const std::uint64_t line = key_ ^ (x * 0x8CB92BA72F3D8DD7ULL + y * 0xD6E8FEB86659FD93ULL);
-      double row = 0;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto z = static_cast<std::uint64_t>(cell[2] + static_cast<std::int64_t>(k));
-        row += weights[2][k] * signed_unit(scramble(line + z * 0xA0761D6478BD642FULL));
-      }
-      sum += weights[0][i] * weights[1][j] * row;
-    }
+    for (std::size_t j = 0; j < 4; ++j) sum += weights[0][i] * weights[1][j] * rows[4 * i + j];
   }
   return 2.5 * sum;  // the spline's averaging reduces the range to about two fifths
 }

@@ -77,7 +77,9 @@ void spread(int size, std::vector<SkinPlace>& texels) {
   std::vector<bool> taken(texels.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {
     taken[i] = texels[i].covered;
-    if (taken[i]) reached.push_back(i);
+    if (!taken[i]) continue;
+    texels[i].nearest = i;
+    reached.push_back(i);
   }
   const auto width = static_cast<std::size_t>(size);
   for (std::size_t next = 0; next < reached.size(); ++next) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "crowdface/core/parallel.h"
 #include "head_models/synth/mean_head.h"
 
 namespace crowdface::synth {
-
-inline constexpr std::size_t kTexelsPerBlock = 4096;  ///< texels per parallel task
 
 /// The location on the head that a texel of the texture shows.
 struct SkinPlace {
@@ -20,11 +20,26 @@ struct SkinPlace {
   Eigen::Vector3d on_ball =
       Eigen::Vector3d::Zero();  ///< on an eyeball: point on the unit sphere with its pupil at +z
   bool covered = false;         ///< whether the texel shows a surface
+  std::size_t nearest = 0;      ///< index of the covered texel with this place
 };
 
 /// Returns size × size places, row by row, first row at v = 1. Texels that show no surface contain
 /// the place of a near covered texel, so that colours continue beyond the edges of the texture
 /// charts.
 std::vector<SkinPlace> skin_atlas(int size);
+
+/// Calls `body(i)` for all texels i of a size × size texture in parallel. Each task has one square of
+/// the texture, because SmoothNoise is fast for points that are close together.
+template <class Body>
+void for_each_texel(int size, const Body& body) {
+  constexpr std::size_t kSide = 32;
+  const auto width = static_cast<std::size_t>(size), squares = (width + kSide - 1) / kSide;
+  parallel_for_each(squares * squares, 1, [&](std::size_t square) {
+    const std::size_t left = square % squares * kSide, top = square / squares * kSide;
+    for (std::size_t y = top; y < std::min(top + kSide, width); ++y) {
+      for (std::size_t x = left; x < std::min(left + kSide, width); ++x) body(y * width + x);
+    }
+  });
+}
 
 }  // namespace crowdface::synth

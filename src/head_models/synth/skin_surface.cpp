@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/core/smooth_step.h"
 #include "head_models/synth/complexion.h"
@@ -62,17 +61,17 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
   return nth_smallest(std::move(steps), middle);
 }
 
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas, double texel,
                                        const Relief& fine, const Relief& coarse) {
   std::vector<double> heights(atlas.size());
-  parallel_for_each(atlas.size(), kTexelsPerBlock, [&](std::size_t i) {
+  for_each_texel(size, [&](std::size_t i) {
     if (!is_skin(atlas[i])) return;
     heights[i] = fine.height(atlas[i].skin) - coarse.height(atlas[i].skin);
   });
-  const Slopes slopes(atlas, heights, texel_cm(size, atlas));
+  const Slopes slopes(atlas, heights, texel);
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(3 * atlas.size());
-  parallel_for_each(atlas.size(), kTexelsPerBlock, [&](std::size_t i) {
+  for_each_texel(size, [&](std::size_t i) {
     const std::size_t x = i % side, y = i / side;
     const std::size_t left = x > 0 ? i - 1 : i, right = x + 1 < side ? i + 1 : i;
     const std::size_t above = y > 0 ? i - side : i, below = y + 1 < side ? i + side : i;

@@ -15,9 +15,10 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas);
 /// Returns a tangent-space normal map of the relief that is too fine for the mesh, as 8-bit RGB.
 /// Red points to the right of the texture, green to its top. Eyeballs are smooth.
 /// \param atlas   size × size places.
+/// \param texel   texel_cm() of the atlas.
 /// \param fine    the complete relief of the head.
 /// \param coarse  the part of the relief that the mesh represents.
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas,
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas, double texel,
                                        const Relief& fine, const Relief& coarse);
 
 /// Returns the roughness of the skin at a place, 0 … 1: low on lips, nose and forehead, lowest on

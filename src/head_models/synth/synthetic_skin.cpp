@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "head_models/synth/bust.h"
 #include "head_models/synth/skin_paint.h"
@@ -16,17 +15,24 @@ namespace {
 /// bald crowns of faces that are blended from heads with hair.
 constexpr double kRoots = 0.3;
 
-/// Paints `size` texels.
-/// \param colour_at  returns the colour of a texel
-template <class ColourAt>
-std::vector<std::uint8_t> painted(std::size_t size, const ColourAt& colour_at) {
-  std::vector<std::uint8_t> bytes(3 * size);
-  parallel_for_each(size, synth::kTexelsPerBlock, [&](std::size_t i) {
-    const synth::ScreenColour colour = colour_at(i);
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      bytes[3 * i + static_cast<std::size_t>(c)] = synth::to_byte(colour[c]);
-    }
+/// Writes a colour as three bytes.
+void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
+  for (Eigen::Index c = 0; c < 3; ++c) bytes[c] = synth::to_byte(colour[c]);
+}
+
+/// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface, and the
+/// other texels copy those of their nearest.
+template <class Paint>
+std::vector<std::uint8_t> painted(int size, const std::vector<synth::SkinPlace>& atlas,
+                                  std::size_t channels, const Paint& paint) {
+  std::vector<std::uint8_t> bytes(channels * atlas.size());
+  synth::for_each_texel(size, [&](std::size_t i) {
+    if (atlas[i].covered) paint(atlas[i], &bytes[channels * i]);
   });
+  for (std::size_t i = 0; i < atlas.size(); ++i) {
+    if (atlas[i].covered) continue;
+    std::copy_n(&bytes[channels * atlas[i].nearest], channels, &bytes[channels * i]);
+  }
   return bytes;
 }
 
@@ -41,20 +47,24 @@ SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp)
 
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  return painted(atlas_.size(), [&](std::size_t i) { return paint.at(atlas_[i]); });
+  return painted(size_, atlas_, 3, [&](const synth::SkinPlace& place, std::uint8_t* bytes) {
+    write_texel(paint.at(place), bytes);
+  });
 }
 
 std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
                                                       std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
   const auto side = static_cast<std::size_t>(size_);
-  return painted(atlas_.size(), [&](std::size_t i) {
+  std::vector<std::uint8_t> bytes(3 * atlas_.size());
+  synth::for_each_texel(size_, [&](std::size_t i) {
     const double u = (static_cast<double>(i % side) + 0.5) / size_;
     const double v = 1 - (static_cast<double>(i / side) + 0.5) / size_;
     synth::SkinPlace place;
     place.skin.position = synth::bust_point({u, v});
-    return paint.at(place);
+    write_texel(paint.at(place), &bytes[3 * i]);
   });
+  return bytes;
 }
 
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
@@ -62,17 +72,15 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
   const synth::Identity identity(seed, index);
   // A texture represents wavelengths from two texels, a mesh from four edges.
   const double finest = texel_cm_ / 2;
-  return synth::skin_normals(size_, atlas_, synth::Relief(identity, finest),
+  return synth::skin_normals(size_, atlas_, texel_cm_, synth::Relief(identity, finest),
                              synth::Relief(identity, std::max(finest, edge_cm)));
 }
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  std::vector<std::uint8_t> bytes(atlas_.size());
-  parallel_for_each(bytes.size(), synth::kTexelsPerBlock, [&](std::size_t i) {
-    bytes[i] = synth::to_byte(paint.roughness_at(atlas_[i]));
+  return painted(size_, atlas_, 1, [&](const synth::SkinPlace& place, std::uint8_t* bytes) {
+    *bytes = synth::to_byte(paint.roughness_at(place));
   });
-  return bytes;
 }
 
 }  // namespace crowdface
