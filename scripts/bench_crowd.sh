@@ -6,6 +6,12 @@
 # built it, 15 heads); writing and the whole, `dd conv=fsync` of as many bytes.
 #
 #   scripts/bench_crowd.sh [HEADS [VERTICES [FACES [OPTION …]]]]      default: 15 1200000 200
+#   scripts/bench_crowd.sh --dressed [JOB …]
+#
+# --dressed measures jobs with textures and hair instead, and prints clock and processor seconds of the whole
+# command; each job first fills the cache. JOBs, by default all: demo film plan version synth. Floors: `cat` of the
+# heads' meshes and maps, libdeflate at level 1 on one face's maps as PNG filters them (one thread), `dd
+# conv=fsync` of one face's files.
 #
 # OPTIONs are those of `crowdface generate`, such as --memory "4 GiB". Everything goes to
 # out/bench_crowd, the crowd itself is removed at the end (200 faces of 1.2 million vertices take
@@ -13,13 +19,103 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-heads=${1:-15} vertices=${2:-1200000} faces=${3:-200}
-shift $(($# < 3 ? $# : 3))
 crowdface=build/release/bin/crowdface
 folder=out/bench_crowd
 [ -x "$crowdface" ] || { scripts/install_dependencies.sh; scripts/build.sh release crowdface; }
-
 mkdir -p "$folder"
+seconds() {  # of the clock, that a command takes
+  local start=$EPOCHREALTIME
+  "$@" > /dev/null 2>&1
+  echo "$EPOCHREALTIME $start" | awk '{ print $1 - $2 }'
+}
+
+row() {  # NAME COMMAND…: a line of the table
+  local name=$1 TIMEFORMAT='%R %U %S' wall user system
+  shift
+  { time "$@" > "$folder/log" 2>&1; } 2> "$folder/time" || { cat "$folder/log" >&2; exit 1; }
+  read -r wall user system < "$folder/time"
+  awk -v n="$name" -v w="$wall" -v u="$user" -v s="$system" 'BEGIN { printf "| %s | %.2f | %.2f |\n", n, w, u + s }'
+}
+heads_of() {  # NAME OPTION…: synthetic heads, made once
+  [ -e "$folder/$1/regions.png" ] || "$crowdface" synth -q -o "$folder/$1" --force --seed 1 "${@:2}"
+}
+crowd_of() {  # NAME FACES: a config for these heads
+  cat > "$folder/$1.yaml" <<YAML
+schema: 1
+crowd: {name: bench, count: $2, seed: 7}
+faces: {directory: $1, units: cm}
+regions: {names: [top, middle, bottom], mask: $1/regions.png}
+sampling: {max_sources: 3, smoothness: [0.15, 0.7], extrapolation: [0.9, 1.2]}
+YAML
+  cat >> "$folder/$1.yaml"
+  rm -rf "$folder/crowd"
+}
+make() {  # NAME FACES: the crowd, anew, with what heads and cache hold
+  row "$1, $2 faces" "$crowdface" generate -q --force --count "$2" --out "$folder/crowd" "$folder/$1.yaml"
+}
+floors() {  # NAME: what is the least for the files of these heads and of one face
+  local face bytes
+  face=$(find "$folder/crowd/meshes" -name '*_0001*')
+  bytes=$(echo "$face" | xargs cat | wc -c)
+  echo "| floor: $1, reading | $(seconds cat "$folder/$1"/*.{obj,png}) | |"
+  echo "| floor: $1, writing a face | $(seconds dd if=/dev/zero of="$folder/floor" bs=1M count=$((bytes / 1048576 + 1)) conv=fsync) | |"
+  echo "$face" | python3 -c '
+import ctypes, sys, time, zlib
+library = ctypes.CDLL("libdeflate.so.0")
+library.libdeflate_alloc_compressor.restype = ctypes.c_void_p
+library.libdeflate_deflate_compress.restype = ctypes.c_size_t
+library.libdeflate_deflate_compress.argtypes = [ctypes.c_void_p] + 2 * [ctypes.c_char_p, ctypes.c_size_t]
+compressor, spent = library.libdeflate_alloc_compressor(1), 0.0
+for path in sys.stdin.read().split():
+    if not path.endswith(".png"): continue
+    png, at, packed = open(path, "rb").read(), 8, b""
+    while at < len(png):  # chunks: length, type, data, checksum
+        size = int.from_bytes(png[at:at + 4], "big")
+        if png[at + 4:at + 8] == b"IDAT": packed += png[at + 8:at + 8 + size]
+        at += size + 12
+    rows = zlib.decompress(packed)
+    out = ctypes.create_string_buffer(len(rows))
+    start = time.perf_counter()
+    library.libdeflate_deflate_compress(compressor, rows, len(rows), out, len(rows))
+    spent += time.perf_counter() - start
+print(f"| floor: {sys.argv[1]}, packing the maps of a face | {spent:.4f} | |")' "$1"
+  rm -rf "$folder/crowd" "$folder/floor"
+}
+job_demo() {
+  heads_of demo --count 16 --vertices 20000 --textures 1024 --hair
+  crowd_of demo 1 <<< "attachments: {from: demo/attachments}"
+  make demo 1 > /dev/null
+  for faces in 24 200; do make demo $faces; done
+  floors demo
+}
+job_film() {
+  heads_of film --count 5 --vertices 1200000 --textures 4096
+  crowd_of film 1 <<< "output: {meshes: [obj], contact_sheet: none}"
+  make film 1 > /dev/null
+  for faces in 1 5; do make film $faces; done
+  floors film
+}
+job_plan() {
+  heads_of plan --count 16
+  crowd_of plan 1 <<< "diversity: {min_distance: 0.5 mm}"
+  "$crowdface" prepare -q "$folder/plan.yaml"
+  row "plan of 100,000 faces" "$crowdface" plan -q --count 100000 --out "$folder/crowd" "$folder/plan.yaml"
+}
+job_version() { row "crowdface --version" "$crowdface" --version; }
+job_synth() {
+  row "synth --textures 4096, a head" "$crowdface" synth -q -o "$folder/synth" --count 1 --textures 4096 --force
+  rm -rf "$folder/synth"
+}
+if [ "${1:-}" = --dressed ]; then
+  shift
+  [ $# -gt 0 ] || set -- demo film plan version synth
+  echo "| job | seconds | processor seconds |"
+  for job in "$@"; do "job_$job"; done
+  exit
+fi
+
+heads=${1:-15} vertices=${2:-1200000} faces=${3:-200}
+shift $(($# < 3 ? $# : 3))
 source=$folder/heads_${heads}_$vertices
 [ -e "$source/regions.png" ] || "$crowdface" synth -q -o "$source" --count "$heads" --vertices "$vertices"
 config=$folder/crowd.yaml
@@ -37,11 +133,6 @@ YAML
 rm -rf "$folder/crowd"
 "$crowdface" generate "$config" "$@"
 bytes=$(du -sb "$folder/crowd" | cut -f1)
-seconds() {  # of the clock, that a command takes
-  local start=$EPOCHREALTIME
-  "$@" > /dev/null 2>&1
-  echo "$EPOCHREALTIME $start" | awk '{ print $1 - $2 }'
-}
 read_floor=$(seconds cat "$source"/*.obj)
 megabytes=$((bytes / 1000000 < 2000 ? bytes / 1000000 + 1 : 2000))
 write_floor=$(seconds dd if=/dev/zero of="$folder/crowd/floor" bs=1MB count=$megabytes conv=fsync)
