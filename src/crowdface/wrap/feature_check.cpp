@@ -46,7 +46,7 @@ double distance_to_outline(const Eigen::Vector3d& p, const std::vector<Eigen::Ve
 }
 
 /// Areas around the vertices of the skin, a third of each triangle's.
-Eigen::VectorXd vertex_areas(const SkinMesh& skin, const Positions& positions) {
+Eigen::VectorXd areas_at_vertices(const SkinMesh& skin, const Positions& positions) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
   for (const Triangle& t : skin.triangles) {
     const double third = area_vector(positions, t).norm() / 3;
@@ -115,7 +115,7 @@ std::vector<double> relief_agreements(const WrapTemplate& shape,
   const Positions before = skin.of(shape.positions), after = skin.of(wrapped);
   const Positions normals_before = vertex_normals_or_zero(skin.triangles, before),
                   normals_after = vertex_normals_or_zero(skin.triangles, after);
-  const Eigen::VectorXd areas = vertex_areas(skin, before);
+  const Eigen::VectorXd areas = areas_at_vertices(skin, before);
   std::vector<double> agreements;
   for (const FaceFeature& feature : features) {
     const Eigen::VectorXd weights = areas(feature.skin);
