@@ -48,10 +48,10 @@ regions: {names: [top, middle, bottom], mask: $1/regions.png}
 sampling: {max_sources: 3, smoothness: [0.15, 0.7], extrapolation: [0.9, 1.2]}
 YAML
   cat >> "$folder/$1.yaml"
-  rm -rf "$folder/crowd"
 }
-make() {  # NAME FACES: the crowd, anew, with what heads and cache hold
-  row "$1, $2 faces" "$crowdface" generate -q --force --count "$2" --out "$folder/crowd" "$folder/$1.yaml"
+make() {  # NAME FACES: the whole crowd; all that the cache keeps is there from the second time
+  rm -rf "$folder/crowd"
+  row "$1, $2 faces" "$crowdface" generate -q --count "$2" --out "$folder/crowd" "$folder/$1.yaml"
 }
 floors() {  # NAME: what is the least for the files of these heads and of one face
   local face bytes
@@ -99,6 +99,7 @@ job_plan() {
   heads_of plan --count 16
   crowd_of plan 1 <<< "diversity: {min_distance: 0.5 mm}"
   "$crowdface" prepare -q "$folder/plan.yaml"
+  rm -rf "$folder/crowd"
   row "plan of 100,000 faces" "$crowdface" plan -q --count 100000 --out "$folder/crowd" "$folder/plan.yaml"
 }
 job_version() { row "crowdface --version" "$crowdface" --version; }
