@@ -26,7 +26,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
 CastingOptions casting_options(const Config& config, const Inputs& inputs,
                                const Eigen::MatrixXd& head_distances);
 
-/// Distances within a crowd, compared with those between its heads.
+/// Distances between the faces of a crowd, and between its heads for comparison.
 struct CrowdDistances {
   Quartiles heads;                 ///< distances between input heads
   Quartiles crowd;                 ///< distances between faces of the crowd
