@@ -11,8 +11,8 @@
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring. The body's optical densities change by the difference at the ring: next to the ring by the
-/// difference of each of its vertices, farther away than `falloff` by the mean difference.
+/// ring. Next to the ring, the body's optical densities change by the difference at each vertex of
+/// the ring. Farther away, this change blends into the mean difference, reached at `falloff`.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
