@@ -59,10 +59,6 @@ export async function postForBinary(path, body, signal) {
   return unpack(await (await answer(path, withBody('POST', body, signal))).arrayBuffer());
 }
 
-export async function postForBlob(path, body) {
-  return (await answer(path, withBody('POST', body))).blob();
-}
-
 /// \param leaving  true as the page goes away: the browser sends it all the same, up to 64 kB.
 export async function put(path, body, leaving = false) {
   const options = withBody('PUT', body);

@@ -242,7 +242,13 @@ export class FacePage {
     const { shapes } = this.crowd;
     if (shapes.length === 0) return null;
     this.values ??= shapes.map(() => 0);
-    const act = () => [this.turntable, this.isDouble && this.otherTable].forEach((table) => table && table.act(this.values));
+    const act = () => {
+      for (const table of [this.turntable, this.isDouble && this.otherTable].filter(Boolean)) {
+        table.setMoving(true);
+        table.act(this.values);
+        table.setMoving(false);
+      }
+    };
     const sliders = shapes.map((name, s) => el('input', {
       type: 'range', min: 0, max: 1, step: 0.01, value: this.values[s], 'aria-label': name,
       oninput: (event) => {

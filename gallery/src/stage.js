@@ -4,6 +4,7 @@ import {
   BufferAttribute, Color, DoubleSide, Group, Matrix4, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { drawsInSoftware, SmoothEdges } from './software.js';
 import { extend, studioMaterial, surfaceWhere } from './studio.js';
 
 const degreesOf = {
@@ -11,8 +12,10 @@ const degreesOf = {
 };
 
 /// \param sky   whether the geometry has `sky`, the share of the sky that each vertex sees
-export function skinMaterial({ sky = false, lightness } = {}) {
-  const material = studioMaterial('skin', { vertexColors: true, side: DoubleSide }, lightness);
+/// \param side  DoubleSide, or FrontSide: in software what is hidden costs as much as what is seen, so that the draft
+///              shows the other side
+export function skinMaterial({ sky = false, lightness, side = DoubleSide } = {}) {
+  const material = studioMaterial('skin', { vertexColors: true, side }, lightness);
   if (sky) material.defines.HAS_SKY = '';
   return material;
 }
@@ -108,28 +111,23 @@ export function roughAtVertices(material) {
   });
 }
 
-/// Whether the browser draws without a graphics card.
-export function drawsInSoftware() {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  const names = gl?.getExtension('WEBGL_debug_renderer_info');
-  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
-  gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
-}
-
+const backdrop = ['#83868a', '#46484c']; // of a view, from top to bottom: program_page.css
 const field = 20; // degrees from top to bottom
 const narrow = 0.8; // width by height of a view below which the field is wider
-const rest = 120; // ms without a move, after which all is drawn in full
-const calm = 600; // ms more, after which hair is, too
-const slow = 33; // ms of a frame while something moves
-const fast = 16;
+const rest = 80; // ms without a move, after which all is drawn in full
+const calm = 400; // ms more, after which hair has its softest tips
+const slow = 18; // ms to draw a frame while something moves; as long again takes the page
+const fast = 12;
+const fewest = 0.4; // of the pixels across, and this many at least as the next move begins
+const atFirst = 0.7;
 
 /// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
 export class Stage {
   /// \throws if the browser has no WebGL.
-  constructor({ pan = false, software = drawsInSoftware(), antialias = true } = {}) {
-    this.renderer = new WebGLRenderer({ antialias, alpha: true });
-    this.software = software;
+  constructor({ pan = false } = {}) {
+    this.software = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
+    this.edges = this.software ? new SmoothEdges() : null;
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.fullRatio = Math.min(devicePixelRatio, 2);
     this.movingRatio = this.fullRatio;
@@ -147,7 +145,7 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.minDistance = pan ? 0.8 : 2.2;
     this.controls.maxDistance = 14;
-    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('change', () => { if (!this.isStepping) this.draw(); });
     this.controls.addEventListener('start', () => this.setMoving(true));
     this.controls.addEventListener('end', () => this.setMoving(false));
     this.frames = 0;
@@ -163,23 +161,45 @@ export class Stage {
   setMoving(on) {
     if (!this.software) return;
     clearTimeout(this.resting);
+    this.resting = null;
     if (on && !this.moving) this.drawCheaply(true);
     else if (!on && this.moving) this.resting = setTimeout(() => this.drawCheaply(false), rest);
-    else if (!on && this.worn?.cheap) this.resting = setTimeout(() => this.drawHair(), calm);
   }
 
   drawCheaply(on) {
     this.moving = on;
-    if (on) this.worn?.setCheap(true);
-    else this.resting = setTimeout(() => this.drawHair(), calm);
+    this.resting = null;
+    this.worn?.setForm(on ? 'draft' : 'solid');
+    if (!on && this.worn) this.resting = setTimeout(() => this.drawSoft(), calm);
+    this.showDraft(on);
+    if (on) this.movingRatio = Math.max(this.movingRatio, atFirst * this.fullRatio);
     this.setRatio(on ? this.movingRatio : this.fullRatio);
     this.draw();
   }
 
-  /// Hair takes longest: in full it comes last.
-  drawHair() {
-    this.worn?.setCheap(false);
+  drawSoft() {
+    this.resting = null;
+    this.worn.setForm('whole');
     this.draw();
+  }
+
+  /// \param on  whether the draft stands in place of the whole
+  showDraft(on) {
+    if (!this.draft) return;
+    this.object.visible = !on;
+    this.draft.setBehind(!on);
+  }
+
+  /// A single step, such as one of a key that is held down.
+  /// \param act  moves the camera
+  step(act) {
+    this.isStepping = true;
+    act();
+    this.isStepping = false;
+    const isHeld = this.moving && !this.resting;
+    if (this.moving || !this.software) this.draw();
+    this.setMoving(true);
+    if (!isHeld) this.setMoving(false);
   }
 
   stand({ up, front, box: [low, high] }) {
@@ -194,26 +214,29 @@ export class Stage {
   }
 
   view(name) {
-    const angle = ((degreesOf[name] ?? 0) * Math.PI) / 180;
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.set(6.4 * Math.sin(angle), 0, 6.4 * Math.cos(angle));
-    this.controls.update();
-    this.draw();
+    this.step(() => {
+      const angle = ((degreesOf[name] ?? 0) * Math.PI) / 180;
+      this.controls.target.set(0, 0, 0);
+      this.camera.position.set(6.4 * Math.sin(angle), 0, 6.4 * Math.cos(angle));
+      this.controls.update();
+    });
   }
 
   /// Takes the camera of another view.
   lookAs({ camera, controls }) {
-    this.camera.position.copy(camera.position);
-    this.controls.target.copy(controls.target);
-    this.controls.update();
-    this.draw();
+    this.step(() => {
+      this.camera.position.copy(camera.position);
+      this.controls.target.copy(controls.target);
+      this.controls.update();
+    });
   }
 
   turn(degrees) {
-    this.camera.position.sub(this.controls.target)
-      .applyAxisAngle(new Vector3(0, 1, 0), (degrees * Math.PI) / 180).add(this.controls.target);
-    this.controls.update();
-    this.draw();
+    this.step(() => {
+      this.camera.position.sub(this.controls.target)
+        .applyAxisAngle(new Vector3(0, 1, 0), (degrees * Math.PI) / 180).add(this.controls.target);
+      this.controls.update();
+    });
   }
 
   /// How far the camera stands turned from the front, in degrees.
@@ -224,35 +247,38 @@ export class Stage {
   }
 
   nearer(factor) {
-    const { camera, controls } = this;
-    const away = camera.position.clone().sub(controls.target);
-    away.setLength(Math.min(Math.max(away.length() * factor, controls.minDistance), controls.maxDistance));
-    camera.position.copy(controls.target).add(away);
-    controls.update();
-    this.draw();
+    this.step(() => {
+      const { camera, controls } = this;
+      const away = camera.position.clone().sub(controls.target);
+      away.setLength(Math.min(Math.max(away.length() * factor, controls.minDistance), controls.maxDistance));
+      camera.position.copy(controls.target).add(away);
+      controls.update();
+    });
   }
 
   /// Keys in place of the mouse: turns, or moves across.
   arrow(key, across) {
     const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
     const { camera, controls } = this;
-    if (across) {
-      const right = new Vector3().setFromMatrixColumn(camera.matrix, 0).multiplyScalar(-0.06 * x);
-      const move = right.add(new Vector3().setFromMatrixColumn(camera.matrix, 1).multiplyScalar(-0.06 * y));
-      camera.position.add(move);
-      controls.target.add(move);
-      controls.update();
-    } else if (x !== 0) {
+    if (x !== 0 && !across) {
       this.turn(-10 * x);
-    } else {
-      const away = camera.position.clone().sub(controls.target);
-      const axis = new Vector3(0, 1, 0).cross(away).normalize();
-      const steep = (Math.asin(away.y / away.length()) * 180) / Math.PI;
-      if (Math.abs(steep + 8 * y) < 85) away.applyAxisAngle(axis, (-8 * y * Math.PI) / 180);
-      camera.position.copy(controls.target).add(away);
-      controls.update();
+      return;
     }
-    this.draw();
+    this.step(() => {
+      if (across) {
+        const right = new Vector3().setFromMatrixColumn(camera.matrix, 0).multiplyScalar(-0.06 * x);
+        const move = right.add(new Vector3().setFromMatrixColumn(camera.matrix, 1).multiplyScalar(-0.06 * y));
+        camera.position.add(move);
+        controls.target.add(move);
+      } else {
+        const away = camera.position.clone().sub(controls.target);
+        const axis = new Vector3(0, 1, 0).cross(away).normalize();
+        const steep = (Math.asin(away.y / away.length()) * 180) / Math.PI;
+        if (Math.abs(steep + 8 * y) < 85) away.applyAxisAngle(axis, (-8 * y * Math.PI) / 180);
+        camera.position.copy(controls.target).add(away);
+      }
+      controls.update();
+    });
   }
 
   /// In a narrow view the whole head is seen, too.
@@ -271,11 +297,32 @@ export class Stage {
     this.draw();
   }
 
+  /// What the view shows, in full, as a canvas.
+  photograph() {
+    if (this.moving) this.drawCheaply(false);
+    if (this.resting) {
+      clearTimeout(this.resting);
+      this.drawSoft();
+    } else {
+      this.draw();
+    }
+    const picture = document.createElement('canvas');
+    [picture.width, picture.height] = [this.node.width, this.node.height];
+    const context = picture.getContext('2d');
+    const behind = context.createLinearGradient(0, 0, 0, picture.height);
+    backdrop.forEach((colour, end) => behind.addColorStop(end, colour));
+    context.fillStyle = behind;
+    context.fillRect(0, 0, picture.width, picture.height);
+    context.drawImage(this.node, 0, 0);
+    return picture;
+  }
+
   draw() {
     const began = performance.now();
     if (this.moving && this.ratio !== this.movingRatio && !this.silent) this.setRatio(this.movingRatio);
-    if (this.worn?.cheap) this.worn.shade(this.camera, this.group);
+    this.worn?.shade(this.camera, this.group);
     this.renderer.render(this.scene, this.camera);
+    if (!this.moving) this.edges?.apply(this.renderer);
     this.frames += 1;
     if (!this.moving && !this.onframe) return;
     const gl = this.renderer.getContext();
@@ -283,7 +330,7 @@ export class Stage {
     this.frameMs = performance.now() - began;
     this.onframe?.(this.frameMs);
     if (!this.moving) return;
-    if (this.frameMs > slow && this.movingRatio > 0.3 * this.fullRatio) this.movingRatio *= 0.85;
+    if (this.frameMs > slow && this.movingRatio > fewest * this.fullRatio) this.movingRatio *= 0.85;
     else if (this.frameMs < fast && this.movingRatio < this.fullRatio) this.movingRatio = Math.min(this.fullRatio, 1.1 * this.movingRatio);
   }
 }

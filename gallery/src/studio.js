@@ -52,16 +52,23 @@ export function withBounces(sky, albedo) {
   return Math.min(Math.max(sum, sky), 1);
 }
 
-/// The diffuse light of the studio in the axes of what turns: lamps stand elsewhere there whenever the camera moves.
-/// \return  (x, y, z, sky, key, open, sum): adds up in `sum` what reaches a white surface with the normal x, y, z
+/// The light of the studio in the axes of what turns: lamps stand elsewhere there whenever the camera moves.
+/// \return  diffuse(x, y, z, sky, key, open, sum): writes to `sum` what reaches a white surface with the normal x, y, z;
+///          gloss(x, y, z, sky, key, brightness, sum): adds what it mirrors to the eye, seen from far away
 export function lightIn(camera, group, kind) {
   const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse.clone().multiply(group.matrixWorld)).transpose();
   const local = ({ way, colour }) => ({ way: way.clone().applyMatrix3(turn).normalize(), colour });
-  const [key, fill, right, left] = [lamps.key, lamps.fill, ...lamps.rims].map(local);
+  const all = [lamps.key, lamps.fill, ...lamps.rims].map(local);
+  const [key, fill, right, left] = all;
   const up = local({ way: new Vector3(0, 1, 0) }).way;
+  const eye = local({ way: new Vector3(0, 0, 1) }).way;
   const { above, below } = lamps;
-  const { wrap } = surfaces[kind];
-  return (x, y, z, sky, keyPart, open, sum) => {
+  const { wrap, roughness, reflectance, specular, darkens } = surfaces[kind];
+  const alpha2 = roughness ** 4;
+  const masking = (cosine) => cosine + Math.sqrt(alpha2 + (1 - alpha2) * cosine * cosine);
+  const halves = all.map(({ way }) => way.clone().add(eye).normalize());
+  const away5 = halves.map((half) => (1 - Math.max(half.dot(eye), 0)) ** 5);
+  const diffuse = (x, y, z, sky, keyPart, open, sum) => {
     const facing = (way) => x * way.x + y * way.y + z * way.z;
     const high = 0.5 + 0.5 * facing(up);
     const toKey = facing(key.way);
@@ -73,6 +80,21 @@ export function lightIn(camera, group, kind) {
         keyPart * key.colour[c] * wrapped(toKey, wrap[c]) + right.colour[c] * fromRight + left.colour[c] * fromLeft;
     }
   };
+  const gloss = (x, y, z, sky, keyPart, brightness, sum) => {
+    const mirrored = darkens ? reflectance * Math.min(Math.max(brightness / 0.055, 0.25), 1) : reflectance;
+    const toEye = masking(Math.max(x * eye.x + y * eye.y + z * eye.z, 0.05));
+    for (let l = 0; l < 4; l += 1) {
+      const { way, colour } = all[l];
+      const facing = x * way.x + y * way.y + z * way.z;
+      if (facing <= 0) continue;
+      const nh = Math.max(x * halves[l].x + y * halves[l].y + z * halves[l].z, 0);
+      const spread = nh * nh * (alpha2 - 1) + 1;
+      const share = (specular * (l === 0 ? keyPart : sky * sky) * facing * alpha2 * (mirrored + (1 - mirrored) * away5[l])) /
+        (spread * spread * masking(facing) * toEye);
+      for (let c = 0; c < 3; c += 1) sum[c] += share * colour[c];
+    }
+  };
+  return { diffuse, gloss };
 }
 
 /// Numbers as a vector of shaders.
@@ -95,9 +117,9 @@ const shading = `
     float nl = dot(n, to);
     if (nl <= 0.0) return 0.0;
     vec3 h = normalize(to + eye);
-    float nh = max(dot(n, h), 0.0), away = 1.0 - max(dot(eye, h), 0.0);
+    float nh = max(dot(n, h), 0.0), away = 1.0 - max(dot(eye, h), 0.0), away2 = away * away;
     float spread = nh * nh * (alpha2 - 1.0) + 1.0;
-    float fresnel = reflectance + (1.0 - reflectance) * pow(away, 5.0);
+    float fresnel = reflectance + (1.0 - reflectance) * away2 * away2 * away;
     return nl * alpha2 * fresnel / (spread * spread * masking(nl, alpha2) * masking(max(dot(n, eye), 0.05), alpha2));
   }
   vec3 lampLight(vec3 way, vec3 colour, vec3 n, vec3 eye, vec3 diffuse, float alpha2, float reflectance, float shine) {
@@ -105,7 +127,7 @@ const shading = `
   }
   vec3 inStudio(vec3 albedo, vec3 n, vec3 eye, Surface surface, float sky, float key) {
     vec3 open = withBounces(sky, albedo);
-    float alpha2 = pow(max(surface.roughness, 0.14), 4.0), soft = surface.specular * sky * sky;
+    float rough = max(surface.roughness, 0.14), alpha2 = rough * rough * rough * rough, soft = surface.specular * sky * sky;
     vec3 toKey = ${text(lamps.key.way)}, toFill = ${text(lamps.fill.way)};
     vec3 light = albedo * open * mix(${text(lamps.below)}, ${text(lamps.above)}, 0.5 + 0.5 * n.y);
     light += lampLight(${lamp(lamps.key)}, n, eye, albedo * key * wrapped(dot(n, toKey), surface.wrap), alpha2, surface.reflectance, surface.specular * key);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reduced meshes in 3D. All faces of a crowd share one set of triangles, so a face is points and
 // normals; where it stood before, the camera stays, so that two faces compare.
-import { BufferAttribute, BufferGeometry, Mesh } from 'three';
+import { BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Mesh } from 'three';
 import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
+import { Draft } from './draft.js';
 import { normalsOf } from './normals.js';
-import { linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from './stage.js';
+import { eyeShader, eyeUniforms, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from './stage.js';
 import { pictureAt, pointsOf, Worn } from './worn.js';
 
 /// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
@@ -92,21 +93,37 @@ export class Turntable extends Stage {
       ? Float32Array.from(new Uint32Array(bytesOf(mesh.eyes.places).buffer), (value) => value / mesh.eyes.steps - 4) : null;
     this.skinLightness = { value: 0 };
     this.materials = looks.map(() => {
-      const material = skinMaterial({ sky: true, lightness: this.skinLightness });
+      const material = skinMaterial({ sky: true, lightness: this.skinLightness, side: this.software ? FrontSide : DoubleSide });
       if (eyes) paintEyes(material, geometry, eyes, mesh.eyes);
       roughAtVertices(material);
       return material;
     });
     this.evenly = new Float32Array(mesh.vertices).fill(this.materials[0].roughness);
     this.object = new Mesh(geometry, this.materials);
-    this.worn = new Worn();
+    this.worn = new Worn(this.software);
     this.group.add(this.object, this.worn.node);
+    if (this.software) this.prepareDraft(mesh, looks, eyes);
     if (mesh.widest) {
       this.opened = Float32Array.from(bytesOf(mesh.widest.light), (open, v) => open / 255 / Math.max(this.light[v], 1 / 255));
     }
     this.mesh = mesh;
     this.stand(mesh);
     this.view('front');
+  }
+
+  prepareDraft(mesh, looks, eyes) {
+    const lookOf = new Uint8Array(mesh.vertices);
+    const { groups, index } = this.object.geometry;
+    groups.forEach(({ start, count, materialIndex }) => {
+      for (const v of index.array.subarray(start, start + count)) lookOf[v] = materialIndex;
+    });
+    this.draft = new Draft({
+      triangles: new Uint32Array(bytesOf(mesh.draft).buffer), uvs: this.object.geometry.getAttribute('uv')?.array, kind: 'skin',
+      lookOf: (v) => lookOf[v], looks: looks.length,
+      eyes: eyes && { places: eyes, uniforms: eyeUniforms(mesh.eyes), ...eyeShader },
+    });
+    this.draft.addInside();
+    this.group.add(this.draft.node);
   }
 
   /// \param path  of the face's data; \param name  under which it then stands.
@@ -137,6 +154,7 @@ export class Turntable extends Stage {
       const material = this.materials[materialIndex];
       material.map = pictures[ofLook[materialIndex]] ?? null;
       material.needsUpdate = true;
+      this.draft?.setPicture(materialIndex, material.map);
       if (!material.map) return;
       for (const v of index.array.subarray(start, start + count)) colours.fill(1, 3 * v, 3 * v + 3);
     });
@@ -178,8 +196,11 @@ export class Turntable extends Stage {
     geometry.setAttribute('position', new BufferAttribute(points, 3));
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));
     geometry.setAttribute('color', new BufferAttribute(this.face.colours, 3));
-    geometry.setAttribute('sky', new BufferAttribute(this.skyIn(values[this.mesh.widest?.shape]), 1));
+    const sky = this.skyIn(values[this.mesh.widest?.shape]);
+    geometry.setAttribute('sky', new BufferAttribute(sky, 1));
     geometry.computeBoundingSphere();
+    this.draft?.setSky(sky);
+    this.draft?.place(points, 3);
     this.draw();
   }
 
@@ -189,6 +210,11 @@ export class Turntable extends Stage {
   }
 
   draw() {
-    if (this.object?.geometry.attributes.position) super.draw();
+    if (!this.object?.geometry.attributes.position) return;
+    const { colours } = this.face;
+    this.draft?.light(this.camera, this.group, this.object.geometry.getAttribute('normal').array, 3, (v, colour) => {
+      for (let c = 0; c < 3; c += 1) colour[c] = colours[3 * v + c];
+    });
+    super.draw();
   }
 }

@@ -2,15 +2,16 @@
 // Hair, glasses and the like beside a face. Each stands once in the data, its triangles and pictures;
 // a face brings its positions.
 import {
-  BufferAttribute, BufferGeometry, ClampToEdgeWrapping, Color, DataTexture, DoubleSide, Group, Mesh, RepeatWrapping, ShaderMaterial,
-  SRGBColorSpace, TextureLoader, Vector3,
+  BufferAttribute, BufferGeometry, ClampToEdgeWrapping, Color, DoubleSide, Group, Mesh, RepeatWrapping, SRGBColorSpace, TextureLoader,
 } from 'three';
 import { bytesOf } from './bytes.js';
+import { Draft } from './draft.js';
 import { normalsOf } from './normals.js';
-import { keyShare, lightIn, studioMaterial, surfaces, withBounces } from './studio.js';
+import { filtered } from './software.js';
+import { studioMaterial } from './studio.js';
 
-const cheapTexels = 512;
-const typicalAlbedo = 0.3; // of light that bounces
+const smallest = 6000; // corners of triangles; what has more is drawn in two steps
+const mostPairs = 4e6; // of vertices that are looked at to find which skin is near
 const solid = 0.5; // from here on a texel hides what is behind it
 
 export async function pictureAt(address, { colours, repeated }) {
@@ -18,8 +19,7 @@ export async function pictureAt(address, { colours, repeated }) {
   if (colours) texture.colorSpace = SRGBColorSpace;
   texture.wrapS = repeated ? RepeatWrapping : ClampToEdgeWrapping;
   texture.wrapT = texture.wrapS;
-  texture.anisotropy = 4;
-  return texture;
+  return filtered(texture);
 }
 
 /// Where there is a picture of holes strands are drawn twice: what is there for the most part as if it were
@@ -37,70 +37,9 @@ function materialsOf(look) {
   ];
 }
 
-/// Colours and holes in one small picture, looked up without filters.
-function cheapTextureOf({ map, alphaMap }) {
-  const { width, height } = (map ?? alphaMap).image;
-  const scale = Math.min(1, cheapTexels / Math.max(width, height));
-  const canvas = document.createElement('canvas');
-  canvas.width = Math.max(1, Math.round(scale * width));
-  canvas.height = Math.max(1, Math.round(scale * height));
-  const context = canvas.getContext('2d', { willReadFrequently: true });
-  const read = ({ image }) => {
-    context.drawImage(image, 0, 0, canvas.width, canvas.height);
-    return context.getImageData(0, 0, canvas.width, canvas.height);
-  };
-  const pixels = map ? read(map) : new ImageData(new Uint8ClampedArray(4 * canvas.width * canvas.height).fill(255), canvas.width);
-  if (alphaMap) {
-    const { data } = read(alphaMap);
-    for (let i = 0; i < data.length; i += 4) pixels.data[i + 3] = data[i + 1];
-  }
-  const texture = new DataTexture(pixels.data, canvas.width, canvas.height);
-  texture.flipY = true;
-  texture.colorSpace = SRGBColorSpace;
-  texture.wrapS = (map ?? alphaMap).wrapS;
-  texture.wrapT = texture.wrapS;
-  texture.needsUpdate = true;
-  return texture;
-}
-
-/// The same in one pass, lit at vertices: where no graphics card draws, pixels are dear.
-function cheapMaterialOf(look) {
-  const plain = look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour);
-  return new ShaderMaterial({
-    side: DoubleSide,
-    defines: look.map || look.alphaMap ? { WITH_PICTURE: '' } : {},
-    uniforms: { plain: { value: plain }, picture: { value: look.map || look.alphaMap ? cheapTextureOf(look) : null } },
-    vertexShader: `
-      attribute vec3 shade;
-      varying vec3 vLight;
-      varying vec2 vPlace;
-      void main() {
-        #ifdef WITH_PICTURE
-          vPlace = uv;
-        #endif
-        vLight = 2.0 * shade;
-        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-      }`,
-    fragmentShader: `
-      varying vec3 vLight;
-      varying vec2 vPlace;
-      uniform vec3 plain;
-      uniform sampler2D picture;
-      void main() {
-        vec3 light = plain * vLight;
-        #ifdef WITH_PICTURE
-          vec4 texel = texture2D(picture, vPlace);
-          if (texel.a < ${solid.toFixed(1)}) discard;
-          light *= texel.rgb;
-        #endif
-        gl_FragColor = vec4(light, 1.0);
-        #include <colorspace_fragment>
-      }`,
-  });
-}
-
 /// A part of one material, to be put on one face after the other.
-async function preparePart(data) {
+/// \param software  whether it moves in a cheap form
+async function preparePart(data, software) {
   const numbers = (text) => new Uint32Array(bytesOf(text).buffer);
   const geometry = new BufferGeometry();
   const triangles = numbers(data.triangles);
@@ -115,12 +54,39 @@ async function preparePart(data) {
       data.picture ? pictureAt(data.picture, { colours: true, repeated }) : null,
       data.opacity ? pictureAt(data.opacity, { repeated }) : null]);
   }
-  const object = new Group();
-  for (const material of materialsOf(look)) object.add(new Mesh(geometry, material));
-  const cheap = new Mesh(geometry, cheapMaterialOf(look));
-  cheap.name = 'cheap';
-  object.add(cheap);
-  return { object, geometry, triangles, twins: numbers(data.twins), vertices: data.vertices };
+  const part = { object: new Group(), geometry, triangles, twins: numbers(data.twins), vertices: data.vertices };
+  if (software) return { ...part, ...formsOf(part, numbers(data.draft), look) };
+  for (const material of materialsOf(look)) part.object.add(new Mesh(geometry, material));
+  return part;
+}
+
+/// Where pages draw in software, light is computed at vertices, for the whole as for what moves.
+/// \param coarse  triangles of what moves
+function formsOf({ object, geometry, triangles }, coarse, look) {
+  const plain = (look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour)).toArray();
+  const [whole, draft] = [triangles, coarse].map((all) => {
+    const form = new Draft({ triangles: all, uvs: geometry.getAttribute('uv')?.array, kind: 'attachment', isDouble: [true] });
+    form.setPicture(0, look.map ?? null, { alphaMap: look.alphaMap ?? null, factor: plain });
+    const [material] = form.materials;
+    if (!look.alphaMap && look.share < 1) {
+      Object.assign(material, { transparent: true, depthWrite: false });
+      material.uniforms.share.value = look.share;
+    }
+    object.add(form.node);
+    return form;
+  });
+  draft.node.name = 'draft';
+  if (look.alphaMap) {
+    const [solidly] = whole.materials;
+    const soft = solidly.clone();
+    Object.assign(soft, { transparent: true, depthWrite: false });
+    soft.defines.SOFT = '';
+    soft.uniforms = { ...solidly.uniforms, least: { value: 0.02 }, share: { value: look.share } };
+    const tips = new Mesh(whole.geometry, soft);
+    tips.name = geometry.index.count > smallest ? 'soft' : '';
+    object.add(tips);
+  }
+  return { whole, draft, colourAt: (_, colour) => plain.forEach((value, c) => { colour[c] = value; }) };
 }
 
 /// \param packed  steps from the frame's low corner: three numbers of 16 bits a vertex.
@@ -128,59 +94,80 @@ export function pointsOf(packed, { low, step }) {
   return Float32Array.from(new Uint16Array(bytesOf(packed).buffer), (value, i) => low[i % 3] + step * value);
 }
 
+/// Where in `skin` the place stands that is nearest to each vertex: of many places only some are looked at.
+function nearestOf(vertices, points, skin) {
+  const step = 3 * Math.max(1, Math.round((vertices.length * (skin.length / 3)) / mostPairs));
+  return Uint32Array.from(vertices, (v) => {
+    const [x, y, z] = [points[3 * v], points[3 * v + 1], points[3 * v + 2]];
+    let nearest = 0;
+    let least = Infinity;
+    for (let s = 0; s < skin.length; s += step) {
+      const square = (skin[s] - x) ** 2 + (skin[s + 1] - y) ** 2 + (skin[s + 2] - z) ** 2;
+      if (square < least) [least, nearest] = [square, s];
+    }
+    return nearest;
+  });
+}
+
 export class Worn {
-  constructor() {
+  /// \param software  whether pages draw without a graphics card
+  constructor(software) {
+    this.software = software;
     this.node = new Group();
     this.kept = new Map();
-    this.cheap = false;
+    this.parts = [];
+    this.form = 'whole';
   }
 
   /// Of what was prepared once pictures and triangles stay.
   /// \param load  gives its data, or a promise of it.
   prepare(name, load) {
     if (!this.kept.has(name)) {
-      const parts = Promise.resolve(load()).then((data) => Promise.all(data.map(preparePart)));
+      const parts = Promise.resolve(load()).then((data) => Promise.all(data.map((part) => preparePart(part, this.software))));
       parts.catch(() => this.kept.delete(name)); // to be tried again
       this.kept.set(name, parts);
     }
     return this.kept.get(name);
   }
 
-  /// \param on  whether all is drawn in the cheap form
-  setCheap(on) {
-    this.cheap = on;
+  /// \param form  draft, solid (without what is hardly there) or whole
+  setForm(form) {
+    this.form = form;
     for (const part of this.node.children) {
-      for (const mesh of part.children) mesh.visible = (mesh.name === 'cheap') === on;
+      for (const mesh of part.children) mesh.visible = (mesh.name === 'draft') === (form === 'draft') && !(mesh.name === 'soft' && form === 'solid');
     }
   }
 
-  /// Lights the cheap form.
+  /// Lights what is lit at vertices.
   shade(camera, group) {
-    const light = lightIn(camera, group, 'attachment');
-    const { sky } = surfaces.attachment;
-    const [key, open] = [keyShare(sky), withBounces(sky, typicalAlbedo)];
-    const ahead = camera.getWorldDirection(new Vector3()).transformDirection(group.matrixWorld.clone().invert());
-    const sum = [0, 0, 0];
-    for (const { children: [{ geometry }] } of this.node.children) {
-      const normals = geometry.getAttribute('normal').array;
-      const shades = geometry.getAttribute('shade') ?? new BufferAttribute(new Uint8Array(normals.length), 3, true);
-      for (let i = 0; i < normals.length; i += 3) {
-        const [x, y, z] = [normals[i], normals[i + 1], normals[i + 2]];
-        const side = x * ahead.x + y * ahead.y + z * ahead.z > 0 ? -1 : 1; // that is seen
-        light(side * x, side * y, side * z, sky, key, open, sum);
-        for (let c = 0; c < 3; c += 1) shades.array[i + c] = Math.min(127.5 * sum[c], 255);
-      }
-      shades.needsUpdate = true;
-      geometry.setAttribute('shade', shades);
+    if (!this.node.visible) return;
+    for (const { whole, draft, normals, colourAt } of this.parts) (this.form === 'draft' ? draft : whole)?.light(camera, group, normals, 3, colourAt);
+  }
+
+  /// The cheap form goes along with the skin that is nearest to it.
+  /// \param skin  places of some vertices of the skin; in `show` they were elsewhere
+  follow(skin) {
+    for (const part of this.parts) {
+      const { draft, own } = part;
+      part.near ??= nearestOf(draft.vertices, own, this.skin);
+      const to = draft.positions.array;
+      draft.vertices.forEach((v, i) => {
+        for (let c = 0; c < 3; c += 1) to[3 * i + c] = own[3 * v + c] + skin[part.near[i] + c] - this.skin[part.near[i] + c];
+      });
+      draft.positions.needsUpdate = true;
     }
   }
 
-  /// \param all  [parts, points] of each that a face wears; points as `pointsOf` gives them.
-  show(all) {
+  /// \param all   [parts, points] of each that a face wears; points as `pointsOf` gives them.
+  /// \param skin  as of `follow`; may be missing
+  show(all, skin) {
     this.node.clear();
+    this.parts = [];
+    this.skin = skin?.slice();
     for (const [parts, points] of all) {
       let at = 0;
-      for (const { object, geometry, triangles, twins, vertices } of parts) {
+      for (const part of parts) {
+        const { object, geometry, triangles, twins, vertices } = part;
         const own = points.slice(at, at + 3 * vertices);
         at += own.length;
         const normals = new Float32Array(own.length);
@@ -188,9 +175,11 @@ export class Worn {
         geometry.setAttribute('position', new BufferAttribute(own, 3));
         geometry.setAttribute('normal', new BufferAttribute(normals, 3));
         geometry.computeBoundingSphere();
+        for (const form of [part.whole, part.draft]) form?.place(own, 3);
+        this.parts.push(Object.assign(part, { own, normals, near: null }));
         this.node.add(object);
       }
     }
-    this.setCheap(this.cheap);
+    this.setForm(this.form);
   }
 }

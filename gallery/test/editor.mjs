@@ -4,7 +4,7 @@
 // Writes the saved recipe, its file and the points on the screen to RESULT_JSON; the last line says
 // "all right".
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { openPage } from './open_page.mjs';
 import { wornPixels } from './worn_pixels.mjs';
 
@@ -63,6 +63,41 @@ await page.getByLabel('What the face wears: hat').selectOption('none');
 await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children.length === 0);
 await page.getByLabel('What the face wears: hat').selectOption('card');
 await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children.length === 1);
+
+// Without a graphics card what moves is drawn from few triangles, what is worn with it; at rest in full, with smooth
+// outlines. A pixel of the outline is neither whole nor empty.
+const resting = () => page.waitForFunction(() => !window.crowdface.editor.view.moving && !window.crowdface.editor.view.resting);
+const drawing = () => page.evaluate(() => {
+  const { view } = window.crowdface.editor;
+  view.draw();
+  const { triangles } = view.renderer.info.render;
+  const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [view.node.width, view.node.height];
+  const context = canvas.getContext('2d');
+  context.drawImage(view.node, 0, 0);
+  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+  let between = 0;
+  for (let i = 3; i < data.length; i += 4) between += data[i] > 20 && data[i] < 235 ? 1 : 0;
+  return { triangles, between, width: canvas.width };
+});
+await settled();
+await resting();
+const view = await page.locator('canvas.turntable').first().boundingBox();
+const still = await drawing();
+assert.equal(still.width, Math.round(view.width));
+assert.ok(still.between > 400, `${still.between} pixels smooth the outline`);
+await page.mouse.move(view.x + view.width / 2, view.y + view.height / 2);
+await page.mouse.down();
+for (let i = 1; i <= 6; i += 1) await page.mouse.move(view.x + view.width / 2 + i, view.y + view.height / 2);
+const moving = await drawing();
+const movingCard = await page.evaluate(`(${wornPixels})(window.crowdface.editor.view)`);
+await page.mouse.up();
+assert.ok(moving.triangles > 4000 && moving.triangles < 26000, `${moving.triangles} triangles move`);
+assert.ok(movingCard.left > 100 && movingCard.red > 0.9 * movingCard.left, `what moves is worn: ${JSON.stringify(movingCard)}`);
+await resting();
+assert.equal((await drawing()).width, still.width, 'at rest there are all pixels');
+await page.keyboard.press('f');
+await resting();
 
 // The preview is the program's face, but for what only the program does to eyes and lips.
 async function previewError() {
@@ -376,9 +411,41 @@ await page.waitForFunction(() => /^Saved: /.test(document.querySelector('.messag
 const file = (await page.locator('.message').innerText()).replace('Saved: ', '');
 const saved = await editor('editor.wire()');
 await take('saved');
+// The saved picture is the view: as it stands there, turned, at the same size.
+await canvas.focus();
+await page.keyboard.press('ArrowRight');
+await page.waitForFunction(() => !window.crowdface.editor.view.moving);
 const download = page.waitForEvent('download');
 await page.getByRole('button', { name: 'Picture', exact: true }).click();
-assert.match((await download).suggestedFilename(), /^made_by_hand_.*\.png$/);
+const downloaded = await download;
+assert.equal(downloaded.suggestedFilename(), 'made_by_hand_view.png');
+const png = readFileSync(await downloaded.path()).toString('base64');
+const differing = await page.evaluate(async (base64) => {
+  const saved = new Image();
+  saved.src = `data:image/png;base64,${base64}`;
+  await saved.decode();
+  const { view } = window.crowdface.editor;
+  const pixels = (draw) => {
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [saved.width, saved.height];
+    const context = canvas.getContext('2d');
+    draw(context);
+    return context.getImageData(0, 0, saved.width, saved.height).data;
+  };
+  const own = pixels((context) => context.drawImage(saved, 0, 0));
+  const seen = pixels((context) => { view.draw(); context.drawImage(view.node, 0, 0); });
+  let shown = 0;
+  let different = 0;
+  for (let i = 0; i < seen.length; i += 4) {
+    if (seen[i + 3] < 255) continue;
+    shown += 1;
+    if ([0, 1, 2].some((c) => Math.abs(seen[i + c] - own[i + c]) > 2)) different += 1;
+  }
+  return { size: [saved.width - view.node.width, saved.height - view.node.height], shown, different };
+}, png);
+assert.deepEqual(differing.size, [0, 0]);
+assert.ok(differing.shown > 20000 && differing.different === 0, JSON.stringify(differing));
+await page.keyboard.press('f');
 
 // Save it under the config's recipes, and say about a face of the crowd what a review says.
 const said = (pattern) => page.waitForFunction(

@@ -119,11 +119,14 @@ assert.ok(await undone.isEnabled());
 await page.keyboard.press('f');
 await page.keyboard.press('m');
 const label = await undone.getAttribute('title');
-const picture = () => page.evaluate(() => {
-  const { view } = window.crowdface.editor;
-  view.draw();
-  return view.node.toDataURL();
-});
+const picture = async () => {
+  await page.waitForFunction(() => !window.crowdface.editor.view.moving && !window.crowdface.editor.view.resting); // all is there
+  return page.evaluate(() => {
+    const { view } = window.crowdface.editor;
+    view.draw();
+    return view.node.toDataURL();
+  });
+};
 await settled();
 const bare = await picture();
 const canvas = await page.locator('canvas.turntable').boundingBox();

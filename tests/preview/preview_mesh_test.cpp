@@ -130,5 +130,25 @@ TEST(PreviewMesh, RefusesMarksOfOtherFaces) {
                   .triangles.empty());
 }
 
+TEST(PreviewMesh, DraftHasFewerTrianglesOverTheSameVerticesAndNoneAcrossATear) {
+  const Mesh sheet = torn_sheet();
+  const PreviewMesh mesh = preview_mesh(sheet.topology, sheet.uvs, sheet.positions, {}, 100'000);
+  PreviewMesh draft = mesh;
+  draft.triangles = draft_triangles(mesh, sheet.positions, 200);
+  EXPECT_LE(draft.triangles.size() / 3, 200U);
+  EXPECT_GE(draft.triangles.size() / 3, 50U);
+  double area = 0;
+  for (std::size_t t = 0; t < draft.triangles.size() / 3; ++t) {
+    const auto [left, right] = width_of(draft, t, sheet);
+    EXPECT_FALSE(left < kTear && right > kTear);
+    std::array<Eigen::Vector3d, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c] = sheet.positions.row(draft.vertices[draft.triangles[3 * t + c]]).transpose();
+    }
+    area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).z() / 2;
+  }
+  EXPECT_NEAR(area, kColumns * kRows, 1e-6);  // nothing is left out
+}
+
 }  // namespace
 }  // namespace crowdface

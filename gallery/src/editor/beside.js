@@ -96,7 +96,7 @@ export class Beside {
     if (key !== this.key) return;
     const { editor, view } = this;
     view.blend(coefficients(editor.job, document, editor.heads), targetShares(editor.job, document.recipe), face);
-    view.worn.show(await Promise.all(face.worn.map(async (name) =>
+    view.wear(await Promise.all(face.worn.map(async (name) =>
       [await view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]])));
     view.worn.node.visible = true;
     await view.setSkin(skin);

@@ -27,7 +27,7 @@ export class Exact {
     const began = performance.now();
     try {
       const face = await postForBinary('face', {
-        ...asked, measure: true, page: this.page, turn,
+        measure: true, ...asked, page: this.page, turn,
       }, running.signal);
       if (turn !== this.turn || this.running !== running) return;
       this.running = null;

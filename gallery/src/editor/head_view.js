@@ -2,13 +2,14 @@
 // The face in 3D: blended on the card or on the processor, whichever a measurement finds faster,
 // shown with its surfaces' colours, a texture, its distance to the target, or its regions.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshBasicMaterial, Ray, Sphere, SRGBColorSpace, Texture,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, FrontSide, Mesh, MeshBasicMaterial, Ray, Sphere, SRGBColorSpace, Texture,
   TextureLoader, Vector2, Vector3,
 } from 'three';
-import { drawsInSoftware, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from '../stage.js';
+import { eyeShader, eyeUniforms, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from '../stage.js';
+import { filtered } from '../software.js';
 import { extend, surfaces } from '../studio.js';
 import { CardBlend, fitsOnCard } from './card_blend.js';
-import { Draft } from './draft.js';
+import { Draft } from '../draft.js';
 import { ProcessorBlend } from './processor_blend.js';
 import { hitTriangle } from '../hit.js';
 import { Worn } from '../worn.js';
@@ -76,16 +77,14 @@ async function textureOf(bytes, { colours }) {
   const texture = new Texture(bitmap);
   texture.flipY = false; // the bitmap is
   if (colours) texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = 4;
   texture.needsUpdate = true;
-  return texture;
+  return filtered(texture);
 }
 
 export class HeadView extends Stage {
   /// \param job  of the server; \param mesh  api/mesh.
   constructor(job, mesh) {
-    const software = drawsInSoftware();
-    super({ pan: true, software, antialias: !software });
+    super({ pan: true });
     Object.assign(this, { job, mesh, show: 'surface', showMm: 6, textures: new Map(), loaded: [] });
     this.uniforms = {
       facePoints: { value: null },
@@ -97,15 +96,13 @@ export class HeadView extends Stage {
     this.blender = new ProcessorBlend(mesh, job.regions.length);
     this.geometry = this.makeGeometry();
     this.skinLightness = { value: 0 };
-    this.material = skinMaterial({ sky: true, lightness: this.skinLightness });
+    this.material = skinMaterial({ sky: true, lightness: this.skinLightness, side: this.software ? FrontSide : DoubleSide });
     const layout = layoutOf(mesh.vertices);
     mapWhereTextured(this.material);
     fetchFace(this.material, this.uniforms, layout);
     if (mesh.eyes) paintEyes(this.material, this.geometry, mesh.eyes, mesh.head.eyes);
     roughAtVertices(this.material);
-    // Skin and parts are drawn apart: while skin moves as a draft, the few triangles of eyes stay painted.
-    this.object = new Mesh(this.geometry, [this.material, this.material]);
-    if (this.software) this.prepareDraft();
+    this.object = new Mesh(this.geometry, this.material);
     this.object.frustumCulled = false;
     const lines = new MeshBasicMaterial({
       color: 0x101214, wireframe: true, transparent: true, opacity: 0.55, side: DoubleSide, toneMapped: false,
@@ -117,8 +114,9 @@ export class HeadView extends Stage {
     this.lines = new Mesh(this.geometry, lines);
     this.lines.frustumCulled = false;
     this.lines.visible = false;
-    this.worn = new Worn();
+    this.worn = new Worn(this.software);
     this.group.add(this.object, this.lines, this.worn.node);
+    if (this.software) this.prepareDraft();
     this.stand({ up: job.up, front: job.front, box: [mesh.low, mesh.high] });
     this.take(this.blender);
     this.view('front');
@@ -127,18 +125,7 @@ export class HeadView extends Stage {
   makeGeometry() {
     const { mesh } = this;
     const geometry = new BufferGeometry();
-    const index = new Uint32Array(mesh.triangles.length);
-    let filled = 0;
-    for (const wanted of [0, 1]) {
-      const first = filled;
-      for (let t = 0; t < index.length; t += 3) {
-        if ((mesh.part?.[mesh.triangles[t]] ? 1 : 0) !== wanted) continue;
-        for (let c = 0; c < 3; c += 1) index[filled + c] = mesh.triangles[t + c];
-        filled += 3;
-      }
-      geometry.addGroup(first, filled - first, wanted);
-    }
-    geometry.setIndex(new BufferAttribute(index, 1));
+    geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
     const { vertices } = mesh;
     this.isTextured = mesh.textured ?? new Uint8Array(vertices);
     geometry.setAttribute('textured', new BufferAttribute(this.isTextured, 1));
@@ -155,8 +142,16 @@ export class HeadView extends Stage {
   }
 
   prepareDraft() {
-    this.draft = new Draft(this.geometry, this.blender, this.surfaceColours, this.isTextured,
-      this.uniforms.distanceColours.value);
+    const { mesh } = this;
+    this.draft = new Draft({
+      triangles: mesh.draft, uvs: mesh.uv, kind: 'skin', looks: 2, isDouble: [false, true],
+      lookOf: (v) => (mesh.part?.[v] ? 1 : 0), // lashes are seen from both sides
+      eyes: mesh.eyes && { places: mesh.eyes, uniforms: eyeUniforms(mesh.head.eyes), ...eyeShader },
+    });
+    this.draftLines = this.draft.edges(0x101214, 0.55);
+    this.draft.addInside();
+    this.draftLines.visible = false;
+    this.group.add(this.draft.node, this.draftLines);
   }
 
   /// \param light  per vertex the root of the sky's share that it sees, in 255ths
@@ -235,7 +230,11 @@ export class HeadView extends Stage {
     const slower = wanted !== 'card' && this.measured.processor < this.measured.card ? card : processor;
     this.take(slower === card ? processor : card);
     slower.dispose();
-    if (this.blender === card) this.draft = null; // it reads the processor's arrays
+    if (this.blender !== card) return;
+    this.showDraft(false);
+    this.draft.node.visible = false;
+    this.material.side = DoubleSide;
+    this.draft = null; // it reads the processor's arrays
   }
 
   /// Milliseconds of a frame with each, few pixels, as both draw the same ones.
@@ -265,20 +264,71 @@ export class HeadView extends Stage {
   blend(lists, shares, exact = null) {
     this.blender.blend(lists, shares);
     if (exact) this.blender.settle(exact.positions, exact.normals);
-    this.draft?.moved();
+    this.isPlaced = false;
     this.draw();
   }
 
-  /// While something moves, what draws without a card leaves gloss away.
-  drawCheaply(on) {
-    if (this.draft) this.object.material = on ? [this.draft.material, this.material] : [this.material, this.material];
-    super.drawCheaply(on);
+  /// The program's own face, while heads are missing to blend one.
+  standAs({ positions, normals }) {
+    this.blender.place(positions, normals);
+    this.isPlaced = false;
+    this.draw();
+  }
+
+  showDraft(on) {
+    super.showDraft(on);
+    this.showLines();
+  }
+
+  showLines() {
+    const isDraft = Boolean(this.moving && this.draft);
+    this.lines.visible = this.wireframe && !isDraft;
+    if (this.draftLines) this.draftLines.visible = this.wireframe && isDraft;
   }
 
   draw() {
-    if (!this.object || this.silent) return;
-    if (this.moving) this.draft?.shade(this.camera, this.group, this.show, this.uniforms.farthest.value);
+    if (this.isPlaced === undefined || this.silent) return; // there is no face yet
+    if (this.draft) {
+      this.placeDraft();
+      this.draft.light(this.camera, this.group, this.blender.normals, 4, (v, colour) => this.surfaceAt(v, colour),
+        this.show === 'surface' || this.show === 'texture');
+    }
     super.draw();
+  }
+
+  /// The draft stands where the face does; what is worn goes along until the program has told its place.
+  placeDraft() {
+    if (this.isPlaced) return;
+    this.isPlaced = true;
+    this.draft.place(this.blender.points, 4);
+    if (this.worn.skin) this.worn.follow(this.draft.positions.array);
+  }
+
+  /// \param all  as of Worn.show, on the face that stands here
+  wear(all) {
+    this.isPlaced = true;
+    this.draft?.place(this.blender.points, 4);
+    this.worn.show(all, this.draft?.positions.array);
+  }
+
+  /// Writes what reflects light at a vertex where no texture shows.
+  surfaceAt(v, colour) {
+    const { show, surfaceColours } = this;
+    if (show === 'distance') {
+      const palette = this.uniforms.distanceColours.value;
+      const place = Math.min(this.blender.points[4 * v + 3] / this.uniforms.farthest.value, 1) * (palette.length - 1);
+      const low = Math.min(Math.floor(place), palette.length - 2);
+      palette[low].toArray(colour);
+      const more = place - low;
+      [palette[low + 1].r, palette[low + 1].g, palette[low + 1].b].forEach((value, c) => { colour[c] += more * (value - colour[c]); });
+      return;
+    }
+    const part = show === 'regions' ? 0.72 : 0;
+    const regions = this.geometry.getAttribute('regionColour').array;
+    for (let c = 0; c < 3; c += 1) {
+      const own = surfaceColours[3 * v + c];
+      colour[c] = own + part * (regions[3 * v + c] - own);
+    }
   }
 
   setShow(show, mm = this.showMm) {
@@ -302,11 +352,12 @@ export class HeadView extends Stage {
     colours.array.set(this.surfaceColours);
     if (map) this.isTextured.forEach((is, v) => { if (is) colours.array.fill(1, 3 * v, 3 * v + 3); });
     colours.needsUpdate = true;
-    this.draft?.setMap(map);
+    for (const look of [0, 1]) this.draft?.setPicture(look, map, { shows: (v) => this.isTextured[v] === 1 });
   }
 
   setWireframe(on) {
-    this.lines.visible = on;
+    this.wireframe = on;
+    this.showLines();
     this.draw();
   }
 
@@ -317,8 +368,7 @@ export class HeadView extends Stage {
     if (!this.textures.has(h)) {
       this.textures.set(h, new TextureLoader().loadAsync(`api/heads/${h}/texture`).then((texture) => {
         texture.colorSpace = SRGBColorSpace;
-        texture.anisotropy = 4;
-        return texture;
+        return filtered(texture);
       }));
     }
     const texture = await this.textures.get(h);
@@ -330,8 +380,10 @@ export class HeadView extends Stage {
   /// A small picture of what stands there, from the front, with its surfaces or its texture.
   picture(size = 224) {
     const { camera, controls, renderer } = this;
-    const kept = { place: this.place(), lines: this.lines.visible };
+    const kept = { place: this.place() };
     this.silent = true;
+    this.showDraft(false);
+    if (this.draft) this.draft.node.visible = false; // it may be another face's
     this.lines.visible = false;
     const { faceShow } = this.uniforms;
     const shown = faceShow.value;
@@ -347,7 +399,9 @@ export class HeadView extends Stage {
     super.draw();
     this.scene.background = null;
     const url = renderer.domElement.toDataURL('image/jpeg', 0.85);
-    this.lines.visible = kept.lines;
+    if (this.draft) this.draft.node.visible = true;
+    this.showDraft(this.moving);
+    this.showLines();
     faceShow.value = shown;
     renderer.setPixelRatio(this.ratio);
     this.restore(kept.place);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `crowdface edit`: one face, directed by hand.
-import { getBinary, getJson, post, postForBinary, postForBlob, put } from '../api.js';
+import { getBinary, getJson, post, postForBinary, put } from '../api.js';
 import { showKeys } from '../dialog.js';
 import { el, short } from '../dom.js';
 import { History } from '../history.js';
@@ -25,6 +25,8 @@ import { toolbar, viewBar } from './toolbar.js';
 
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
+const patient = 250; // ms that a draft waits for the program's face before it is drawn in full
+const again = 1000; // ms after which a page asks anew for what a face wears
 const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
@@ -53,7 +55,11 @@ class Editor extends ProgramPage {
     this.view = new HeadView(job, mesh);
     this.exact = new Exact({
       show: (face, document) => this.showExact(face, document),
-      fail: (error) => this.say(error.message, true),
+      fail: (error) => {
+        this.onItsWay = null;
+        this.view.setMoving(this.passing !== null);
+        this.say(error.message, true);
+      },
       waiting: (waits) => this.status?.classList.toggle('waits', waits && !this.passing),
     });
     this.measures = new Newest({
@@ -219,23 +225,34 @@ class Editor extends ProgramPage {
 
   blendNow() {
     const { document } = this;
+    this.askExact(document);
     const shares = targetShares(this.job, document.recipe);
+    const isMissing = shares.some((share, h) => share !== 0 && !this.heads[h]); // it comes with the head
+    if (isMissing || (!this.ready && this.exactOf === document)) return;
     const key = shares.join();
-    if (key !== this.shares) {
-      if (shares.some((share, h) => share !== 0 && !this.heads[h])) return; // it comes with the head
+    const isOther = key !== this.shares;
+    if (isOther) {
       this.shares = key;
       this.view.blender.unsettle();
       this.showTexture();
     }
-    this.view.setMoving(this.passing !== null);
-    this.view.blend(...this.coefficientsOf(document));
-    if (this.exactOf !== document) {
-      this.exactOf = null;
-      this.view.worn.node.visible = false;
-      const recipe = wire(this.job, document);
-      if (this.passing) this.measures.ask({ recipe, face: document.face });
-      this.exact.ask(document, { recipe, face: document.face, wears: this.look.wears });
-    }
+    this.view.setMoving(this.passing !== null || this.exactOf !== document);
+    this.view.blend(...this.coefficientsOf(document), isOther && this.exactFaceOf === document ? this.exactFace : null);
+  }
+
+  /// Asks for the program's own face, unless it stands here or is on its way.
+  askExact(document) {
+    const asked = JSON.stringify([this.look.wears, this.masksTurn, this.ready]);
+    if (this.exactOf === document) return;
+    this.exactOf = null;
+    if (this.onItsWay?.document === document && this.onItsWay.asked === asked) return;
+    this.onItsWay = { document, asked };
+    if (!this.view.draft) this.view.worn.node.visible = false;
+    const recipe = wire(this.job, document);
+    if (this.passing) this.measures.ask({ recipe, face: document.face });
+    this.exact.ask(document, { recipe, face: document.face, wears: this.look.wears, measure: Boolean(this.ready) });
+    clearTimeout(this.holding);
+    this.holding = setTimeout(() => this.view.setMoving(this.passing !== null), patient);
   }
 
   /// What a blend takes of a document: coefficients by regions, and the target's shares.
@@ -244,14 +261,24 @@ class Editor extends ProgramPage {
   }
 
   showExact(face, document) {
+    this.onItsWay = null;
     if (document !== this.document) return;
     this.exactOf = document;
-    const shares = targetShares(this.job, document.recipe);
-    if (shares.some((share, h) => share !== 0 && !this.heads[h])) return;
-    this.view.blend(...this.coefficientsOf(document), face);
     this.exactFace = face;
-    this.tell(face);
+    this.exactFaceOf = document;
+    if (this.ready) this.view.blend(...this.coefficientsOf(document), face);
+    else this.view.standAs(face);
+    if (face.nearest_head) this.tell(face);
     this.attempt(() => this.showWorn(face));
+    if (face.bare) {
+      setTimeout(() => {
+        if (this.exactOf !== document) return;
+        this.exactOf = null;
+        this.refresh();
+      }, again);
+    }
+    if (this.skinOf?.document === document && this.skinOf.masksTurn === this.masksTurn) return;
+    this.skinOf = { document, masksTurn: this.masksTurn };
     this.skin.ask({ recipe: wire(this.job, document) });
   }
 
@@ -260,9 +287,10 @@ class Editor extends ProgramPage {
     const all = await Promise.all(face.worn.map(async (name) =>
       [await this.view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]]));
     if (this.exactFace !== face || !this.exactOf) return;
-    this.view.worn.show(all);
+    this.view.wear(all);
     this.view.worn.node.visible = !this.painting?.on;
-    this.view.draw();
+    if (this.view.moving) this.view.setMoving(this.passing !== null);
+    else this.view.draw();
   }
 
   /// \param choice  draw, none or a name.
@@ -471,10 +499,10 @@ class Editor extends ProgramPage {
     const all = await Promise.all(face.worn.map(async (item) =>
       [await view.worn.prepare(item, () => getJson(`attachments/${item}`)), face[`worn ${item}`]]));
     view.worn.show(all);
-    view.worn.setCheap(view.software);
+    view.worn.setForm(view.software ? 'draft' : 'whole');
     view.worn.node.visible = true;
     const picture = view.picture();
-    view.worn.setCheap(false);
+    view.worn.setForm(view.moving ? 'draft' : 'whole');
     this.exactOf = null;
     this.refresh();
     return picture;
@@ -547,14 +575,13 @@ class Editor extends ProgramPage {
   }
 
   async savePicture() {
-    const angle = this.view.angle();
-    const nearest = [['front', 0], ['three_quarter', 35], ['profile', 90]]
-      .sort((a, b) => Math.abs(Math.abs(angle) - a[1]) - Math.abs(Math.abs(angle) - b[1]))[0][0];
-    const blob = await postForBlob('picture', { recipe: this.wire(), view: nearest, size: 1024 });
-    const link = el('a', { download: `${this.document.recipe.id}_${nearest}.png`, href: URL.createObjectURL(blob) });
+    const picture = this.view.photograph();
+    const blob = await new Promise((done) => { picture.toBlob(done, 'image/png'); });
+    const name = `${this.document.recipe.id}_view.png`;
+    const link = el('a', { download: name, href: URL.createObjectURL(blob) });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-    this.say(`A picture of the ${nearest.replace('_', '-')} view is saved beside the mesh.`);
+    this.say(`Saved what the view shows: ${name}`);
   }
 
   putBack() { showPutBack(this); }
@@ -604,8 +631,9 @@ class Editor extends ProgramPage {
 
   // -- heads --
 
-  /// The target's first, then the others; what is shown gets better with each.
+  /// The program's face comes first; for its next change it needs heads, the target's before the others.
   async load() {
+    this.refresh();
     const shares = targetShares(this.job, this.document.recipe);
     const order = this.job.heads.map((_, h) => h).sort((a, b) => shares[b] - shares[a]);
     for (const h of order) {
@@ -613,15 +641,15 @@ class Editor extends ProgramPage {
       this.heads[h] = head;
       this.view.setHead(h, head);
       this.beside.view?.setHead(h, head);
-      this.refresh();
+      if (this.exactOf !== this.document) this.refresh();
     }
     const [{ name }] = this.job.regions;
     this.view.chooseBlend((strength) => this.coefficientsOf(
       this.withRegions(name, (region) => ({ ...region, extrapolation: strength }))),
     new URLSearchParams(location.search).get('blend'));
     this.shares = null;
-    this.exactOf = null;
     this.ready = true;
+    this.exactOf = null; // now with what it wears and its measurements
     this.refresh();
     this.offerPainting();
     this.light = (await getBinary('light')).light;

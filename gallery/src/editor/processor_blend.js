@@ -122,6 +122,14 @@ export class ProcessorBlend {
     this.finish();
   }
 
+  /// The program's own face, while heads are missing to blend one.
+  place(positions, given) {
+    this.points.set(padded(positions, this.layout));
+    this.normals.set(padded(given, this.layout));
+    this.pointTexture.needsUpdate = true;
+    this.normalTexture.needsUpdate = true;
+  }
+
   /// Forgets what the program's last face had: the target is another.
   unsettle() {
     this.moved.fill(0);

@@ -252,7 +252,11 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
   const std::string opened = opened_in(body);
   answer.head["worn"] = Json::array();
-  for (const PlacedAttachment& one : placed_.attachments_of(face, opened, chosen, positions)) {
+  const bool is_bare = !placed_.are_bound();  // the page asks again
+  answer.head["bare"] = is_bare;
+  for (const PlacedAttachment& one :
+       is_bare ? std::vector<PlacedAttachment>()
+               : placed_.attachments_of(face, opened, chosen, positions)) {
     const std::vector<float> places = placed_.points(one);
     const std::string name = one.look().name();
     answer.head["worn"].push_back(name);

@@ -2,6 +2,8 @@
 #include "crowdface/editor/edit_attachments.h"
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 
 #include "crowdface/cast/attachment_draw.h"
 #include "crowdface/core/error.h"
@@ -54,6 +56,10 @@ FacePlan EditAttachments::drawn_for(const FacePlan& face, const std::string& ope
   std::vector<FacePlan> alone = {face};
   draw_attachments(attachment_draw(job_.config), {}, alone);
   return alone[0];
+}
+
+bool EditAttachments::are_bound() const {
+  return bound_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& face,

@@ -29,6 +29,8 @@ class EditAttachments {
   /// \param name  see AttachmentLook::name.
   std::optional<std::string> look(const std::string& name) const;
 
+  /// Whether attachments_of can answer at once: binding them to the heads takes a while.
+  bool are_bound() const;
   /// The attachments of a face.
   /// \param face    the edited face; determines the attachments that are drawn for it
   /// \param opened  id of the crowd's face from which the edit began, whose attachments the face

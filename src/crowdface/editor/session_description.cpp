@@ -26,6 +26,8 @@ using Json = nlohmann::ordered_json;
 /// Number of steps on the square-root scale of the sliders.
 constexpr int kLevels = 256;
 
+constexpr std::size_t kMaxDraftTriangles = 12'000;
+
 double smoothness_at(int step) {
   const double root = static_cast<double>(step) / kLevels;
   return root * root;
@@ -202,6 +204,7 @@ std::string EditSession::mesh() const {
     answer.add(name, std::span(values));
   };
   add("triangles", preview_.triangles);
+  add("draft", draft_triangles(preview_, mean, kMaxDraftTriangles));
   add("colours", colours);
   add("alpha", masks);
   if (!preview_.uvs.empty()) add("uv", preview_.uvs);

@@ -27,6 +27,7 @@ using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMaxTriangles = 24'000;
+constexpr std::size_t kMaxDraftTriangles = 12'000;
 /// Limit for triangles behind closed lips: teeth and the lining of the mouth are finer than the
 /// face.
 constexpr std::size_t kMaxHidden = 2'000;
@@ -169,6 +170,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   // Reduce to the limit; hidden triangles get a smaller one.
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
+  draft_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);
   for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
   colours_ =
       surface_colours(topology, surfaces, mean, config.faces.front)(mesh_.vertices, kAllColumns);
@@ -287,6 +289,7 @@ std::string GalleryMeshes::shared_script() const {
   json["step"] = frame_.step;
   json["box"] = {to_json(low_), to_json(high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
+  json["draft"] = base64(little_endian(draft_));
   json["twins"] = base64(little_endian(mesh_.twins));
   if (!mesh_.uvs.empty()) {
     json["uvs"] = base64(little_endian(mesh_.uvs));

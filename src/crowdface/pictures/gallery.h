@@ -61,6 +61,7 @@ class GalleryMeshes {
   const Inputs& inputs_;
   const PicturedMesh& whole_;  ///< the mesh before reduction
   PreviewMesh mesh_;
+  std::vector<std::uint32_t> draft_;  ///< draft_triangles of mesh_
   VertexFaces around_;
   PackingFrame frame_;
   ShownAttachments attachments_;

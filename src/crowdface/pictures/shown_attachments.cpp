@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// Limit for all materials of an attachment together. A vertex takes 8 bytes of text per face.
 constexpr std::size_t kMaxAttachmentTriangles = 24'000;
+constexpr std::size_t kMaxDraftTriangles = 6'000, kMinDraftTriangles = 300;
 constexpr int kMaxAttachmentTexels = 512;
 
 /// The numbers of the vertices that move by at least `least`, 4 bytes each, followed by their
@@ -37,10 +38,16 @@ std::string packed_moves(std::span<const std::uint32_t> shown, const Displacemen
   return little_endian(vertices) + moves;
 }
 
-Json part_to_json(const PreviewMesh& mesh, const AttachmentMaterial& material) {
+/// \param positions  of the attachment's file
+Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
+                  const AttachmentMaterial& material) {
   Json json;
   json["vertices"] = mesh.vertices.size();
   json["triangles"] = base64(little_endian(mesh.triangles));
+  const std::size_t most =
+      kMaxDraftTriangles * mesh.triangles.size() / (3 * kMaxAttachmentTriangles);
+  json["draft"] = base64(little_endian(
+      draft_triangles(mesh, positions, std::max<std::size_t>(kMinDraftTriangles, most))));
   json["twins"] = base64(little_endian(mesh.twins));
   if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian(mesh.uvs));
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
@@ -77,7 +84,7 @@ std::string ShownAttachments::look(const AttachmentLook& look,
   const Parts& meshes = parts(*look.item);
   Json json = Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    json.push_back(part_to_json(meshes[m], surface.materials()[m]));
+    json.push_back(part_to_json(meshes[m], look.item->file.positions, surface.materials()[m]));
     if (look.colour) json.back()["tint"] = look.tint();
   }
   return json.dump();

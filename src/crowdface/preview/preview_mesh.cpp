@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crowdface/core/require.h"
+#include "crowdface/mesh/all_columns.h"
 #include "crowdface/preview/reduced_mesh.h"
 
 namespace crowdface {
@@ -50,6 +51,20 @@ PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
     }
   }
   return mesh;
+}
+
+std::vector<std::uint32_t> draft_triangles(const PreviewMesh& mesh, const Positions& typical,
+                                           std::size_t max_triangles) {
+  std::vector<Triangle> triangles(mesh.triangles.size() / 3);
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    triangles[c / 3][c % 3] = mesh.triangles[c];
+  }
+  const Positions positions = typical(mesh.vertices, kAllColumns);
+  std::vector<std::uint32_t> draft;
+  for (const Triangle& triangle : reduce_triangles(triangles, positions, max_triangles)) {
+    draft.insert(draft.end(), triangle.begin(), triangle.end());
+  }
+  return draft;
 }
 
 }  // namespace crowdface

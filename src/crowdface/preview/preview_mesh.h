@@ -38,4 +38,11 @@ PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs
 PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
                        const TextureCoordinates& uvs);
 
+/// A coarser mesh over the same vertices, for pages that draw without a graphics card while something
+/// moves: triples of indices into `mesh.vertices`.
+/// \param typical        #V of the whole mesh by 3.
+/// \param max_triangles  approximate largest number of triangles.
+std::vector<std::uint32_t> draft_triangles(const PreviewMesh& mesh, const Positions& typical,
+                                           std::size_t max_triangles);
+
 }  // namespace crowdface
