@@ -14,8 +14,8 @@ namespace crowdface {
 /// CastingResult::changed. If a face cannot be drawn, sets the shortfall.
 ///
 /// - A face that is drawn again keeps its group and its age, unless it gets another group. It keeps
-///   the crowd's distances from the faces before it in the plan, as they were first cast. So it
-///   stays as it is when the crowd grows or other faces are redrawn.
+///   the crowd's distances from the first versions of the faces before it in the plan. So it does
+///   not change when the crowd grows or other faces are redrawn.
 /// - A variant is a mixture of the other face, as it is before these changes, and a drawn face on
 ///   the same target, at the asked distance from the other face.
 /// - With limits on measurements only, the face is a mixture of itself and a drawn face that meets

@@ -11,15 +11,15 @@ namespace crowdface {
 /// Reviews to apply one after the other.
 struct MergedReviews {
   std::vector<Review> reviews;
-  /// What reviews that were made at the same time disagree about, a line for each face.
+  /// Disagreements between reviews that were made at the same time, a line for each face.
   std::vector<std::string> conflicts;
 };
 
-/// Merges reviews that were made at the same time: a review that does not know an earlier one (see
-/// Review::after). What both ask for applies once: a face that both reject is redrawn once, and
-/// equal keys of changes apply once. Both notes stay. If they disagree,
+/// Merges reviews that were made at the same time, without seeing each other's results (see
+/// Review::after). Equal requests apply once: a face that both reviews reject is redrawn once, and
+/// equal keys of changes apply once. Both notes stay. If two reviews disagree,
 ///
-/// - a face that only one of them rejects is redrawn;
+/// - a face that only one review rejects is redrawn;
 /// - of two rejections with other locked parts, the earlier review's applies;
 /// - of two changes of the same key, the later review's applies last.
 MergedReviews merged_reviews(const std::vector<Review>& reviews);

@@ -8,10 +8,10 @@
 
 namespace crowdface {
 
-/// Steers casting so that measurements of a crowd have asked distributions. Of several candidates
-/// the one is chosen with which the crowd so far comes nearest to them: the sum over the traits of
-/// the root mean square differences between both cumulative distributions (after Cramér and von
-/// Mises, on a grid) is smallest. Roots keep a distribution that the heads cannot reach from
+/// Steers casting so that measurements of a crowd have asked distributions. Chooses the candidate
+/// that brings the crowd so far nearest to these distributions: the sum over the traits of the root
+/// mean square differences between both cumulative distributions (after Cramér and von Mises, on a
+/// grid) is smallest. Roots keep a distribution that the heads cannot reach from
 /// outweighing the others. A choice depends on earlier faces only, so a larger crowd changes none.
 class PopulationBalance {
  public:

@@ -12,12 +12,12 @@ namespace crowdface {
 /// A band of a region, whose weights may change.
 struct SteeredBand {
   std::size_t region = 0, band = 0;
-  std::vector<Index> heads;  ///< that may lend to the band, ascending
+  std::vector<Index> heads;  ///< heads that may lend to the band, ascending
 };
 
-/// Changes weights such that a measurement comes as near to a value as these heads allow. Of all such changes,
-/// takes the one with the smallest sum of squares: Newton steps along the gradient, projected onto
-/// the weights that are not negative and sum to one. Bands that hardly change the measurement stay
+/// Changes weights so that a measurement comes as near to a value as these heads allow, with the
+/// smallest sum of squared changes: Newton steps along the gradient, projected onto weights that
+/// are not negative and sum to one. Bands that hardly change the measurement stay
 /// as they are; bands that change lose their position.
 /// \param measure  the measurement of a recipe; thread-safe
 Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double wanted,

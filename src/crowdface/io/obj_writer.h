@@ -19,7 +19,7 @@ namespace crowdface {
 /// \throws InvalidInput if positions are not #V by 3 or not finite.
 EncodedFile encode_obj_like(const ObjFile& target, const Topology& topology,
                             const Positions& positions, const std::string& what);
-/// Writes such a copy.
+/// Writes the text that encode_obj_like returns.
 /// \return digest of the bytes written.
 /// \throws InvalidInput like encode_obj_like; CannotCreate, IoError.
 Digest write_obj_like(const ObjFile& target, const Topology& topology, const Positions& positions,

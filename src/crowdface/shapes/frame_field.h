@@ -45,7 +45,7 @@ class FrameField {
     Eigen::Vector3d middle;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// factor on the whole skin's map, which fills in what the samples do not determine
+    /// factor on the whole skin's map, which fills directions that the samples do not determine
     Eigen::Matrix3d rest;
   };
   struct Share {

@@ -45,7 +45,7 @@ class SkinOverParts {
   struct Covered {
     std::uint32_t vertex;
     Triangle over;
-    /// the covering triangle and the triangles around it; on a face, one of them covers the vertex
+    /// `over` and the triangles around it, of which one covers the vertex on each face
     std::vector<Triangle> near;
     double depth;  ///< depth below the skin that the vertex should have
   };
