@@ -12,6 +12,7 @@ namespace crowdface::cli {
 /// The command line of `wrap`.
 struct WrapCommand : CommonOptions, WrapOptions {
   std::string first;       ///< the template, without --batch
+  std::string shard_text;  ///< part of the batch, such as 2/7
   std::string port = "0";  ///< TCP port of the page of --pick; 0: any free port
   bool pick = false, no_browser = false;
 };

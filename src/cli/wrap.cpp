@@ -15,6 +15,7 @@ WrapCommand sorted(WrapCommand options) {
     throw UsageError("--pick: expected no -o, --output, because --pick wraps nothing");
   }
   if (!options.pick && options.out.empty()) throw UsageError("-o, --output is required");
+  options.shard = shard_from(options.shard_text);
   if (options.batch.empty()) {
     if (options.first.empty() || options.scan.empty() || !options.shape.empty()) {
       throw UsageError("expected TEMPLATE.obj and SCAN, or --batch with --template");
@@ -38,6 +39,9 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
              "A folder of scans, with the landmarks of each scan in NAME.yaml");
   add_option(command, "--template", options.shape, "TEMPLATE.obj",
              "With --batch: the template head");
+  add_option(command, "--shard", options.shard_text, "I/N",
+             "Wrap only part I of N of the batch; several machines may share one output folder")
+      .needs("--batch");
   add_option(command, "--landmarks", options.landmarks, "FILE",
              "A YAML file with template: {NAME: vertex}, numbered from 0, and scan: {NAME: [x, y, "
              "z]}; or only the landmarks of the scan, as .pp (MeshLab), CSV, JSON or .npy; or "

@@ -84,6 +84,37 @@ TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {
   EXPECT_TRUE(fs::exists(folder_ / "out/person_3.obj"));
 }
 
+TEST_F(Wrap, ShardsShareABatchAndThePageShowsTheMostDoubtfulFirst) {
+  for (int i = 2; i <= 3; ++i) {
+    fs::copy(head(i), scans_ / concat("person_", i, ".obj"));
+    folder_.write(concat("scans/person_", i, ".yaml"), concat("scan: ", kPlaces));
+  }
+  const auto shard = [&](const std::string& part) {
+    return std::vector<std::string>{
+        "wrap",           "--batch",       scans_.string(),     "--template",
+        head(1).string(), "--landmarks",   landmarks_.string(), "-o",
+        folder_ / "out",  "--no-pictures", "--shard",           part};
+  };
+  crowdface(0, shard("2/2"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/person_2.obj"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/person_3.obj"));
+  std::string page = read_file(folder_ / "out/reports/index.html");
+  EXPECT_LT(page.find("<h2>person_2.obj</h2>\n<p>No head."), page.find("<h2>person_3.obj"));
+  crowdface(0, shard("1/2"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/person_2.obj"));
+  // The report decides the order: the doubtful head is first.
+  const fs::path report = folder_ / "out/reports/person_3.wrap.json";
+  std::string text = read_file(report);
+  const std::size_t mouth = text.find("\"mouth\": ", text.find("\"features\"")) + 9;
+  text.replace(mouth, text.find_first_of(",\n", mouth) - mouth, "0.31");
+  folder_.write("out/reports/person_3.wrap.json", text);
+  crowdface(0, shard("1/2"));
+  page = read_file(folder_ / "out/reports/index.html");
+  EXPECT_LT(page.find("person_3.obj"), page.find("person_2.obj"));
+  EXPECT_THAT(page, ::testing::HasSubstr("Least agreement: mouth, 0.31"));
+  crowdface(64, shard("3/2"), {"--shard"});
+}
+
 TEST_F(Wrap, RefusalsSayWhatToDo) {
   const fs::path out = folder_ / "head.obj";
   const auto with = [&](const char* name, const std::string& text) {

@@ -120,6 +120,20 @@ TEST_F(Status, ANewAttemptForgetsTheLastOnesEnd) {
   EXPECT_FALSE(end_of_task("").code.has_value());
 }
 
+TEST_F(Status, ATaskThatSlurmRunsAgainIsRequeued) {
+  const std::string again = "=== blend 2, attempt 1\n=== ended with code 75\n=== requeued\n";
+  folder_.write("submit/job.json", R"({"shards":2})");
+  folder_.write("submit/log/blend-2.log", again);
+  folder_.write("submit/log/plan-1.log", "=== plan 1\n=== ended with code 75\n=== requeued\n");
+  EXPECT_THAT(format_status_table(status()), HasSubstr("2/2    requeued"));
+  EXPECT_THAT(format_status_json(status()), HasSubstr(R"("state":"requeued")"));
+  EXPECT_TRUE(status().failures.empty()) << "a stage that runs again has not failed";
+  folder_.write("submit/log/blend-2.log", again + "=== blend 2, attempt 2\n");
+  EXPECT_FALSE(status().shards[1].requeued) << "it runs";
+  folder_.write("submit/log/blend-2.log", again + "=== ended with code 75\n");
+  EXPECT_FALSE(status().shards[1].requeued) << "Slurm refused";
+}
+
 TEST_F(Status, NotesOfOthersSayNothing) {
   for (const char* text : {"", "[]", "{}", R"({"state":"flying","faces":1})", "\xff",
                            R"({"state":"done","faces":-1,"done":0,"made":0,"seconds":0,

@@ -110,6 +110,7 @@ void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
   if (!end.code || *end.code == 0) return;
   constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
   status.state = *end.code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
+  status.requeued = end.requeued;
   if (!end.reason.empty() || status.reason.empty()) {
     status.reason = end.reason.empty() ? concat("ended with code ", *end.code) : end.reason;
   }
@@ -128,6 +129,7 @@ void finish(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.faces > 0 && status.done == status.faces) {
     status.state = ShardState::kDone;
     status.reason.clear();
+    status.requeued = false;
   }
   if (status.state != ShardState::kWorking) return;
   status.silent_seconds =
@@ -143,7 +145,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
   };
   for (const fs::path& log : list_files(directory.submitted() / "log", is_log)) {
     const TaskEnd end = end_of_task(text_of(log));
-    if (!end.code || *end.code == 0) continue;
+    if (!end.code || *end.code == 0 || end.requeued) continue;
     status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.code,
                                      end.reason.empty() ? "" : ": ", end.reason));
   }
@@ -157,6 +159,9 @@ TaskEnd end_of_task(std::string_view log) {
   for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
     if (line.starts_with("=== ended with code ")) {
       end.code = parse_unsigned(line.substr(line.rfind(' ') + 1));
+      end.requeued = false;
+    } else if (line == "=== requeued") {
+      end.requeued = true;
     } else if (line.starts_with("===")) {
       end = {};
     } else if (line.find("error: ") != line.npos) {

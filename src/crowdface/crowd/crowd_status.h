@@ -24,6 +24,11 @@ struct ShardStatus {
       silent_seconds;  ///< set while working: seconds since the shard's last write
   std::string machine;
   std::string reason;  ///< why the last run ended early
+  /// Whether Slurm will run the shard's task again, although the last run ended early.
+  bool requeued = false;
+
+  /// The state for users: "requeued", or the name of `state`.
+  std::string_view state_name() const { return requeued ? "requeued" : name_of(state); }
 };
 
 struct CrowdStatus {
@@ -41,6 +46,7 @@ struct CrowdStatus {
 struct TaskEnd {
   std::optional<std::uint64_t> code;  ///< exit code; nothing if the task has not ended
   std::string reason;                 ///< last error in the log
+  bool requeued = false;              ///< the task has asked Slurm to run it again
 };
 TaskEnd end_of_task(std::string_view log);
 

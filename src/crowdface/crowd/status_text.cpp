@@ -38,7 +38,7 @@ StatusRow row_of(const ShardStatus& shard) {
     remark = concat("nothing written for ", format_duration(*shard.silent_seconds));
   }
   return {concat(shard.shard.index, "/", shard.shard.count),
-          std::string(name_of(shard.state)),
+          std::string(shard.state_name()),
           concat(shard.done, "/", shard.faces),
           pace(shard.faces_a_second),
           duration(shard.seconds_left),
@@ -100,7 +100,7 @@ std::string format_status_json(const CrowdStatus& status) {
   for (const ShardStatus& shard : status.shards) {
     json["shards"].push_back({{"shard", shard.shard.index},
                               {"of", shard.shard.count},
-                              {"state", name_of(shard.state)},
+                              {"state", shard.state_name()},
                               {"faces", shard.faces},
                               {"done", shard.done},
                               {"faces_a_second", rounded_or_null(shard.faces_a_second)},

@@ -119,7 +119,11 @@ esac
 if [ -n "${SLURM_JOB_ID-}" ] && [ $attempt -lt $most ]; then
   task=${SLURM_ARRAY_JOB_ID:-$SLURM_JOB_ID}${SLURM_ARRAY_TASK_ID:+_$SLURM_ARRAY_TASK_ID}
   # One that was cancelled stays so.
-  if scontrol show job -o "$task" | grep -q 'JobState=RUNNING'; then scontrol requeue "$task"; fi
+  if scontrol show job -o "$task" | grep -q 'JobState=RUNNING'; then
+    # Before the request, because Slurm ends this script at once.
+    echo "=== requeued"
+    scontrol requeue "$task" || echo "=== ended with code $code"
+  fi
 fi
 exit $code
 )sh";

@@ -10,6 +10,7 @@
 
 #include "crowdface/core/hash.h"
 #include "crowdface/core/units.h"
+#include "crowdface/crowd/shard.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/pick/landmark_file.h"
 #include "crowdface/wrap/report.h"
@@ -28,6 +29,7 @@ struct WrapOptions {
   std::string texture;  ///< texels per side
   bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
   bool strict = false;  ///< refuses doubtful heads
+  Shard shard;          ///< the part of the batch to wrap
 };
 
 /// In place of the file of `--landmarks`: reads no landmarks and detects none.

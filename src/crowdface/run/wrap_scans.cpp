@@ -21,6 +21,7 @@
 #include "crowdface/pick/found_landmarks.h"
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/run/wrap_inputs.h"
+#include "crowdface/run/wrap_page.h"
 #include "crowdface/run/wrap_textures.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/scan_face.h"
@@ -285,6 +286,15 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
              result.dropped.empty() ? "" : concat("; wrong and not used: ", join(result.dropped))));
 }
 
+/// Writes the page over all scans of the batch, also those of other shards.
+void write_page(const WrapOptions& options, const std::vector<Task>& tasks) {
+  std::vector<WrappedScan> scans;
+  for (const Task& task : tasks) scans.push_back({task.scan, task.report, task.picture});
+  const fs::path page = fs::path(options.out) / "reports" / "index.html";
+  write_file(page, wrap_page(scans));
+  log_info(concat("all scans, the most doubtful first: ", page.string()));
+}
+
 void check_one(const WrapInputs& shared, const Task& task) {
   const Scan scan = read_scan(task.scan);
   std::optional<PoseHint> hint = shared.hint;
@@ -306,10 +316,14 @@ void wrap_scans(const WrapOptions& options) {
     make_directories(fs::path(options.out) / "reports");
     remove_leftovers(options.out);
   }
-  Progress progress("scans", tasks.size());
+  std::vector<Task> own;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (options.shard.owns(i)) own.push_back(tasks[i]);
+  }
+  Progress progress("scans", own.size());
   Problems problems;
   std::size_t done = 0;
-  for (const Task& task : tasks) {
+  for (const Task& task : own) {
     throw_if_interrupted();
     try {
       const Digest inputs = inputs_of(shared, task);
@@ -327,7 +341,8 @@ void wrap_scans(const WrapOptions& options) {
     }
     progress.step();
   }
-  if (done > 0) log_info(concat(done, " of ", tasks.size(), " scans are already wrapped"));
+  if (done > 0) log_info(concat(done, " of ", own.size(), " scans are already wrapped"));
+  if (!options.dry_run && !options.batch.empty()) write_page(options, tasks);
   problems.throw_if_any();
 }
 

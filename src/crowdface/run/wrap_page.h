@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace crowdface {
+
+/// A scan of a batch and the files that a wrap of it writes.
+struct WrappedScan {
+  std::filesystem::path scan, report, picture;
+};
+
+/// An HTML page over the reports of a batch, to be written into their folder: one row for each scan,
+/// with its picture and warnings. Rows are sorted by doubt: first the scans without a head, then the
+/// heads whose worst feature agrees least.
+std::string wrap_page(const std::vector<WrappedScan>& scans);
+
+}  // namespace crowdface
