@@ -23,7 +23,7 @@ struct RigidPart {
 
 /// The motion of a rigid part in a shape, without the influence of the mesh on which it was
 /// measured: find_turn removes the local rotation and stretch of that mesh relative to the
-/// template, and carry_turn applies those of another face.
+/// template, and carry_turn applies the rotation and stretch of another face.
 struct RigidTurn {
   /// unit quaternion (w, x, y, z); rotation about the middle
   std::array<double, 4> quaternion = {1, 0, 0, 0};
