@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// Limit for all materials of an attachment together. A vertex takes 8 bytes of text per face.
 constexpr std::size_t kMaxAttachmentTriangles = 24'000;
-constexpr std::size_t kMaxDraftTriangles = 6'000, kMinDraftTriangles = 300;
+constexpr std::size_t kMaxAttachmentDraft = 6'000, kMinAttachmentDraft = 300;
 constexpr int kMaxAttachmentTexels = 512;
 
 /// The numbers of the vertices that move by at least `least`, 4 bytes each, followed by their
@@ -45,9 +45,9 @@ Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
   json["vertices"] = mesh.vertices.size();
   json["triangles"] = base64(little_endian(mesh.triangles));
   const std::size_t most =
-      kMaxDraftTriangles * mesh.triangles.size() / (3 * kMaxAttachmentTriangles);
+      kMaxAttachmentDraft * mesh.triangles.size() / (3 * kMaxAttachmentTriangles);
   json["draft"] = base64(little_endian(
-      draft_triangles(mesh, positions, std::max<std::size_t>(kMinDraftTriangles, most))));
+      draft_triangles(mesh, positions, std::max<std::size_t>(kMinAttachmentDraft, most))));
   json["twins"] = base64(little_endian(mesh.twins));
   if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian(mesh.uvs));
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
