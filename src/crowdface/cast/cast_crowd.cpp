@@ -16,10 +16,6 @@
 namespace crowdface {
 namespace {
 
-/// Number of faces whose candidates are drawn in parallel, before these faces are chosen one after
-/// the other.
-constexpr std::uint64_t kBatch = 64;
-
 /// Casts sampled faces `from` … `to`, each against all earlier faces.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
@@ -30,9 +26,9 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
   if (!casting.population.empty()) {
     cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
   }
-  for (std::uint64_t first = from; first <= to; first += kBatch) {
+  for (std::uint64_t first = from; first <= to; first += kCastTogether) {
     throw_if_interrupted();
-    const std::uint64_t last = std::min(to, first + kBatch - 1);
+    const std::uint64_t last = std::min(to, first + kCastTogether - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
       const FaceKind& kind = kinds[static_cast<std::size_t>(result.kinds[index - 1] + 1)];

@@ -60,6 +60,10 @@ struct CastingResult {
   std::optional<Shortfall> shortfall;
 };
 
+/// Number of sampled faces whose candidates are drawn in parallel, before these faces are chosen one
+/// after the other.
+inline constexpr std::uint64_t kCastTogether = 64;
+
 /// Called after each sampled face that joins the crowd; may be empty.
 ///
 /// \param thrown  Rejected candidates for this face: many if the crowd is nearly full.

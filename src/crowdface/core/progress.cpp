@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/core/progress.h"
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -38,7 +39,20 @@ std::string format_duration(double seconds) {
   return concat(whole / 3600, " h ", whole % 3600 / 60, " min");
 }
 
-Progress::Progress(std::string stage, std::size_t total) : stage_(std::move(stage)), total_(total) {
+SecondsClock steady_seconds() {
+  return [] {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
+  };
+}
+
+Progress::Progress(std::string stage, std::size_t total, std::size_t burst, SecondsClock clock)
+    : stage_(std::move(stage)),
+      total_(total),
+      clock_(std::move(clock)),
+      start_(clock_()),
+      rate_(burst),
+      last_shown_(start_) {
   tell_listener(stage_, 0, total_);
 }
 
@@ -47,8 +61,16 @@ Progress::~Progress() {
   if (done_ == total_) log_info(concat(stage_, ": ", total_, " in ", format_duration(seconds())));
 }
 
-double Progress::seconds() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
+std::optional<double> Progress::seconds_left() const {
+  const std::lock_guard lock(mutex_);
+  return seconds_left(done_);
+}
+
+/// Call this with mutex_ locked.
+std::optional<double> Progress::seconds_left(std::size_t done) const {
+  const std::optional<double> rate = rate_.rate();
+  if (!rate) return std::nullopt;
+  return static_cast<double>(total_ - done) / *rate;
 }
 
 void set_progress_listener(ProgressListener listener) {
@@ -61,20 +83,22 @@ void Progress::step(std::size_t amount) {
   const std::size_t done = done_.fetch_add(amount) + amount;
   tell_listener(stage_, done, total_);
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (lock.owns_lock() && done < total_) show(done);
+  if (!lock.owns_lock() || done >= total_) return;
+  rate_.note(clock_(), done);
+  show(done);
 }
 
 void Progress::show(std::size_t done) {
-  const auto now = Clock::now();
-  const double since = std::chrono::duration<double>(now - last_shown_).count();
-  if (since < (on_terminal() ? 0.2 : 10.0)) return;
+  const double now = clock_();
+  if (now - last_shown_ < (on_terminal() ? 0.2 : 10.0)) return;
   last_shown_ = now;
   shown_ = true;
-  const double elapsed = seconds();
-  const double rate = static_cast<double>(done) / elapsed;
-  const std::string line =
-      concat(stage_, ": ", done, "/", total_, ", ", format_fixed(rate, rate < 10 ? 2 : 0), "/s, ",
-             format_duration(static_cast<double>(total_ - done) / rate), " left");
+  std::string line = concat(stage_, ": ", done, "/", total_);
+  if (const auto left = seconds_left(done)) {
+    const double rate = *rate_.rate();
+    line += concat(", ", format_fixed(rate, rate < 10 ? 2 : 0), "/s, ", format_duration(*left),
+                   " left");
+  }
   if (on_terminal()) {
     std::fputs(concat("\r\033[K", line).c_str(), stderr);
   } else {

@@ -6,36 +6,52 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
+
+#include "crowdface/core/parallel.h"
+#include "crowdface/core/step_rate.h"
 
 namespace crowdface {
 
-/// Shows the progress of a stage: done/total, rate, time left. A terminal shows one line that is
+/// Returns the seconds since some fixed time.
+using SecondsClock = std::function<double()>;
+SecondsClock steady_seconds();
+
+/// Shows the progress of a stage: done/total, and, once they are known, rate and time left (see
+/// StepRate). A terminal shows one line that is
 /// updated in place; otherwise a line is logged every ten seconds. Silent if the log level is
 /// kQuiet. `step` is thread-safe.
 class Progress {
  public:
   /// \param stage  name of the stage, such as "reading heads".
   /// \param total  number of steps.
-  Progress(std::string stage, std::size_t total);
+  /// \param burst  number of steps that may end at almost the same time.
+  Progress(std::string stage, std::size_t total,
+           std::size_t burst = static_cast<std::size_t>(thread_count()),
+           SecondsClock clock = steady_seconds());
   /// Logs how long the stage took, if all steps are done.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void step(std::size_t amount = 1);
-  double seconds() const;
+  double seconds() const { return clock_() - start_; }
+  /// Returns an estimate of the time that the remaining steps take; nothing if it is not known yet.
+  std::optional<double> seconds_left() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
   void show(std::size_t done);
+  std::optional<double> seconds_left(std::size_t done) const;
 
   std::string stage_;
   std::size_t total_;
-  Clock::time_point start_ = Clock::now();
+  SecondsClock clock_;
+  double start_;
   std::atomic<std::size_t> done_{0};
-  std::mutex mutex_;
-  Clock::time_point last_shown_ = start_;
+  mutable std::mutex mutex_;
+  StepRate rate_;  ///< guarded by mutex_
+  double last_shown_;
   bool shown_ = false;
 };
 

@@ -218,7 +218,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   CastingResult crowd;
   crowd.shortfall = hopeless_spread(casting, judge);
   if (!crowd.shortfall) {
-    Progress progress("casting", casting.count);
+    Progress progress("casting", casting.count, kCastTogether);
     ScarcityWarning warning(casting);
     crowd = cast_crowd(casting, judge, [&](const Rejections& thrown) {
       progress.step();

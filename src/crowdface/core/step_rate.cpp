@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/core/step_rate.h"
+
+namespace crowdface {
+
+void StepRate::note(double seconds, std::size_t done) {
+  // Closer samples are not kept, so that millions of steps need little memory.
+  constexpr double kBetween = 0.05;
+  if (samples_.empty()) {
+    first_seconds_ = seconds;
+  } else if (done < samples_.back().done + burst_ || seconds < samples_.back().seconds + kBetween) {
+    return;
+  }
+  samples_.push_back({seconds, done});
+  const double middle = (first_seconds_ + seconds) / 2;
+  while (samples_.size() > 2 && samples_[1].seconds <= middle) samples_.pop_front();
+}
+
+std::optional<double> StepRate::rate() const {
+  if (samples_.size() < 2) return std::nullopt;
+  const Sample& from = samples_.front();
+  const Sample& to = samples_.back();
+  return static_cast<double>(to.done - from.done) / (to.seconds - from.seconds);
+}
+
+}  // namespace crowdface
