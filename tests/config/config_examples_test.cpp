@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "crowdface/config/starter_config.h"
+#include "crowdface/core/text.h"
 
 #include "config/config_test_folder.h"
 
@@ -139,6 +140,23 @@ TEST_F(ExampleConfigs, TheStarterReadsBack) {
   EXPECT_EQ(config->output.directory, folder_ / "out/crowd");
   EXPECT_THAT(text, testing::HasSubstr("because the first head is 10.50 units tall.\n"));
   EXPECT_THAT(text, testing::HasSubstr("26.7 cm high. PLEASE CHECK"));
+}
+
+// Without a distance, pairs at 0.9 mm passed for one person.
+TEST_F(ExampleConfigs, TheStarterKeepsPeopleApart) {
+  StarterFacts facts;
+  facts.heads = "heads";
+  const auto proposed = [&](std::size_t heads) {
+    facts.names.clear();
+    for (std::size_t h = 0; h < heads; ++h) facts.names.push_back(concat("head_", h));
+    const auto config = read(starter_config(facts));
+    return config ? config->diversity.min_distance_mm : -1;
+  };
+  EXPECT_EQ(proposed(2), 0);
+  EXPECT_EQ(proposed(3), 0.5);
+  EXPECT_EQ(proposed(4), 0.8);
+  EXPECT_EQ(proposed(5), 1);
+  EXPECT_EQ(proposed(16), 1.2);
 }
 
 TEST_F(ExampleConfigs, TheStarterTakesAnyFolderName) {

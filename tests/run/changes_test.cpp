@@ -165,6 +165,58 @@ TEST_F(Changes, MakeAVariantAtTheAskedDistance) {
   EXPECT_EQ(line("mob_0005").at("hair"), before("mob_0002").at("hair"));
 }
 
+// The other face's natural hair came back.
+TEST_F(Changes, MakeAVariantWithTheChangedHair) {
+  const auto is_red = [&](const std::string& id) {
+    return line(id).at("hair").at("pheomelanin").get<double>() > 0.5;
+  };
+  review("a.yaml", "changes: {mob_0002: {hair: red}}");
+  ASSERT_TRUE(is_red("mob_0002"));
+  review("b.yaml", "changes: {mob_0005: {variant_of: mob_0002}}");
+  EXPECT_EQ(line("mob_0005").at("hair"), line("mob_0002").at("hair"));
+  review("c.yaml", "changes: {mob_0006: {variant_of: mob_0005}, mob_0002: {hair: blond}}");
+  EXPECT_TRUE(is_red("mob_0006"));
+  EXPECT_TRUE(is_red("mob_0005"));
+  EXPECT_FALSE(is_red("mob_0002"));
+}
+
+TEST_F(Changes, AreAvoidedByFacesThatAreCastLater) {
+  constexpr double kLeast = 0.6;
+  ConfigOverrides overrides;
+  overrides.set.push_back(concat("diversity.min_distance=", kLeast, " mm"));
+  testing::run(folder_, overrides, Replace::kForce);
+  overrides.review = {folder_.folder()
+                          .write("a.yaml",
+                                 "schema: 1\nchanges: {mob_0003: {lock: [region_2]}, "
+                                 "mob_0005: {lock: [region_1]}, mob_0006: {variant_of: mob_0001, "
+                                 "distance: 1.3 mm}, mob_0007: {lock: [region_1]}}\n")
+                          .string()};
+  testing::run(folder_, overrides);
+  overrides.count = "20";
+  overrides.review = {};
+  testing::run(folder_, overrides);
+  const testing::Measured grown(folder_);
+  double nearest = HUGE_VAL;
+  for (std::size_t i = 0; i < grown.lines.size(); ++i) {
+    if (!grown.lines[i].contains("changed")) continue;
+    for (std::size_t j = 0; j < grown.lines.size(); ++j) {
+      const json& index = grown.lines[j].at("index");
+      if (index.is_null() || index.get<int>() <= 8) continue;
+      nearest = std::min(nearest, grown.between(i, j));
+    }
+  }
+  EXPECT_GE(nearest, kLeast - testing::kTolerance);
+}
+
+TEST_F(Changes, OfAReviewAfterMoreReviewsThanThereAreAreRefused) {
+  review("a.yaml", "after: 0\nfaces: {mob_0002: reject}");
+  testing::expect_error(ExitCode::kUsage,
+                        {"b.yaml", "after", "at most 1", "earlier reviews", "found 3"},
+                        [&] { review("b.yaml", "after: 3\nfaces: {mob_0003: reject}"); });
+  review("b.yaml", "after: 1\nfaces: {mob_0003: reject}");
+  run("");  // the kept reviews are read again
+}
+
 TEST_F(Changes, LockRegionsAndDrawTheOthersInAGroup) {
   run("{mob_0004: {lock: [region_2], group: elderly}}");
   EXPECT_THAT(changed_lines(), ElementsAre("mob_0004"));

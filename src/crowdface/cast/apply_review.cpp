@@ -75,6 +75,7 @@ class Redrawing {
       }
     }
     const FamilySeparation family_separation = kinship_without(family, settled);
+    const AvoidedChanges changes(cast_, casting_.diversity.min_distance_mm, settled);
     FaceSearch::Draw draw;
     const std::vector<FaceSpace::Point> rejected = reject(at);
     FaceSearch::Refuses refuses;
@@ -104,7 +105,8 @@ class Redrawing {
         for (const FaceSpace::Point& other : rejected) {
           if (FaceSpace::distance(point, other) < least) return Reason::kRejected;
         }
-        return refuses(point);
+        const auto why = refuses(point);
+        return why ? why : changes.refuses(point);
       });
       rejections.add(search.rejections());
       if (found) break;

@@ -22,6 +22,7 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
                     PopulationBalance& population, const FaceJoined& joined,
                     CastingResult& result) {
+  const AvoidedChanges changes(result, casting.diversity.min_distance_mm);
   FaceSearch::Cost cost;
   if (!casting.population.empty()) {
     cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
@@ -42,7 +43,11 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
       auto found = search.settle(
-          crowd, [&](const FaceSpace::Point& point) { return family_separation.refuses(point); },
+          crowd,
+          [&](const FaceSpace::Point& point) {
+            const auto why = family_separation.refuses(point);
+            return why ? why : changes.refuses(point);
+          },
           cost);
       result.rejections.add(search.rejections());
       if (!found) {

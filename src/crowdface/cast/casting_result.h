@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,11 +28,14 @@ struct Shortfall {
   std::string changed = {};   ///< id of the face that could not be changed, if any
 };
 
+struct ChangedFace;
+
 /// A change of a face, and who asks for it.
 struct AppliedChange {
   FaceChange change;
-  std::string by;                      ///< such as "review 2"
-  std::optional<FacePlan> variant_of;  ///< the other face, as it was before the change
+  std::string by;  ///< such as "review 2"
+  /// The other face with its changes, as it was before this change; null if there is none.
+  std::shared_ptr<const ChangedFace> variant_of;
 };
 
 /// A face with the changes that the config and reviews ask for.
@@ -41,7 +45,7 @@ struct ChangedFace {
   std::vector<AppliedChange> changes = {};  ///< as applied: changes of the config first
   TraitLimits traits = {};                  ///< the limits of all changes
   bool is_other_person = false;             ///< the face was drawn again
-  std::optional<FacePlan> variant_of = {};  ///< the face that this face is a variant of
+  std::shared_ptr<const ChangedFace> variant_of = {};  ///< the face that this is a variant of
 };
 
 /// A cast crowd.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "crowdface/cast/ageing.h"
@@ -26,10 +27,12 @@ std::size_t face_called(const std::string& id, const CastingResult& cast) {
   return static_cast<std::size_t>(found - cast.crowd.begin());
 }
 
-/// Returns the face with its changes so far.
-const FacePlan& current(std::size_t face, const CastingResult& cast) {
+/// Returns a copy of the face with its changes so far.
+std::shared_ptr<const ChangedFace> current(std::size_t face, const CastingResult& cast) {
   const auto changed = cast.changed.find(face);
-  return changed == cast.changed.end() ? cast.crowd[face] : changed->second.face;
+  return std::make_shared<const ChangedFace>(changed == cast.changed.end()
+                                                 ? ChangedFace{cast.crowd[face], cast.points[face]}
+                                                 : changed->second);
 }
 
 FaceKind kind_called(const std::optional<std::string>& group, const CastingOptions& casting) {
@@ -128,7 +131,7 @@ class Changing {
   }
 
   FaceSearch::Draw vary(const FaceChange& change) const {
-    FacePlan other = *changed_.variant_of;
+    FacePlan other = changed_.variant_of->face;
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
     const SamplingOptions& sampling = sampling_of(other);
@@ -253,7 +256,7 @@ void apply(const CastingOptions& casting, const FaceJudge& judge,
   // The other face of a variant is the face without these changes.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
-    applied.push_back({change, by, std::nullopt});
+    applied.push_back({change, by, nullptr});
     if (!change.variant_of) continue;
     applied.back().variant_of = current(face_called(*change.variant_of, cast), cast);
   }
@@ -274,6 +277,21 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
                    const std::vector<FaceChange>& changes, const std::string& by,
                    CastingResult& cast) {
   apply(casting, judge, changes, by, false, cast);
+}
+
+AvoidedChanges::AvoidedChanges(const CastingResult& cast, double min_distance_mm,
+                               const std::vector<bool>& settled)
+    : min_distance_mm_(min_distance_mm) {
+  for (const auto& [face, changed] : cast.changed) {
+    if (settled.empty() || settled[face]) points_.push_back(changed.point);
+  }
+}
+
+std::optional<Reason> AvoidedChanges::refuses(const FaceSpace::Point& point) const {
+  const bool is_near = std::ranges::any_of(points_, [&](const FaceSpace::Point& other) {
+    return FaceSpace::distance(point, other) < min_distance_mm_;
+  });
+  return is_near ? std::optional(Reason::kMinDistance) : std::nullopt;
 }
 
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,

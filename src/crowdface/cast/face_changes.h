@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crowdface/cast/casting_result.h"
+#include "crowdface/cast/constraints.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_judge.h"
+#include "crowdface/cast/face_space.h"
 
 namespace crowdface {
 
@@ -26,6 +29,20 @@ namespace crowdface {
 void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
                    const std::vector<FaceChange>& changes, const std::string& by,
                    CastingResult& cast);
+
+/// Keeps faces that are cast or redrawn later at a distance from the faces that reviews have changed.
+class AvoidedChanges {
+ public:
+  /// \param cast     the crowd with the changes of the reviews so far.
+  /// \param settled  #crowd: faces that are not being redrawn. Empty: all.
+  AvoidedChanges(const CastingResult& cast, double min_distance_mm,
+                 const std::vector<bool>& settled = {});
+  std::optional<Reason> refuses(const FaceSpace::Point& point) const;
+
+ private:
+  double min_distance_mm_;
+  std::vector<FaceSpace::Point> points_;  ///< of the changed faces
+};
 
 /// Applies the changes of the config, before those of the reviews.
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,

@@ -40,7 +40,7 @@ class Merging {
       }
       if (const FaceChange* other = change_of(change.id, earlier_)) merge(*other, change);
     }
-    std::erase_if(later_.changes, [](const FaceChange& change) { return is_empty(change); });
+    std::erase_if(later_.changes, [](const FaceChange& change) { return change.is_empty(); });
   }
 
  private:
@@ -52,11 +52,6 @@ class Merging {
     const auto found = std::ranges::find(review.changes, id, &FaceChange::id);
     return found == review.changes.end() ? nullptr : &*found;
   }
-  static bool is_empty(const FaceChange& change) {
-    return !change.age && !change.age_step && !change.variant_of && !change.draws_again() &&
-           !change.wears && !change.hair && change.colours.empty();
-  }
-
   void tell(const std::string& id, const std::string& first, const std::string& second) {
     conflicts_.push_back(
         concat(id, ": ", earlier_name_, ' ', first, ", ", later_name_, ' ', second));

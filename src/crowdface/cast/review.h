@@ -43,6 +43,9 @@ struct FaceChange {
   std::vector<WeightedHead> colours;  ///< heads that lend textures; empty: no change
 
   bool draws_again() const { return group || !locked.empty() || !traits.empty(); }
+  bool is_empty() const {
+    return !age && !age_step && !variant_of && !draws_again() && !wears && !hair && colours.empty();
+  }
 };
 
 /// The marks and changes of one reviewer.

@@ -3,6 +3,7 @@
 // that they must meet.
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
@@ -166,11 +167,39 @@ const Keys<Config::Distance>& distance_keys() {
   return keys;
 }
 
+namespace {
+
+/// Proposes a distance at which the starter's faces fit, with the believability that it asks for.
+std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
+  const std::size_t in_group = heads_of_smaller_group(facts);
+  const std::size_t heads = in_group > 0 ? in_group : facts.names.size();
+  struct Proposal {
+    std::size_t heads;  ///< least number of heads
+    const char* distance;
+  };
+  constexpr std::size_t kEnough = 5;
+  constexpr Proposal kProposals[] = {
+      {8, "1.2 mm"}, {kEnough, "1 mm"}, {4, "0.8 mm"}, {3, "0.5 mm"}};
+  const auto* found = std::ranges::find_if(
+      kProposals, [&](const Proposal& proposal) { return heads >= proposal.heads; });
+  if (found == std::end(kProposals)) return std::nullopt;
+  return StarterLines{
+      found->distance, "",
+      heads >= kEnough
+          ? "No two people come nearer than this to each other: below 1 mm they look like one "
+            "person.\nA large crowd needs a smaller distance (crowdface plan --estimate)."
+          : "No two people come nearer than this to each other. Below 1 mm they look like one "
+            "person,\nbut so few heads give no faces that are farther apart."};
+}
+
+}  // namespace
+
 const Keys<DiversityOptions>& diversity_keys() {
   using Diversity = DiversityOptions;
   static const Keys<Diversity> keys = {
       word_key("mode", &Diversity::mode),
-      key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance)),
+      key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance))
+          .in_starter(min_distance_starter),
       key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance))
           .in_starter({"0.8 mm", "",
                        "No face comes nearer than this to a head: below half a millimetre it looks "

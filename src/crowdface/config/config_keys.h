@@ -264,6 +264,9 @@ Key<Config> attachments_key();
 Key<Config> believability_key();
 Key<Config> recipes_key();
 Key<Config> groups_key();
+/// Returns the number of heads in the smaller of the groups of a starter config, women and men; 0 if
+/// the starter has no groups.
+std::size_t heads_of_smaller_group(const StarterFacts& facts);
 Key<Config> families_key();
 Key<Config> changes_key();
 /// Reads the changes of faces, of a config or of a review.

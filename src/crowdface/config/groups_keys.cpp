@@ -203,11 +203,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
-  const auto mixes = [&](const std::string& tag) {  // a blend needs at least two heads
-    return std::ranges::count_if(facts.tags,
-                                 [&](const auto& tags) { return has_tags(tags, {tag}); }) > 1;
-  };
-  if (facts.attachments.empty() || !mixes("female") || !mixes("male")) return std::nullopt;
+  if (heads_of_smaller_group(facts) == 0) return std::nullopt;
   return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
                                   "{name: men, share: 0.5, tags: [male]}"}),
                       "",
@@ -220,6 +216,16 @@ std::string write_groups(const Config& config, const WriteContext& context) {
 }
 
 }  // namespace
+
+std::size_t heads_of_smaller_group(const StarterFacts& facts) {
+  const auto heads = [&](const std::string& tag) {
+    return std::ranges::count_if(facts.tags,
+                                 [&](const auto& tags) { return has_tags(tags, {tag}); });
+  };
+  const auto fewest = std::min(heads("female"), heads("male"));
+  const bool mixes = fewest > 1;  // a blend needs at least two heads
+  return facts.attachments.empty() || !mixes ? 0 : static_cast<std::size_t>(fewest);
+}
 
 Key<Config> groups_key() {
   Group open;

@@ -84,11 +84,13 @@ class ChangedLooks {
     return face;
   }
 
-  /// Returns a face with the colours that it has in the crowd, or would have.
-  FacePlan look_of(const FacePlan& face) const {
+  /// Returns a face as it was with its changes at that time. If a review has rejected it since, it
+  /// has the colours that it would have now.
+  FacePlan look_of(const ChangedFace& changed) const {
+    const FacePlan& face = changed.face;
     const auto now = std::ranges::find(crowd_, face.id, &FacePlan::id);
     const bool is_same = now != crowd_.end() && now->notes.attempt == face.notes.attempt;
-    return is_same && face.notes.changes.empty() ? *now : with_attachments(with_colours(face));
+    return of(changed, is_same ? *now : with_attachments(with_colours(face)));
   }
 
   const Config& config_;

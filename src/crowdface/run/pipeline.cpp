@@ -178,6 +178,20 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   return reading;
 }
 
+/// Adds a problem for each new review that claims to know more reviews than there are before it.
+/// Kept reviews stay valid: an older version may have accepted them.
+void check_reviews(const Config& config, Problems& problems) {
+  const Config::Reviews& reviews = config.review;
+  const auto kept = CrowdDirectory{config.output.directory}.kept_reviews();
+  for (std::size_t i = kept.size(); i < reviews.reviews.size(); ++i) {
+    const std::uint64_t after = reviews.reviews[i].after.value_or(0);
+    if (after <= i) continue;
+    problems.add(ExitCode::kUsage,
+                 concat(reviews.files[i].string(), ": after: expected at most ", i,
+                        ", the number of earlier reviews, found ", after));
+  }
+}
+
 std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& overrides,
                                  const CacheFolder& cache, Problems& problems) {
   ConfigReading reading = read_with_kept_reviews(read, overrides, problems);
@@ -187,6 +201,7 @@ std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& 
   }
   Config& config = reading.config;
   check_paths(config, problems);
+  check_reviews(config, problems);
   std::optional<Inputs> inputs = load_inputs(config, cache, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);
