@@ -206,5 +206,21 @@ TEST(PlannedCrowd, GetsItsFormatsLater) {
   EXPECT_TRUE(fs::exists(folder.out() / "meshes/mob_0001.ply"));
 }
 
+// Machines of a farm require the plan; another format does not invalidate it.
+TEST(PlannedCrowd, IsUsedByShardsWithOtherFormats) {
+  const SmallCrowdFolder folder(dressed());
+  GenerateOptions options{folder.cache(), Replace::kRefuse, false};
+  plan(folder.config(), {}, options);
+  ConfigOverrides overrides;
+  overrides.set = {"output.meshes=[ply]", "output.contact_sheet=none"};
+  options.plan_from = PlanFrom::kFolder;
+  options.shard = Shard{1, 2};
+  generate(folder.config(), overrides, options);
+  EXPECT_TRUE(fs::exists(folder.out() / "meshes/mob_0001.ply"));
+  overrides.set.emplace_back("changes={mob_0001: {variant_of: mob_0002}}");
+  testing::expect_error(ExitCode::kMissingInput, {"planned.json"},
+                        [&] { generate(folder.config(), overrides, options); });
+}
+
 }  // namespace
 }  // namespace crowdface

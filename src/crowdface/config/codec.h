@@ -16,9 +16,11 @@ namespace crowdface {
 
 /// The context in which values are written as YAML.
 struct WriteContext {
+  /// The keys to write: all, or those that face_settings or plan_settings needs.
+  enum class Part { kAll, kFaces, kPlan };
   const Config& config;
   std::filesystem::path folder;  ///< absolute; written paths are relative to this folder
-  bool only_for_faces = false;   ///< write only the keys that face_settings needs
+  Part part = Part::kAll;
 
   /// Returns the head's name as a YAML scalar.
   std::string head(Eigen::Index index) const;

@@ -295,4 +295,9 @@ std::string effective_config(const Config& config, const std::filesystem::path& 
 /// their default are left out, so that faces written before a key existed stay up to date.
 std::string face_settings(const Config& config);
 
+/// Returns the part of the effective config that a plan depends on, apart from reviews: every key
+/// that is not marked with Key::after_casting, and `changes`.
+/// \param directory  the folder that the paths are relative to.
+std::string plan_settings(const Config& config, const std::filesystem::path& directory);
+
 }  // namespace crowdface

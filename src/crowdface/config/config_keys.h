@@ -123,16 +123,18 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
   return node.kind == YamlNode::Kind::kMap;
 }
 
-/// Returns "key: value" for each key whose text is not empty. If `writing.only_for_faces` is set,
-/// also skips keys that are apart from faces or at their default.
+/// Returns "key: value" for each key of `context.part` whose text is not empty. Unless all keys are
+/// written, skips keys at their default.
 template <class Section>
 std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
                                     const WriteContext& context) {
   std::vector<std::string> entries;
   for (const Key<Section>& key : keys) {
-    if (context.only_for_faces && !key.shapes_faces) continue;
+    const bool is_whole = context.part == WriteContext::Part::kAll;
+    if (context.part == WriteContext::Part::kFaces && !key.shapes_faces) continue;
+    if (context.part == WriteContext::Part::kPlan && !key.decides_faces) continue;
     const std::string value = key.write(section, context);
-    const bool left_out = context.only_for_faces && value == key.write(Section{}, context);
+    const bool left_out = !is_whole && value == key.write(Section{}, context);
     if (!value.empty() && !left_out) entries.push_back(entry(key.name, value));
   }
   return entries;

@@ -316,8 +316,15 @@ std::string effective_config(const Config& config, const std::filesystem::path& 
 }
 
 std::string face_settings(const Config& config) {
-  return block_map(
-      write_keys(root_keys(), config, {.config = config, .folder = {}, .only_for_faces = true}));
+  return block_map(write_keys(
+      root_keys(), config, {.config = config, .folder = {}, .part = WriteContext::Part::kFaces}));
+}
+
+std::string plan_settings(const Config& config, const std::filesystem::path& directory) {
+  WriteContext context = {config, std::filesystem::absolute(directory / "").lexically_normal()};
+  const std::string changes = changes_key().write(config, context);
+  context.part = WriteContext::Part::kPlan;
+  return block_map(write_keys(root_keys(), config, context)) + changes;
 }
 
 }  // namespace crowdface

@@ -20,7 +20,7 @@ namespace {
 /// Hash of everything that a plan depends on.
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
-  hasher.add(kVersion).add(config_in_folder(job.config, directory)).add(job.settings);
+  hasher.add(kVersion).add(plan_settings(job.config, directory.root)).add(job.settings);
   hasher.add_array(std::span(job.inputs.distance_mask));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
   for (const auto& table : {job.config.population, job.config.quantiles_of}) {
