@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { changeButtons, shortName } from './changes.js';
 import { el, short } from './dom.js';
 import { bandsOf, isLoaded, loadFace, locksAll, relativesOf } from './crowd.js';
 import { picture } from './grid.js';
@@ -177,7 +178,10 @@ export class FacePage {
             onclick: () => review.lock(face, part),
           }, part)))
         : null;
-      const changes = this.changeButtons(mark?.change ?? {});
+      const changes = changeButtons({
+        crowd: this.crowd, face, before: this.before, change: mark?.change ?? {},
+        ask: (name, value) => review.ask(face, name, value),
+      });
       verdicts.replaceChildren(
         el('div', { class: 'verdicts' }, button('keep', 'Keep', 'K'), button('reject', 'Reject', 'R')),
         ...(locks ? [locks] : []), ...(changes ? [changes] : []),
@@ -198,37 +202,6 @@ export class FacePage {
     draw();
     box.append(verdicts, note);
     return box;
-  }
-
-  /// Buttons for a change of the face.
-  changeButtons(change) {
-    const { crowd, face, review } = this;
-    const has = (tag) => crowd.heads.some((head) => head.tags.includes(tag));
-    const button = (name, value, text, title) => el('button', {
-      class: `change ${value !== undefined && change[name] === value ? 'on' : ''}`, title,
-      onclick: () => review.ask(face, name, value),
-    }, text);
-    // Each click asks for the next value; after the last, for none.
-    const next = (name, values, text) => el('button', {
-      class: `change ${change[name] === undefined ? '' : 'on'}`, title: 'Again: the next one',
-      onclick: () => review.ask(face, name, values[values.indexOf(change[name]) + 1]),
-    }, change[name] === undefined ? text : `${text}: ${change[name]}`);
-    const common = (head) => head.tags.filter((tag) => face.tags.includes(tag)).length;
-    const skins = crowd.skins
-      ? crowd.heads.filter((head) => head.name !== face.target)
-        .sort((a, b) => common(b) - common(a)).map((head) => head.name)
-      : [];
-    const isSampled = !face.byHand && face.family === null;
-    const buttons = [
-      has('old') ? button('age', 'older', 'Older') : null,
-      has('young') ? button('age', 'younger', 'Younger') : null,
-      isSampled && this.before ? button('variant_of', this.before.id, `Variant of ${this.shortName(this.before.id)}`,
-        'Replace this face by a face similar to the one that was open before') : null,
-      crowd.hairColours.length > 0 ? next('hair', crowd.hairColours, 'Other hair') : null,
-      skins.length > 0 ? next('colours', skins, 'Other skin') : null,
-    ].filter(Boolean);
-    return buttons.length === 0 ? null
-      : el('div', { class: 'locks changes' }, el('span', { class: 'muted' }, 'Change'), buttons);
   }
 
   showMark(face) {
@@ -299,19 +272,13 @@ export class FacePage {
     })));
   }
 
-  /// Without the crowd's name, which all ids begin with: there is little room under a small picture.
-  shortName(name) {
-    const start = `${this.crowd.name}_`;
-    return name.startsWith(start) ? name.slice(start.length) : name;
-  }
-
   /// The family as a tree: parents, the face among its sisters and brothers, children.
   family() {
     const { parents, siblings, children } = relativesOf(this.crowd, this.face);
     if (parents.length + siblings.length + children.length === 0) return null;
     const cell = (name, face, text, head) => el('button', {
       class: 'neighbour', disabled: !face, title: face ? `Open ${name}` : name, onclick: () => this.go(face),
-    }, picture(face ?? head, name), el('b', {}, this.shortName(name)), el('span', {}, text));
+    }, picture(face ?? head, name), el('b', {}, shortName(this.crowd, name)), el('span', {}, text));
     const share = this.face.mother_share;
     const gave = ({ role }) => {
       const parts = Object.entries(this.face.inherits ?? {}).flatMap(([region, from]) => (typeof from === 'string'
@@ -369,7 +336,7 @@ export class FacePage {
     const cells = this.face.near.map(({ id, mm }) => {
       const other = this.crowd.byId.get(id);
       return el('button', { class: 'neighbour', onclick: () => this.go(other), title: `Open ${id}` },
-        picture(other, id), el('b', {}, this.shortName(id)), el('span', {}, `${short(mm)} mm`));
+        picture(other, id), el('b', {}, shortName(this.crowd, id)), el('span', {}, `${short(mm)} mm`));
     });
     return el('section', {}, el('h2', {}, 'Nearest faces'),
       cells.length > 0 ? el('div', { class: 'neighbours' }, cells)

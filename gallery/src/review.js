@@ -29,10 +29,12 @@ function formatMark(mark, locks) {
   return `{${parts.join(', ')}}`;
 }
 
-/// The value of a key of a change: a word, an id, or for `colours` a head.
+/// A change as review files have it: the pages ask for `colours` by a head.
+const asWritten = (change) => (change.colours ? { ...change, colours: { [change.colours]: 1 } } : change);
+
 function formatChange(change) {
-  const parts = Object.entries(change).map(([name, value]) => (name === 'colours'
-    ? `colours: {${quoted(value)}: 1}` : `${name}: ${name === 'variant_of' ? key(value) : value}`));
+  const parts = Object.entries(asWritten(change)).map(([name, value]) => (name === 'colours'
+    ? `colours: {${quoted(change.colours)}: 1}` : `${name}: ${name === 'variant_of' ? key(value) : value}`));
   return `{${parts.join(', ')}}`;
 }
 
@@ -109,6 +111,11 @@ export class Review {
     if (value === undefined || change[name] === value) delete change[name];
     else change[name] = value;
     this.change(face, { change });
+  }
+
+  /// The change that is asked for, as review files have it; {} if none is.
+  changeOf(face) {
+    return asWritten(this.of(face)?.change ?? {});
   }
 
   count(verdict) {

@@ -463,6 +463,22 @@ await take('put_back');
 await page.getByLabel('Note').fill('the chin: é "so"');
 await page.getByRole('button', { name: 'Redraw except' }).click();
 await said(`${opened} is marked`);
+// Changes of another face, by the gallery's buttons.
+await page.keyboard.press(']');
+await settled();
+const another = await editor('editor.document.face');
+await page.getByRole('button', { name: 'Put back' }).click();
+await page.locator('.changes').getByRole('button', { name: 'Older' }).click();
+await said(`${another} is changed`);
+await page.locator('.changes').getByRole('button', { name: `Variant of ${opened.slice(-4)}` }).click();
+await page.locator('.changes .on:has-text("Variant")').waitFor();
+await page.locator('.changes').getByRole('button', { name: 'Other skin' }).click();
+await page.locator('.changes .on:has-text("Other skin: synth")').waitFor();
+await page.locator('.changes').getByRole('button', { name: 'Older' }).click(); // no longer older
+await page.waitForFunction(() => document.querySelectorAll('.changes .on').length === 2);
+await take('changes');
+await page.keyboard.press('Escape');
+await page.keyboard.press('Control+z');
 for (let i = 0; i < 2; i += 1) await page.keyboard.press('Control+z');
 assert.deepEqual(await recipe(), last);
 await settled();

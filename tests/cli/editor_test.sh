@@ -40,6 +40,8 @@ grep -q '^edits: config_edits.yaml' "$folder/config.yaml"
 grep -q 'made_by_hand' "$folder/config_edits.yaml"
 cp "$folder/out/plan.jsonl" "$folder/before.jsonl"
 "$program" plan "$folder/as_it_was.yaml" --cache "$folder/cache" --quiet --review "$folder/out/edited/review.yaml"
+grep -q "  mob_0002: {colours: {synth_0.: 1}, variant_of: mob_0001" "$folder/out/edited/review.yaml" ||
+  { cat "$folder/out/edited/review.yaml"; exit 1; }
 changed=$(diff "$folder/before.jsonl" "$folder/out/plan.jsonl" | grep -c '^<' || true)
-[ "$changed" -eq 1 ] || { echo "expected 1 face drawn anew, found $changed"; exit 1; }
+[ "$changed" -eq 2 ] || { echo "expected 1 face drawn anew and 1 changed, found $changed"; exit 1; }
 grep -q 'the chin: é \\"so\\"' "$folder/out/plan.jsonl" || { echo "the note did not reach the plan"; exit 1; }

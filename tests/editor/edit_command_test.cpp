@@ -248,7 +248,8 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
   edit([&] {
     const Json crowd = Json::parse(get("api/job")->body)["crowd"];
     ASSERT_EQ(crowd["faces"].size(), 5U);
-    const Json first = crowd["faces"][1];
+    Json first = crowd["faces"][1];
+    for (const char* fact : {"index", "attempt", "family"}) first.erase(fact);
     const auto face = post("api/face", {{"recipe", first}, {"measure", true}});
     EXPECT_EQ(face->status, 200);
     const Json measured = Json::parse(post("api/measures", {{"recipe", first}})->body);
@@ -267,11 +268,40 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
     EXPECT_EQ(by_hand->status, 400);
     EXPECT_THAT(by_hand->body, ::testing::HasSubstr("written by hand"));
     EXPECT_EQ(post("api/review", {{"id", "adam"}, {"verdict", "keep"}})->status, 200);
+    const auto change = [&](const std::string& face, const Json& what) {
+      return post("api/review", {{"id", face}, {"change", what}});
+    };
+    EXPECT_EQ(change("mob_0002", {{"variant_of", "mob_0003"}})->status, 200);
+    EXPECT_EQ(change("mob_0003", {{"colours", {{folder_.names()[0], 1}}}})->status, 200);
+    EXPECT_EQ(change("mob_0004", {{"variant_of", "mob_0003"}})->status, 200);
+    EXPECT_EQ(change("mob_0004", Json::object())->status, 200);
+    const auto refused = change("mob_0003", {{"ages", 1}});
+    EXPECT_EQ(refused->status, 400);
+    EXPECT_THAT(refused->body, ::testing::HasSubstr("ages"));
+    // A mark leaves the changes, which were lost.
+    EXPECT_EQ(post("api/review", {{"id", "mob_0004"}, {"verdict", "keep"}})->status, 200);
   });
+  const std::string review = read_text(edited("review.yaml"));
+  EXPECT_THAT(review, ::testing::HasSubstr("after: 0\n"));
+  EXPECT_THAT(review, ::testing::HasSubstr("mob_0002: {variant_of: mob_0003"));
+  EXPECT_THAT(review, ::testing::HasSubstr(concat("mob_0003: {colours: {", folder_.names()[0])));
+  EXPECT_THAT(review, ::testing::Not(::testing::HasSubstr("mob_0004: {variant_of")));
   const Outcome plan = run_program(
       CROWDFACE_PROGRAM, {"plan", folder_.config(), "--cache", folder_.cache(), "--review",
                           edited("review.yaml"), "--out", folder_ / "again"});
   EXPECT_EQ(plan.code, 0) << plan.err;
+
+  // The crowd has this review now: further marks begin another one, so that nothing applies twice.
+  ASSERT_EQ(
+      run_program(CROWDFACE_PROGRAM, {"generate", folder_.config(), "--cache", folder_.cache(),
+                                      "--quiet", "--review", edited("review.yaml")})
+          .code,
+      0);
+  edit([&] {
+    EXPECT_EQ(post("api/review", {{"id", "mob_0004"}, {"verdict", "keep"}})->status, 200);
+  });
+  EXPECT_EQ(read_text(edited("review.yaml")),
+            "schema: 1\nafter: 1\nfaces:\n  mob_0004: {mark: keep}\n");
 }
 
 // The run beside the page did not know of the editor's --limit, and refused what the editor had opened.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A crowd that is reviewed, grows and changes its formats, by runs that are killed again and again.
+// A crowd that is reviewed, grows, and changes its formats and single faces, by runs that are killed
+// again and again.
 #include <csignal>
 #include <random>
 
@@ -34,6 +35,7 @@ class DisturbedReviews : public ::testing::Test {
       const ThreadLimit limit(2);
       ConfigOverrides overrides;
       overrides.set = {concat("output.meshes=", formats_)};
+      if (!changes_.empty()) overrides.set.push_back(concat("changes=", changes_));
       overrides.count = std::to_string(count_);
       overrides.out = out.string();
       overrides.review = reviews;
@@ -51,10 +53,21 @@ class DisturbedReviews : public ::testing::Test {
     return run(folder_ / "anew", {}, kept);
   }
 
+  static std::string id_of(int face) {
+    return concat("mob_", zero_padded(static_cast<std::uint64_t>(face), 4));
+  }
+
+  /// "mob_0003: {variant_of: mob_0001}" of another face.
+  std::string some_variant(int face) {
+    const int other = 1 + static_cast<int>(random_() % static_cast<unsigned>(count_ - 1));
+    return concat(id_of(face), ": {variant_of: ", id_of(other < face ? other : other + 1), '}');
+  }
+
   std::string write_review(int number) {
-    std::vector<std::string> marks;
+    std::vector<std::string> marks, changes;
     for (int face = 1; face <= count_; ++face) {
-      const std::string id = concat("mob_", zero_padded(static_cast<std::uint64_t>(face), 4));
+      const std::string id = id_of(face);
+      if (random_() % 4 == 0) changes.push_back(some_variant(face));
       if (random_() % 3 == 0) marks.push_back(id + ": reject");
       if (random_() % 5 == 1 && (marks.empty() || !marks.back().starts_with(id))) {
         marks.push_back(concat(id, ": {mark: keep, note: \"by ", number, "\"}"));
@@ -62,7 +75,7 @@ class DisturbedReviews : public ::testing::Test {
     }
     return folder_.folder()
         .write(concat("review_", number, ".yaml"),
-               concat("schema: 1\nfaces: {", join(marks), "}\n"))
+               concat("schema: 1\nfaces: {", join(marks), "}\nchanges: {", join(changes), "}\n"))
         .string();
   }
 
@@ -70,6 +83,7 @@ class DisturbedReviews : public ::testing::Test {
   std::mt19937 random_{4};
   int count_ = 3;
   std::string formats_ = "[obj]";
+  std::string changes_;  ///< of the config; empty: none
 };
 
 TEST_F(DisturbedReviews, AfterEachStepTheCrowdIsThatOfARunFromNothing) {
@@ -77,12 +91,15 @@ TEST_F(DisturbedReviews, AfterEachStepTheCrowdIsThatOfARunFromNothing) {
   int kills = 0, reviews = 0;
   for (int step = 0; step < times(10, 100); ++step) {
     std::vector<std::string> given;
-    switch (random_() % 3) {
+    switch (random_() % 4) {
       case 0:
         count_ += 1 + static_cast<int>(random_() % 2);
         break;
       case 1:
         formats_ = formats_ == "[obj]" ? "[ply, obj]" : "[obj]";
+        break;
+      case 2:
+        changes_ = changes_.empty() ? concat('{', some_variant(2), '}') : "";
         break;
       default:
         given = {write_review(++reviews)};

@@ -7,6 +7,7 @@
 #include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/generate.h"
 
+#include "support/bowl_heads.h"
 #include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/small_crowd.h"
@@ -125,6 +126,72 @@ TEST_F(KeptReviews, WhatDoesNotDecideWhoTheFacesAreMayChange) {
     run(folder_, {set});
     EXPECT_EQ(plan_lines(folder_.out()), reviewed_) << set;
   }
+}
+
+/// Whether a file depends on every key of the config, and so may change with any.
+bool is_about_the_run(const std::string& name) {
+  return name == "config.yaml" || name == "report.json" || name == "ledger.jsonl" ||
+         name.starts_with("sheets/") || name.starts_with("gallery/data/");
+}
+
+// Of each kind of keys: the finished crowd gets the files of a run from nothing, its plan stays, and
+// every file that the key does not concern keeps its bytes. Without the key, all is as before.
+TEST_F(KeptReviews, EachKindOfKeysThatDecideNothingMayChange) {
+  const testing::TemporaryFolder& files = folder_.folder();
+  const std::string triangle = "v 0 0 1\nv 1 0 1\nv 0 1 1.5\nf 1 2 3\n";
+  files.write("hat.obj", triangle);
+  files.write("other_hat.obj", "v 0 0 1\nv 2 0 1\nv 0 1 1.5\nf 1 2 3\n");
+  files.write("shapes/other.obj", testing::bowl_text(folder_.crowd().bowl, 40));
+  files.write("points.yaml", "template: heads/ann.obj\npoints: {jaw: [0.5, -1, 0.25]}\n");
+  SmallCrowd crowd = dressed();
+  crowd.more = "\nattachments: {fitted_to: ann, items: [{name: hat, kind: hat, file: hat.obj}]}\n";
+  folder_.configure(crowd);
+  run(folder_, std::vector<std::string>(), Replace::kForce);
+  const auto plain = crowd_files(folder_.out());
+  const std::vector<json> lines = plan_lines(folder_.out());
+  ASSERT_EQ(lines[1].at("regions"), reviewed_[1].at("regions"));
+  struct Change {
+    const char* set;
+    const char* makes;    ///< a file that the key adds, or empty
+    const char* touches;  ///< what the names of the files contain that the key may change
+  };
+  const Change changes[] = {
+      {"output.meshes=[obj, glb]", "meshes/mob_0002.glb", ".glb"},
+      {"output.lods=[50 %]", "meshes/mob_0002+LOD1.obj", "+LOD1"},
+      {"output.contact_sheet.cell=48", "", "renders/"},
+      {"output.contact_sheet.columns=2", "", "sheets/"},
+      {"output.contact_sheet.views=[front, profile]", "", "renders/"},
+      {"output.contact_sheet.formats=[png, pdf]", "sheets/sheets.pdf", "sheets/"},
+      {"output.contact_sheet.order=likeness", "", "sheets/"},
+      {"output.subdivision=catmull_clark", "", ".usda"},
+      {"textures.size=64", "", "blended"},
+      {"textures.formats=[jpeg]", "", "blended"},
+      {"textures.blend=target", "", "blended"},
+      {"shapes={neutral: heads/ann.obj, directory: shapes}", "meshes/mob_0002+other.obj", "+other"},
+      {"points=points.yaml", "meshes/mob_0002+points.json", "+points"},
+      {"attachments.fitted_to=mean", "", "hat"},
+      {"attachments={fitted_to: ann, items: [{name: hat, kind: hat, file: other_hat.obj}]}", "",
+       "hat"},
+      {"attachments={fitted_to: ann, items: [{name: hat, kind: hat, file: hat.obj, moves: rigid}]}",
+       "", "hat"}};
+  for (const auto& [set, makes, touches] : changes) {
+    SCOPED_TRACE(set);
+    run(folder_, {set});
+    EXPECT_EQ(plan_lines(folder_.out()), lines);
+    const auto now = crowd_files(folder_.out());
+    EXPECT_TRUE(*makes == '\0' || now.contains(makes));
+    for (const std::string& name : differing_files(plain, now)) {
+      const bool is_picture = name.starts_with("renders/");
+      EXPECT_TRUE(is_about_the_run(name) || is_picture || name.find(touches) != name.npos) << name;
+    }
+    fs::remove_all(folder_ / "again");
+    ConfigOverrides overrides{{set}, {}, {}, {}};
+    overrides.review = {out("reviews/review_001.yaml").string()};
+    testing::run_to(folder_, "again", overrides);
+    EXPECT_THAT(differing_files(crowd_files(folder_ / "again"), now), IsEmpty());
+  }
+  run(folder_);
+  EXPECT_THAT(differing_files(plain, crowd_files(folder_.out())), IsEmpty());
 }
 
 TEST_F(KeptReviews, AnotherFormatLeavesEveryOtherByte) {

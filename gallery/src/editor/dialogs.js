@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes back into the crowd, and the run of the whole crowd.
 import { getJson, post } from '../api.js';
+import { changeButtons } from '../changes.js';
 import { openDialog } from '../dialog.js';
 import { el } from '../dom.js';
 
@@ -16,6 +17,23 @@ export function showPutBack(editor) {
     dialog.close();
     editor.say(`${face} is marked in ${file}`);
   });
+  const wanted = el('div', {});
+  const drawChanges = () => {
+    const entry = editor.reviewedFace(face);
+    if (!entry) return;
+    const buttons = changeButtons({
+      crowd: editor.reviewedCrowd, face: entry, before: editor.reviewedFace(editor.before),
+      change: editor.review.of(entry)?.change ?? {},
+      ask: (name, value) => editor.attempt(async () => {
+        editor.review.ask(entry, name, value);
+        drawChanges();
+        const { file } = await post('review', { id: face, change: editor.review.changeOf(entry) });
+        editor.say(`${face} is changed in ${file}`);
+      }),
+    });
+    wanted.replaceChildren(...(buttons ? [buttons] : []));
+  };
+  drawChanges();
   const dialog = openDialog('Put back',
     el('section', {}, el('h3', {}, 'Into the config'),
       el('p', { class: 'muted' }, `As ${editor.document.recipe.id}, into the file that the config names as edits.`),
@@ -34,7 +52,7 @@ export function showPutBack(editor) {
           el('button', {
             disabled: locked.length === 0, title: 'Lock the regions that are good first',
             onclick: () => review(null, locked),
-          }, locked.length > 0 ? `Redraw except ${locked.join(', ')}` : 'Redraw except locked regions'))]
+          }, locked.length > 0 ? `Redraw except ${locked.join(', ')}` : 'Redraw except locked regions')), wanted]
         : el('p', { class: 'muted' }, 'Open a face of the crowd first.')) : null);
 }
 

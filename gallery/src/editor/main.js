@@ -19,6 +19,8 @@ import { ProgramPage } from '../program_page.js';
 import {
   bandNames, bandOf, coefficients, headAlone, headIndex, targetShares, weightsOf, wholeFace, wire, withBand,
 } from './recipe.js';
+import { readCrowd } from '../crowd.js';
+import { Review } from '../review.js';
 import { RegionPanel } from './region_panel.js';
 import { Shelf } from './shelf.js';
 import { toolbar, viewBar } from './toolbar.js';
@@ -46,6 +48,17 @@ class Editor extends ProgramPage {
     this.band = bands.find((band) => band === this.look.band) ?? bands[0]; // the one that panel and plane show
     this.look.wears = Object.fromEntries(Object.entries(this.look.wears)
       .filter(([kind, choice]) => choice === 'none' || job.attachments[kind]?.includes(choice)));
+    this.before = null; // the id of the face that was open before
+    if (job.crowd) {
+      this.reviewedCrowd = readCrowd({
+        ...job.crowd, name: job.name, seed: job.seed, heads: job.heads, near: [], likeness: [], regions: [],
+      });
+      // The browser's storage belongs to the port, which is another one tomorrow.
+      this.review = new Review(this.reviewedCrowd, {
+        getItem: () => this.look.review ?? null,
+        setItem: (key, text) => { this.look.review = text; this.remember(); },
+      });
+    }
     this.passing = null; // a document that is shown while something is dragged
     this.comparing = null; // which kept state is shown
     this.comparedWith = this.kept.length - 1;
@@ -453,10 +466,17 @@ class Editor extends ProgramPage {
   open(what) {
     const [kind, name] = [what.slice(0, 4), what.slice(5)];
     if (kind === 'face') {
+      const { face } = this.document;
+      if (face && face !== name) this.before = face;
       this.commit(this.openedFace(name), `${name} opened`);
     } else if (kind === 'head') {
       this.commit(headAlone(this.job, name, this.document.recipe.id), `${name} opened`);
     }
+  }
+
+  /// A face of the crowd as reviews know it.
+  reviewedFace(name) {
+    return this.reviewedCrowd?.byId.get(name) ?? null;
   }
 
   /// The face before or after the one that is open.

@@ -186,16 +186,19 @@ std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft) {
   return changes;
 }
 
+std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context) {
+  return block_map(texts_of(changes, [&](const FaceChange& change) {
+    return entry(write_scalar(change.id), flow_map(write_keys(change_keys(), change, context)));
+  }));
+}
+
 Key<Config> changes_key() {
   return Key<Config>{"changes",
                      [](const YamlNode& node, Config& config, ConfigDraft& draft) {
                        config.changes = read_changes(node, draft);
                      },
                      [](const Config& config, const WriteContext& context) {
-                       return block_map(texts_of(config.changes, [&](const FaceChange& change) {
-                         return entry(write_scalar(change.id),
-                                      flow_map(write_keys(change_keys(), change, context)));
-                       }));
+                       return write_changes(config.changes, context);
                      }}
       .holding(change_keys())
       .written_if([](const Config& config, const auto&) { return !config.changes.empty(); });

@@ -273,6 +273,8 @@ Key<Config> families_key();
 Key<Config> changes_key();
 /// Reads the changes of faces, of a config or of a review.
 std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
+/// Writes changes as a mapping from faces.
+std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context);
 /// Reads a list of regions, bands or bands of regions: region · #bands + band, ascending.
 std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft);
 /// Whether a sampled face (any face) of this config's crowd has this id.

@@ -29,4 +29,12 @@ std::string format_manual_recipe(const ManualRecipe& recipe, const Config& confi
 Review parse_review(std::string_view text, const std::string& source, const Config& config,
                     Problems& problems);
 
+/// Reads the change of a face from YAML (or JSON, which is YAML), such as {age: older}. An empty
+/// mapping is an empty change.
+std::optional<FaceChange> parse_change(const std::string& id, std::string_view text,
+                                       const Config& config, Problems& problems);
+
+/// Writes a review as the text of a review file.
+std::string format_review(const Review& review, const Config& config);
+
 }  // namespace crowdface

@@ -153,6 +153,14 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   known.reviews.push_back(std::move(review));
 }
 
+std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
+  std::vector<std::string> entries = {entry("mark", word_of(mark.verdict))};
+  const auto locked = texts_of(mark.locked, [&](std::size_t k) { return parts[k]; });
+  if (!locked.empty()) entries.push_back(entry("lock", flow_names(locked)));
+  if (mark.note) entries.push_back(entry("note", write_scalar(*mark.note)));
+  return entry(write_scalar(mark.id), flow_map(entries));
+}
+
 }  // namespace
 
 bool is_sampled_face(const std::string& id, const Config& config) {
@@ -213,6 +221,30 @@ void read_review(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_review(const Config& config, const WriteContext& context) {
   return list(path(""), "").write(config.review.files, context);
+}
+
+std::optional<FaceChange> parse_change(const std::string& id, std::string_view text,
+                                       const Config& config, Problems& problems) {
+  if (text == "{}") return FaceChange{.id = id};
+  const Review review =
+      parse_review(concat("schema: 1\nchanges: {", write_scalar(id), ": ", text, "}\n"), "change",
+                   config, problems);
+  return review.changes.empty() ? std::nullopt : std::optional(review.changes.front());
+}
+
+std::string format_review(const Review& review, const Config& config) {
+  const std::vector<std::string> parts = config.part_names();
+  std::vector<std::string> entries = {"schema: 1"};
+  if (review.count) entries.push_back(concat("count: ", *review.count));
+  if (review.after) entries.push_back(concat("after: ", *review.after));
+  const auto marks =
+      texts_of(review.marks, [&](const ReviewMark& mark) { return format_mark(mark, parts); });
+  if (!marks.empty()) entries.push_back(entry("faces", block_map(marks)));
+  if (!review.changes.empty()) {
+    entries.push_back(entry("changes", write_changes(review.changes, {config, {}})));
+  }
+  if (marks.empty() && review.changes.empty()) entries.emplace_back("faces: {}");
+  return block_map(entries).substr(1) + '\n';
 }
 
 Review parse_review(std::string_view text, const std::string& source, const Config& config,

@@ -261,7 +261,7 @@ const Keys<Config>& root_keys() {
           .apart_from_faces()
           .after_casting(),
       landmarks_key().apart_from_faces(),
-      neck_key().apart_from_faces(),
+      neck_key().apart_from_faces().after_casting(),
       attachments_key().apart_from_faces(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane).apart_from_faces(),

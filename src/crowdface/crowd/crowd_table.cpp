@@ -13,6 +13,7 @@
 #include "crowdface/core/contains.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
+#include "crowdface/crowd/face_json.h"
 #include "crowdface/io/srgb.h"
 
 namespace crowdface {
@@ -109,15 +110,32 @@ std::string family_of(const FacePlan& face, const Parenthood& parenthood) {
 }
 
 /// Such as "child;mother" for a child of one family that is the mother of another family.
+constexpr const char* kMember = "member";
+
 std::string family_role(const FacePlan& face, const Parenthood& parenthood) {
   std::vector<std::string> roles;
-  if (face.family) roles.emplace_back(face.parents.empty() ? "member" : "child");
+  if (face.family) roles.emplace_back(face.parents.empty() ? kMember : "child");
   if (const auto own = parenthood.find(face.id); own != parenthood.end()) {
     for (const auto& [family, role] : own->second) {
       if (!contains(roles, role)) roles.push_back(role);
     }
   }
   return join(roles, ";");
+}
+
+const std::vector<std::string>& tags_of(const FacePlan& face, const HeadTags& tags) {
+  return tags[static_cast<std::size_t>(typical_head(face.recipe, tags))];
+}
+
+std::string sex_of(const FacePlan& face, const HeadTags& tags) {
+  for (const char* sex : {"female", "male"}) {
+    if (contains(tags_of(face, tags), std::string(sex))) return sex;
+  }
+  return {};
+}
+
+bool has_any_tag(const HeadTags& tags) {
+  return std::ranges::any_of(tags, [](const auto& own) { return !own.empty(); });
 }
 
 /// Columns that tell who a face is.
@@ -133,20 +151,14 @@ void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names, const T
                      [](Face face) { return face.family.has_value(); }});
   columns.push_back({"age", [](Face face) { return format_number(face.age.value_or(0)); },
                      [](Face face) { return face.age.has_value(); }});
-  const auto tags_of = [=](Face face) -> const std::vector<std::string>& {
-    return (*tags)[static_cast<std::size_t>(typical_head(face.recipe, *tags))];
-  };
   const auto has_tag = [](const HeadTags& all, const std::string& tag) {
     return std::ranges::any_of(all, [&](const auto& own) { return contains(own, tag); });
   };
   if (has_tag(*tags, "female") || has_tag(*tags, "male")) {
-    columns.push_back({"sex", [=](Face face) -> std::string {
-                         if (contains(tags_of(face), std::string("female"))) return "female";
-                         return contains(tags_of(face), std::string("male")) ? "male" : "";
-                       }});
+    columns.push_back({"sex", [=](Face face) { return sex_of(face, *tags); }});
   }
-  if (std::ranges::any_of(*tags, [](const auto& own) { return !own.empty(); })) {
-    columns.push_back({"tags", [=](Face face) { return join(tags_of(face), ";"); }});
+  if (has_any_tag(*tags)) {
+    columns.push_back({"tags", [=](Face face) { return join(tags_of(face, *tags), ";"); }});
   }
   columns.push_back({"changed", [](Face face) { return join(face.notes.changes, ";"); },
                      [](Face face) { return !face.notes.changes.empty(); }});
@@ -233,6 +245,24 @@ std::string hex_of_light(const Eigen::Array3d& light) {
     text += kDigits[byte % kBase];
   }
   return text;
+}
+
+TextPieces told_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                          const Digest& settings, const TableFacts& facts) {
+  const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
+  return text_of_items(crowd.size(),
+                       [&crowd, &names, settings, parenthood, tags = facts.tags](std::size_t i) {
+                         const FacePlan& face = crowd[i];
+                         nlohmann::ordered_json line = face_to_json(face, names, settings);
+                         if (has_any_tag(tags)) {
+                           if (const std::string sex = sex_of(face, tags); !sex.empty())
+                             line["sex"] = sex;
+                           line["tags"] = tags_of(face, tags);
+                         }
+                         const std::string role = family_role(face, *parenthood);
+                         if (!role.empty() && role != kMember) line["family_role"] = role;
+                         return line.dump() + '\n';
+                       });
 }
 
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,

@@ -9,6 +9,7 @@
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/cast/typical_head.h"
+#include "crowdface/core/hash.h"
 #include "crowdface/core/text_pieces.h"
 
 namespace crowdface {
@@ -28,6 +29,12 @@ struct TableFacts {
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                       const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours,
                       const TableFacts& facts = {});
+
+/// The text of plan.jsonl: that of plan_text, and who each face is: `sex` and `tags` if the heads have
+/// tags, and the `family_role` of parents and children (the `family` names the other members). `crowd`
+/// and `names` must outlive the text.
+TextPieces told_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                          const Digest& settings, const TableFacts& facts);
 
 /// A colour in linear light as sRGB, "#C89F8A".
 std::string hex_of_light(const Eigen::Array3d& light);

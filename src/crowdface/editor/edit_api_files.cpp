@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/config/edited_entries.h"
 #include "crowdface/config/words.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -172,6 +173,13 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
   const std::vector<FacePlan>* crowd = session_.crowd();
   if (crowd == nullptr || std::ranges::find(*crowd, mark.id, &FacePlan::id) == crowd->end()) {
     throw UsageError(concat("no face of this crowd is called ", crowdface::quoted(mark.id)));
+  }
+  if (body.contains("change")) {
+    Problems problems;
+    const auto change =
+        parse_change(mark.id, body["change"].dump(), session_.job().config, problems);
+    problems.throw_if_any();
+    return json_answer(file_json(folder_.save_change(session_.job().config, *change)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");
   mark.locked = parts_in(body, "lock");

@@ -11,18 +11,30 @@
 #include "crowdface/core/folder.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_directory.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
-  std::vector<std::string> entries = {entry("mark", word_of(mark.verdict))};
-  const auto locked = texts_of(mark.locked, [&](std::size_t k) { return parts[k]; });
-  if (!locked.empty()) entries.push_back(entry("lock", flow_names(locked)));
-  if (mark.note) entries.push_back(entry("note", write_scalar(*mark.note)));
-  return concat("  ", entry(write_scalar(mark.id), flow_map(entries)), '\n');
+/// Puts a mark or a change in place of that of the same face.
+template <class Entry>
+void put_entry(const Entry& entry, std::vector<Entry>& entries) {
+  const auto known = std::ranges::find(entries, entry.id, &Entry::id);
+  if (known == entries.end()) {
+    entries.push_back(entry);
+  } else {
+    *known = entry;
+  }
+}
+
+/// Returns whether the crowd's folder keeps a review with this text, to which a run may have added
+/// the key `count`.
+bool crowd_has_review(const Config& config, const std::string& text) {
+  const std::vector<fs::path> kept = CrowdDirectory{config.output.directory}.kept_reviews();
+  return std::ranges::any_of(
+      kept, [&](const fs::path& file) { return read_file(file).starts_with(text); });
 }
 
 /// Prefix of a file that exists while a face is being saved. The file contains the extension of the
@@ -145,22 +157,31 @@ void EditedFolder::save_picture(const std::string& name, std::string_view png) {
 }
 
 fs::path EditedFolder::save_mark(const Config& config, const ReviewMark& mark) {
+  return save_review(config, [&](Review& review) { put_entry(mark, review.marks); });
+}
+
+fs::path EditedFolder::save_change(const Config& config, const FaceChange& change) {
+  return save_review(config, [&](Review& review) {
+    if (!change.is_empty()) return put_entry(change, review.changes);
+    std::erase_if(review.changes, [&](const FaceChange& known) { return known.id == change.id; });
+  });
+}
+
+fs::path EditedFolder::save_review(const Config& config, const std::function<void(Review&)>& edit) {
   const std::lock_guard lock(mutex_);
   require_same();
   fs::path file = path_ / "review.yaml";
   Problems problems;
   Review review;
-  if (path_exists(file)) review = parse_review(read_file(file), file.string(), config, problems);
-  problems.throw_if_any();
-  const auto known = std::ranges::find(review.marks, mark.id, &ReviewMark::id);
-  if (known == review.marks.end()) {
-    review.marks.push_back(mark);
+  const std::string before = path_exists(file) ? read_file(file) : std::string();
+  if (before.empty() || crowd_has_review(config, before)) {
+    review.after = config.review.reviews.size();
   } else {
-    *known = mark;
+    review = parse_review(before, file.string(), config, problems);
   }
-  const std::vector<std::string> parts = config.part_names();
-  std::string text = "schema: 1\nfaces:\n";
-  for (const ReviewMark& one : review.marks) text += format_mark(one, parts);
+  problems.throw_if_any();
+  edit(review);
+  const std::string text = format_review(review, config);
   parse_review(text, file.string(), config, problems);
   problems.throw_if_any();
   write_file(file, text);

@@ -54,12 +54,16 @@ class EditedFolder {
   /// or a disk error.
   void finish_saves(const Job& job, const WriteMesh& write);
   void save_picture(const std::string& name, std::string_view png);
-  /// Writes the mark to review.yaml, in place of a mark about the same face.
-  /// \throws Error if a config would reject the existing marks or this mark.
+  /// Writes a mark or a change to review.yaml, in place of the mark or change of the same face; an
+  /// empty change removes it. If the crowd already has the review in this file, begins another one,
+  /// so that nothing applies twice.
+  /// \throws Error if a config would reject the existing review or the result.
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
+  std::filesystem::path save_change(const Config& config, const FaceChange& change);
 
  private:
   void write_meshes(const FacePlan& face, const std::string& ending, const WriteMesh& write) const;
+  std::filesystem::path save_review(const Config& config, const std::function<void(Review&)>& edit);
 
   std::filesystem::path path_;
   DirectoryHandle held_;

@@ -13,6 +13,7 @@
 #include "crowdface/editor/edited_folder.h"
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/page/binary_answer.h"
+#include "crowdface/pictures/change_choices.h"
 #include "crowdface/pictures/surfaces.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/vertex_colours.h"
@@ -158,9 +159,13 @@ Json EditSession::description() const {
   json["crowd"] = nullptr;
   if (crowd_) {
     json["crowd"] = {{"directory", config.output.directory.string()}, {"faces", Json::array()}};
+    add_change_choices(config, job_.inputs.textures.any(), json["crowd"]);
     for (const FacePlan& face : *crowd_) {
       Json entry = recipe_to_json(face, casting_, config);
-      if (face.family) entry["family"] = *face.family;
+      entry["index"] = face.index ? Json(*face.index) : Json(nullptr);
+      entry["attempt"] = face.notes.attempt;
+      if (!face.notes.changes.empty()) entry["changed"] = face.notes.changes;
+      entry["family"] = face.family ? Json(*face.family) : Json(nullptr);
       if (face.group) entry["group"] = *face.group;
       json["crowd"]["faces"].push_back(std::move(entry));
     }

@@ -32,4 +32,9 @@ struct HeadsOnBody {
   Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
 };
 
+/// Returns the mean of the heads as they are without a body.
+inline const Positions& unplaced_mean(const Inputs& inputs) {
+  return inputs.neck ? inputs.neck->unplaced_mean : inputs.mean;
+}
+
 }  // namespace crowdface

@@ -118,6 +118,7 @@ struct Inputs {
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads
   std::uint64_t max_level = 0;        ///< L_max
   std::vector<Digest> head_digests;   ///< #heads, hashes of the positions in use
+  std::vector<Digest> own_digests;    ///< #heads, before the heads were placed on a body (`neck`)
   Digest topology_digest;
   Digest mask_digest;  ///< hash of α
   /// colour textures, if they are blended or rendered; otherwise empty

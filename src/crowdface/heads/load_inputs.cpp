@@ -108,12 +108,12 @@ Digest digest_of_topology(const Topology& topology) {
       .digest();
 }
 
-void hash_heads(Inputs& inputs) {
-  inputs.head_digests.resize(inputs.faces.heads.size());
-  parallel_for_each(inputs.faces.heads.size(), [&](std::size_t h) {
-    const Positions& positions = inputs.faces.heads[h].positions;
-    inputs.head_digests[h] = Hasher().add_array(numbers_of(positions)).digest();
+std::vector<Digest> hash_heads(const HeadSet& faces) {
+  std::vector<Digest> digests(faces.heads.size());
+  parallel_for_each(digests.size(), [&](std::size_t h) {
+    digests[h] = Hasher().add_array(numbers_of(faces.heads[h].positions)).digest();
   });
+  return digests;
 }
 
 /// Returns a message if only some heads have a texture and all of these have the same one, because
@@ -264,9 +264,10 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     problems.add(error);
     return std::nullopt;
   }
+  inputs.own_digests = hash_heads(inputs.faces);
   load_neck(config, inputs, problems);
   if (!problems.empty()) return std::nullopt;
-  hash_heads(inputs);
+  inputs.head_digests = inputs.neck ? hash_heads(inputs.faces) : inputs.own_digests;
   inputs.mean = mean_head(inputs.faces);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);

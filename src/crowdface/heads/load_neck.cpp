@@ -197,12 +197,15 @@ void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& he
                      " mm hides; a larger neck.falloff makes the bend smoother"));
 }
 
-/// Places a head on the body.
-HeadsOnBody::Head place(const Rim& rim, const Positions& goal, double mm, Positions& head) {
+/// Places a head on the body. All heads rotate alike: otherwise the body would change how heads
+/// differ, and so who the faces are.
+HeadsOnBody::Head place(const Rim& rim, const Positions& goal, const Eigen::Matrix3d& rotation,
+                        double mm, Positions& head) {
   HeadsOnBody::Head placed;
   const Positions before = head(rim, kAllColumns);
-  if (before == goal) return placed;
+  if (before == goal && rotation.isIdentity(0)) return placed;
   placed.placed = placing(before, goal);
+  placed.placed.rotation = rotation;
   move(placed.placed, head);
   const Positions after = head(rim, kAllColumns);
   placed.moved_mm = mm * rms_length(after - before);
@@ -216,9 +219,13 @@ void place_heads(const Config& config, Inputs& inputs) {
   const Rim rim = find_rim(config, inputs);
   Body body = find_body(config, inputs, rim);
   Positions unplaced_mean = mean_head(faces);
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  if (!config.neck.body.empty()) {
+    rotation = placing(unplaced_mean(rim, kAllColumns), body.rim).rotation;
+  }
   std::vector<HeadsOnBody::Head> heads(faces.heads.size());
   parallel_for_each(heads.size(), [&](std::size_t h) {
-    heads[h] = place(rim, body.rim, mm, faces.heads[h].positions);
+    heads[h] = place(rim, body.rim, rotation, mm, faces.heads[h].positions);
   });
   Positions mean = mean_head(faces);
   Seam seam{rim,

@@ -9,7 +9,6 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/units.h"
-#include "crowdface/heads/heads_on_body.h"
 
 namespace crowdface {
 namespace {
@@ -31,10 +30,10 @@ void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
 Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
-  for (std::size_t h = 0; h < inputs.head_digests.size(); ++h) {
+  for (std::size_t h = 0; h < inputs.own_digests.size(); ++h) {
     // Also hash the file: everything in a mesh except its positions is copied from its target's
     // file.
-    hasher.add(config.faces.names[h]).add(inputs.head_digests[h]).add(inputs.texts[h]);
+    hasher.add(config.faces.names[h]).add(inputs.own_digests[h]).add(inputs.texts[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
   hasher.add(static_cast<int>(config.smoothing.boundary))
@@ -50,7 +49,6 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   if (inputs.mirror != nullptr) {
     hasher.add(kMirrorVersion).add(config.faces.up.index).add(config.faces.front.index);
   }
-  if (inputs.neck != nullptr) hasher.add(kNeckVersion).add(inputs.neck->digest);
   return hasher.digest();
 }
 

@@ -14,6 +14,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/named_parts.h"
 
 namespace crowdface {
@@ -29,7 +30,7 @@ Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
 
 /// Adds everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
-  for (const Digest& head : inputs.head_digests) hasher.add(head);
+  for (const Digest& head : inputs.own_digests) hasher.add(head);
   return hasher.add_array(std::span(inputs.skin.of_vertex)).add(inputs.skin.largest());
 }
 
@@ -173,7 +174,8 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
   return cached(
       inputs.cache, {"samples", key.digest()},
       [&] {
-        return choose_face_samples(topology, inputs.skin, inputs.mean, config.faces.front, count);
+        return choose_face_samples(topology, inputs.skin, unplaced_mean(inputs), config.faces.front,
+                                   count);
       },
       [](auto& arrays, auto& samples) { arrays("vertices", samples); },
       [&](const FaceSamples& found, const CacheEntry&) {
@@ -186,10 +188,10 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, inputs).add_array(std::span(samples));
-  for (const Digest& head : inputs.head_digests) key.add(head);
+  for (const Digest& head : inputs.own_digests) key.add(head);
   return cached(
       inputs.cache, {"cells", key.digest()},
-      [&] { return find_sample_cells(inputs.adjacency, inputs.mean, samples); },
+      [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },
       [](auto& arrays, auto& cells) { arrays("samples", cells.of_vertex); },
       [&](const SampleCells& found, const CacheEntry&) {
         static_assert(SampleCells::kNone == kNoIndex);

@@ -38,14 +38,7 @@ Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLik
   if (!names.bands.empty()) json["bands"] = names.bands;
   json["pictures"] = config.output.contact_sheet.has_value();
   for (const Shape& shape : shapes.shapes) json["shapes"].push_back(shape.name);
-  if (!config.review.reviews.empty()) json["reviews"] = config.review.reviews.size();
-  if (std::ranges::any_of(config.attachments.items,
-                          [](const auto& item) { return item.tint != Tint::kNone; })) {
-    for (const NamedHairColour& colour : named_hair_colours()) {
-      json["hair_colours"].push_back(colour.name);
-    }
-  }
-  if (has_textures && config.textures.blend == TextureBlend::kAuto) json["skins"] = true;
+  add_change_choices(config, has_textures, json);
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < names.heads.size(); ++h) {
     json["heads"].push_back({{"name", names.heads[h]},

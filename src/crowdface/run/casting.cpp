@@ -15,6 +15,7 @@
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached_face_space.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/heads/skin_tones.h"
 #include "crowdface/run/changed_faces.h"
@@ -150,7 +151,7 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache) {
   const std::vector<double> areas =
-      face_areas(inputs.faces.topology, inputs.skin, inputs.mean, config.distance.area,
+      face_areas(inputs.faces.topology, inputs.skin, unplaced_mean(inputs), config.distance.area,
                  config.faces.front, inputs.distance_mask);
   const SampleCells cells = find_cells(inputs, prepared.samples);
   SampledHeads heads =

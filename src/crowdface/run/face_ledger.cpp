@@ -8,6 +8,7 @@
 #include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/settings_digest.h"
 #include "crowdface/pictures/gallery_page.h"
 #include "crowdface/run/mesh_judge.h"
@@ -28,6 +29,7 @@ Digest digest_of_common(const Job& job) {
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }
+  if (inputs.neck) hasher.add(kNeckVersion).add(inputs.neck->digest);
   if (!inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(inputs.shapes_digest);
   if (!inputs.points.empty()) hasher.add(kPointsVersion).add(inputs.points_digest);
   if (!inputs.rig.empty()) hasher.add(kRigVersion).add(inputs.rig.digest);

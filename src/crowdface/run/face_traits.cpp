@@ -125,13 +125,14 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
     }
   }
   measurer_.emplace(heads_at(config, inputs, prepared, few), std::move(rows),
-                    measure_heads(config, inputs, landmarks),
-                    [this](const Recipe& recipe) { return exact_landmarks(recipe); });
+                    measure_heads(config, inputs, landmarks), [this](const Recipe& recipe) {
+                      return exact_landmarks(recipe, Neck::kAsBlended);
+                    });
 }
 
 /// Follows the steps of FaceBuilder at a few vertices: blending and asymmetry, contacts, mirroring,
 /// the bend at the neck.
-Positions FaceTraits::exact_landmarks(const Recipe& recipe) const {
+Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
   Recipe plain = recipe;
   plain.mirrored = false;
   const Positions at = sample_face(heads_, plain) / mm_per_unit_;
@@ -142,7 +143,7 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe) const {
   }
   builder_.correct_contacts(plain, face);
   if (recipe.mirrored) mirror_wanted(face);
-  if (neck_ != nullptr) neck_->seam.fit(face);
+  if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.fit(face);
   return landmarks_.on(face, mm_per_unit_);
 }
 
@@ -167,7 +168,7 @@ void FaceTraits::mirror_wanted(Positions& face) const {
 }
 
 std::vector<double> FaceTraits::values(const Recipe& recipe) const {
-  const Positions points = exact_landmarks(recipe);
+  const Positions points = exact_landmarks(recipe, Neck::kBent);
   std::vector<double> values;
   for (const std::size_t trait : traits_) values.push_back(measure(measurements()[trait], points));
   return values;

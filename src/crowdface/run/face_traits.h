@@ -29,7 +29,10 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  Positions exact_landmarks(const Recipe& recipe) const;
+  /// Whether landmarks are those of the written face, or of the face without a body: casting judges
+  /// the latter, so that a body does not change who the faces are.
+  enum class Neck { kBent, kAsBlended };
+  Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
   /// Replaces the rows of wanted_ by those of the mirrored face.
   void mirror_wanted(Positions& face) const;
 

@@ -9,9 +9,11 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/crowd_table.h"
+#include "crowdface/heads/heads_on_body.h"
 #include "crowdface/io/shallow_json.h"
 
 namespace crowdface {
@@ -21,6 +23,7 @@ namespace {
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
   hasher.add(kVersion).add(plan_settings(job.config, directory.root)).add(job.settings);
+  if (job.inputs.neck) hasher.add(kNeckVersion).add(job.inputs.neck->digest);  // for measurements
   hasher.add_array(std::span(job.inputs.distance_mask));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
   for (const auto& table : {job.config.population, job.config.quantiles_of}) {
@@ -75,7 +78,8 @@ TableFacts table_facts(const Config& config) {
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                 const nlohmann::ordered_json& casting,
                 const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write) {
-  const TextPieces plan = plan_text(crowd_plan.crowd, job.names, job.settings);
+  const TextPieces plan =
+      told_plan_text(crowd_plan.crowd, job.names, job.settings, table_facts(job.config));
   remove_report_of_other_plan(directory, plan);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   const auto write_and_mark = [&](const std::filesystem::path& path, const TextPieces& text) {
