@@ -65,49 +65,65 @@ struct LoadedMask {
   }
 };
 
+/// Returns which channel of a tile to look at: the tiles of a mask may be files of several kinds.
+using ChannelOf = std::function<int(const LoadedTile&)>;
+
+ChannelOf colour(std::size_t number) {
+  return [number](const LoadedTile& tile) { return tile.channels[number]; };
+}
+ChannelOf alpha() {
+  return [](const LoadedTile& tile) { return tile.image.alpha_channel; };
+}
+
 /// Whether a channel has the same value at all pixels of all tiles.
-bool is_constant(const LoadedMask& mask, int channel) {
-  const Image& first = mask.tiles.begin()->second.image;
-  return std::ranges::all_of(mask.tiles, [&](const auto& tile) {
-    const Image& image = tile.second.image;
+bool is_constant(const LoadedMask& mask, const ChannelOf& channel_of) {
+  const LoadedTile& first = mask.tiles.begin()->second;
+  const auto value = first.image.at(0, 0, channel_of(first));
+  return std::ranges::all_of(mask.tiles, [&](const auto& numbered) {
+    const Image& image = numbered.second.image;
+    const int channel = channel_of(numbered.second);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        if (image.at(x, y, channel) != first.at(0, 0, channel)) return false;
+        if (image.at(x, y, channel) != value) return false;
       }
     }
     return true;
   });
 }
-/// Whether two channels are equal at all pixels of all tiles.
-bool are_same(const LoadedMask& mask, int one, int other) {
-  return std::ranges::all_of(mask.tiles, [&](const auto& tile) {
-    const Image& image = tile.second.image;
+/// Whether all colour channels are equal at all pixels of all tiles.
+bool is_grey(const LoadedMask& mask) {
+  return std::ranges::all_of(mask.tiles, [](const auto& numbered) {
+    const auto& [image, channels] = numbered.second;
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        if (image.at(x, y, one) != image.at(x, y, other)) return false;
+        for (const int channel : channels) {
+          if (image.at(x, y, channel) != image.at(x, y, channels[0])) return false;
+        }
       }
     }
     return true;
   });
 }
 
-int alpha_of(const LoadedMask& mask) {
-  return mask.tiles.empty() ? -1 : mask.tiles.begin()->second.image.alpha_channel;
+/// Whether all tiles have alpha, and it is not the same everywhere.
+bool has_alpha_that_varies(const LoadedMask& mask) {
+  const bool is_there = std::ranges::all_of(
+      mask.tiles, [](const auto& numbered) { return numbered.second.image.alpha_channel >= 0; });
+  return is_there && !mask.tiles.empty() && !is_constant(mask, alpha());
 }
 
-void take_one_channel(LoadedMask& mask, int channel) {
-  for (auto& [number, tile] : mask.tiles) tile.channels = {channel};
+void take_one_channel(LoadedMask& mask, const ChannelOf& channel_of) {
+  for (auto& [number, tile] : mask.tiles) tile.channels = {channel_of(tile)};
   mask.names.clear();
 }
 
 /// Uses alpha as the mask if alpha varies and all colour channels are constant.
 void take_alpha_if_it_is_all(LoadedMask& mask) {
-  const int alpha = alpha_of(mask);
-  if (alpha < 0 || is_constant(mask, alpha)) return;
-  for (const int channel : mask.tiles.begin()->second.channels) {
-    if (!is_constant(mask, channel)) return;
+  if (!has_alpha_that_varies(mask)) return;
+  for (std::size_t number = 0; number < mask.channels(); ++number) {
+    if (!is_constant(mask, colour(number))) return;
   }
-  take_one_channel(mask, alpha);
+  take_one_channel(mask, alpha());
 }
 
 /// For an image that holds one region: uses its grey value if all channels are equal, or else its
@@ -115,12 +131,8 @@ void take_alpha_if_it_is_all(LoadedMask& mask) {
 /// \throws InvalidInput if the image is coloured and alpha does not vary.
 void take_grey(LoadedMask& mask, const std::string& path) {
   if (mask.channels() < 2 || mask.tiles.empty()) return;
-  const std::vector<int> channels = mask.tiles.begin()->second.channels;
-  const int alpha = alpha_of(mask);
-  const bool is_grey = std::ranges::all_of(
-      channels, [&](int channel) { return are_same(mask, channels[0], channel); });
-  if (is_grey) return take_one_channel(mask, channels[0]);
-  if (alpha >= 0 && !is_constant(mask, alpha)) return take_one_channel(mask, alpha);
+  if (is_grey(mask)) return take_one_channel(mask, colour(0));
+  if (has_alpha_that_varies(mask)) return take_one_channel(mask, alpha());
   throw InvalidInput(
       concat(path,
              ": expected a grey image, because each region has its own image, found a colour "
