@@ -186,9 +186,8 @@ void check_reviews(const Config& config, Problems& problems) {
   for (std::size_t i = kept.size(); i < reviews.reviews.size(); ++i) {
     const std::uint64_t after = reviews.reviews[i].after.value_or(0);
     if (after <= i) continue;
-    problems.add(ExitCode::kUsage,
-                 concat(reviews.files[i].string(), ": after: expected at most ", i,
-                        ", the number of earlier reviews, found ", after));
+    problems.add(ExitCode::kUsage, concat(reviews.files[i].string(), ": after: expected at most ",
+                                          i, ", the number of earlier reviews, found ", after));
   }
 }
 
