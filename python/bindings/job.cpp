@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -12,6 +15,8 @@
 #include "crowdface/config/config_reader.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/problems.h"
+#include "crowdface/core/text.h"
+#include "crowdface/crowd/crowd_table.h"
 #include "crowdface/crowd/plan_file.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/heads/face_attachments.h"
@@ -23,6 +28,7 @@
 #include "crowdface/run/generate.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/pipeline.h"
+#include "crowdface/run/planned.h"
 #include "crowdface/run/wrap_scans.h"
 
 #include "bindings/bindings.h"
@@ -67,8 +73,11 @@ class PythonJob {
     }
     std::vector<std::string> lines;
     const CrowdPlan plan = plan_crowd(job_.config, job_.inputs, prepared(), defects, cache_);
-    for (const FacePlan& face : plan.crowd) {
-      lines.push_back(format_recipe(face, job_.names, job_.settings));
+    std::string text;
+    told_plan_text(plan.crowd, job_.names, job_.settings,
+                   table_facts(job_.config))([&](std::string_view piece) { text += piece; });
+    for (const std::string_view line : split(text, '\n')) {
+      if (!line.empty()) lines.emplace_back(line);
     }
     require_whole(prepared());
     return lines;

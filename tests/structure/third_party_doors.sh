@@ -37,7 +37,7 @@ door 'meshoptimizer' 'crowdface/preview/[a-z_]*\.cpp' 'crowdface/io/gltf_compres
 door 'assimp/' 'crowdface/io/assimp_reader\.cpp'
 door 'draco/' 'crowdface/io/gltf_compression\.cpp'
 door 'yaml-cpp/' 'crowdface/config/[a-z_]*\.cpp'
-door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/(face_json|ledger)|run/(casting_report|planned|report))\.h' \
+door 'nlohmann/' 'crowdface/(io/shallow_json|io/glb_part|io/glb_scene|io/glb_skin|crowd/(face_json|ledger)|pictures/change_choices|run/(casting_report|planned|report))\.h' \
   '(crowdface/(io|wrap|crowd|pictures|run)|head_models/morph)/[a-z_]*\.cpp' 'crowdface/(editor|page|pick)/[a-z_]*\.(cpp|h)'
 door 'CLI/' 'cli/(command_line|main)\.cpp'
 exit $status

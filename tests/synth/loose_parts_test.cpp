@@ -81,8 +81,7 @@ TEST(LoosePieces, HoldEyeballsBehindTheLids) {
         const Vector3d from = head.row(v).transpose() - centre;
         if (from.z() < 0 || from.norm() > 1.25 * radius) continue;
         (from.y() > 0 ? above : below) += 1;
-        // The pockets behind the lids end a little inside the eyeballs.
-        inside += from.norm() < 0.93 * radius ? 1 : 0;
+        inside += from.norm() < 0.95 * radius ? 1 : 0;
       }
       EXPECT_GT(above, 10) << name;
       EXPECT_GT(below, 10) << name;

@@ -71,11 +71,11 @@ Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
   if (b <= 1.2) return eye_centre() + foot;
   const double t = (b - 1.2) / 0.8, radius = foot.norm();
-  // Tangent to the eyeball, away from the viewing direction, and slowly into the eyeball: blended lids
-  // may be thinner than those of the heads, and the pocket must not come out of them.
+  // Along the eyeball, away from the viewing direction, without moving off it: blended lids may be
+  // thinner than those of the heads, and the pocket must not come out of them.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
-  return eye_centre() + (radius - 0.06 * t) * (spoke + 0.2 * t * back).normalized();
+  return eye_centre() + radius * (spoke + 0.2 * t * back).normalized();
 }
 
 Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, double b) {
