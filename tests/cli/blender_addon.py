@@ -386,6 +386,7 @@ options, browse = scene.crowdface.generate, scene.crowdface.browse
 options.heads = import_heads()
 options.folder = os.path.join(folder, "made")
 options.count, options.families, options.members, options.groups = 4, 1, 2, True
+options.distance = 0.3  # so that the few heads also have the 60 faces of the last test
 options.expressions = bpy.data.objects[HEADS[0]]
 options.lods, options.traits = "50 %", "nose_width"
 test_check(options)
