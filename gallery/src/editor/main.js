@@ -164,7 +164,7 @@ class Editor extends ProgramPage {
       this.message);
   }
 
-  /// Where pictures of the library can be dropped.
+  /// The elements on which pictures of the library can be dropped, and what a drop does there.
   takeDrops() {
     const { library, board } = this;
     library.takesDrops(this.node.querySelector('.viewbox'), () => ({}));

@@ -250,19 +250,18 @@ std::string hex_of_light(const Eigen::Array3d& light) {
 TextPieces told_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                           const Digest& settings, const TableFacts& facts) {
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
-  return text_of_items(crowd.size(),
-                       [&crowd, &names, settings, parenthood, tags = facts.tags](std::size_t i) {
-                         const FacePlan& face = crowd[i];
-                         nlohmann::ordered_json line = face_to_json(face, names, settings);
-                         if (has_any_tag(tags)) {
-                           if (const std::string sex = sex_of(face, tags); !sex.empty())
-                             line["sex"] = sex;
-                           line["tags"] = tags_of(face, tags);
-                         }
-                         const std::string role = family_role(face, *parenthood);
-                         if (!role.empty() && role != kMember) line["family_role"] = role;
-                         return line.dump() + '\n';
-                       });
+  return text_of_items(crowd.size(), [&crowd, &names, settings, parenthood, tags = facts.tags,
+                                      is_tagged = has_any_tag(facts.tags)](std::size_t i) {
+    const FacePlan& face = crowd[i];
+    nlohmann::ordered_json line = face_to_json(face, names, settings);
+    if (is_tagged) {
+      if (const std::string sex = sex_of(face, tags); !sex.empty()) line["sex"] = sex;
+      line["tags"] = tags_of(face, tags);
+    }
+    const std::string role = family_role(face, *parenthood);
+    if (!role.empty() && role != kMember) line["family_role"] = role;
+    return line.dump() + '\n';
+  });
 }
 
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,

@@ -27,8 +27,6 @@ using Json = nlohmann::ordered_json;
 /// Number of steps on the square-root scale of the sliders.
 constexpr int kLevels = 256;
 
-constexpr std::size_t kMaxDraftTriangles = 12'000;
-
 double smoothness_at(int step) {
   const double root = static_cast<double>(step) / kLevels;
   return root * root;

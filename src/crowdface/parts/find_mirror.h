@@ -9,7 +9,7 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  /// number of vertices whose partner is a vertex, and that are the partner of this vertex
+  /// number of vertices in mutual pairs: the partner is a vertex whose own partner is this vertex
   Index vertices = 0;
   /// number of vertices whose partner is a point on the surface; the remaining vertices have none
   Index on_surface = 0;

@@ -9,7 +9,7 @@ namespace crowdface {
 
 /// The part of a mesh where a function of the vertices, linear along edges, is not negative. Polygons
 /// that cross zero are clipped (Sutherland & Hodgman 1974). All vertices and texture coordinates of
-/// the mesh come first, used or not; the new ones follow.
+/// the mesh come first, also if no polygon uses them any more; the rows of new vertices follow.
 /// \param above  #V
 Mesh cut_mesh(const Mesh& mesh, std::span<const double> above);
 

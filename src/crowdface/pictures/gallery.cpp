@@ -27,7 +27,6 @@ using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMaxTriangles = 24'000;
-constexpr std::size_t kMaxDraftTriangles = 12'000;
 /// Limit for triangles behind closed lips: teeth and the lining of the mouth are finer than the
 /// face.
 constexpr std::size_t kMaxHidden = 2'000;

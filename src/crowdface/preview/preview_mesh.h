@@ -38,6 +38,9 @@ PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs
 PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
                        const TextureCoordinates& uvs);
 
+/// Largest number of triangles of the skin in drafts.
+inline constexpr std::size_t kMaxDraftTriangles = 12'000;
+
 /// A coarser mesh over the same vertices, for pages that draw without a graphics card while something
 /// moves: triples of indices into `mesh.vertices`.
 /// \param typical        #V of the whole mesh by 3.
