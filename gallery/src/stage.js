@@ -159,11 +159,11 @@ export class Stage {
   /// Without a graphics card what moves is drawn in a cheap form and with as few pixels as its speed asks for; once it
   /// rests, in full.
   setMoving(on) {
-    if (!this.software) return;
+    if (!this.software || (!on && !this.moving)) return;
     clearTimeout(this.resting);
     this.resting = null;
-    if (on && !this.moving) this.drawCheaply(true);
-    else if (!on && this.moving) this.resting = setTimeout(() => this.drawCheaply(false), rest);
+    if (!on) this.resting = setTimeout(() => this.drawCheaply(false), rest);
+    else if (!this.moving) this.drawCheaply(true);
   }
 
   drawCheaply(on) {
@@ -175,12 +175,14 @@ export class Stage {
     if (on) this.movingRatio = Math.max(this.movingRatio, atFirst * this.fullRatio);
     this.setRatio(on ? this.movingRatio : this.fullRatio);
     this.draw();
+    this.node.ariaBusy = String(on || this.resting !== null);
   }
 
   drawSoft() {
     this.resting = null;
     this.worn.setForm('whole');
     this.draw();
+    this.node.ariaBusy = 'false';
   }
 
   /// \param on  whether the draft stands in place of the whole

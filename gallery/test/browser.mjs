@@ -13,7 +13,7 @@ const [folder, reviewFile, pictures] = process.argv.slice(2);
 if (!reviewFile) throw new Error('usage: node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES]');
 const address = pathToFileURL(join(resolve(folder), 'index.html')).href;
 
-const { browser, page, problems, take, audit, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
+const { browser, page, problems, take, audit, rested, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
 
 const count = (selector) => page.locator(selector).count();
 const ids = () => page.$$eval('.cell', (cells) => cells.map((cell) => cell.dataset.id));
@@ -107,7 +107,7 @@ await page.keyboard.press('r');
 await page.locator(`.cell[data-id="${drawn[2]}"]`).click();
 await page.keyboard.press('Enter');
 await page.waitForFunction(() => window.crowdface.page.face.turntable?.shown !== undefined);
-await page.waitForTimeout(300);
+await rested();
 const front = await shades();
 assert.ok(front.colours > 50, `the 3D view shows ${front.colours} colours`);
 assert.ok(!(await page.locator('main.face').innerText()).includes('[object'), 'raw objects on the page');

@@ -11,7 +11,7 @@ import { wornPixels } from './worn_pixels.mjs';
 const [address, resultFile, pictures] = process.argv.slice(2);
 if (!resultFile) throw new Error('usage: node editor.mjs ADDRESS RESULT_JSON [PICTURES]');
 
-const { browser, page, problems, take } = await openPage({ pictures, own: address });
+const { browser, page, problems, take, rested } = await openPage({ pictures, own: address });
 page.on('requestfailed', (request) => {
   const why = request.failure().errorText;
   if (why !== 'net::ERR_ABORTED') problems.push(`${request.url()}: ${why}`); // overtaken ones are
@@ -57,6 +57,7 @@ await take('opened');
 
 // What the face wears stands on it once the program has told where, and can be chosen.
 await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children.length === 1);
+await rested();
 const card = await page.evaluate(`(${wornPixels})(window.crowdface.editor.view)`);
 assert.ok(card.left > 100 && card.red > 0.9 * card.left && card.right < 0.3 * card.left, JSON.stringify(card));
 await page.getByLabel('What the face wears: hat').selectOption('none');
@@ -66,7 +67,6 @@ await page.waitForFunction(() => window.crowdface.editor.view.worn.node.children
 
 // Without a graphics card what moves is drawn from few triangles, what is worn with it; at rest in full, with smooth
 // outlines. A pixel of the outline is neither whole nor empty.
-const resting = () => page.waitForFunction(() => !window.crowdface.editor.view.moving && !window.crowdface.editor.view.resting);
 const drawing = () => page.evaluate(() => {
   const { view } = window.crowdface.editor;
   view.draw();
@@ -81,7 +81,7 @@ const drawing = () => page.evaluate(() => {
   return { triangles, between, width: canvas.width };
 });
 await settled();
-await resting();
+await rested();
 const view = await page.locator('canvas.turntable').first().boundingBox();
 const still = await drawing();
 assert.equal(still.width, Math.round(view.width));
@@ -94,10 +94,10 @@ const movingCard = await page.evaluate(`(${wornPixels})(window.crowdface.editor.
 await page.mouse.up();
 assert.ok(moving.triangles > 4000 && moving.triangles < 26000, `${moving.triangles} triangles move`);
 assert.ok(movingCard.left > 100 && movingCard.red > 0.9 * movingCard.left, `what moves is worn: ${JSON.stringify(movingCard)}`);
-await resting();
+await rested();
 assert.equal((await drawing()).width, still.width, 'at rest there are all pixels');
 await page.keyboard.press('f');
-await resting();
+await rested();
 
 // The preview is the program's face, but for what only the program does to eyes and lips.
 async function previewError() {
@@ -414,7 +414,7 @@ await take('saved');
 // The saved picture is the view: as it stands there, turned, at the same size.
 await canvas.focus();
 await page.keyboard.press('ArrowRight');
-await page.waitForFunction(() => !window.crowdface.editor.view.moving);
+await rested();
 const download = page.waitForEvent('download');
 await page.getByRole('button', { name: 'Picture', exact: true }).click();
 const downloaded = await download;

@@ -10,7 +10,7 @@ import { openPage } from './open_page.mjs';
 const [address, photo, pictures] = process.argv.slice(2);
 if (!photo) throw new Error('usage: node handling.mjs ADDRESS PHOTO [PICTURES]');
 
-const { browser, page, problems, take, colourAt, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: address });
+const { browser, page, problems, take, colourAt, rested, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: address });
 
 const shown = () => page.waitForFunction(() => !window.crowdface.editor.pending);
 const settled = () => page.waitForFunction(() => {
@@ -210,21 +210,21 @@ const forehead = async () => {
 };
 const isRed = ([r, g, b]) => r > 1.8 * g && r > 1.8 * b;
 await page.keyboard.press('f');
+const untilRed = async (wanted) => {
+  while (isRed(await forehead()) !== wanted) await page.waitForTimeout(200);
+};
 await picked('none').dragTo(canvas);
 await settled();
-await page.waitForTimeout(1200);
-const bareForehead = await forehead();
+await untilRed(false);
 await picked('card').dragTo(canvas);
-await settled();
-await page.waitForTimeout(1200);
+await untilRed(true);
 await take('worn');
-assert.ok(!isRed(bareForehead) && isRed(await forehead()), `red where the card is: ${bareForehead}, ${await forehead()}`);
 await tab('hat').click();
 
 // A photo lies behind or beside the head; points that are clicked on both turn the camera to where the photo was taken.
 await page.keyboard.press('Escape');
 await page.keyboard.press('f');
-await page.waitForTimeout(900);
+await rested();
 const places = [[0.5, 0.3], [0.33, 0.36], [0.66, 0.36], [0.5, 0.5], [0.42, 0.72], [0.58, 0.72]];
 const headBox = await canvas.boundingBox();
 const onPage = ([x, y]) => [Math.round(headBox.x + x * headBox.width), Math.round(headBox.y + y * headBox.height)];
@@ -268,7 +268,7 @@ for (const [i, at] of places.entries()) {
   await page.mouse.click(...await photoPlace(inPhoto[i]));
   if (i === 1) await take('photo_points');
 }
-await page.waitForTimeout(900);
+await rested();
 assert.ok(Math.abs(await facing() - taken) < 2, `seen from ${await facing()}°, taken from ${taken}°`);
 assert.match(await message(), /The camera matches 6 points to \d+\.\d mm/);
 const marks = await page.locator('.photomarks g').evaluateAll((nodes) => nodes.map((node) => {

@@ -34,7 +34,7 @@ function auditPage() {
 /// \param own       what begins a request that the page may make.
 /// \return          problems: what went wrong on the page so far, a sentence each; colourAt(x, y): [red, green, blue]
 ///                  that is seen there;
-///                  stillPicture(locator), audit().
+///                  rested(): waits until all 3D views are drawn in full; stillPicture(locator), audit().
 export async function openPage({ width = 1280, height = 720, pictures, own = null } = {}) {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
@@ -64,15 +64,18 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
       return [...context.getImageData(1, 1, 1, 1).data].slice(0, 3);
     }, shot.toString('base64'));
   };
+  const rested = () => page.waitForFunction(() => !document.querySelector('canvas[aria-busy=true]'));
   /// What is seen of an element once it no longer changes, as PNG.
   const stillPicture = async (locator) => {
+    await rested();
     let before = await locator.screenshot();
     for (;;) {
-      await page.waitForTimeout(800); // hair comes last
+      await page.waitForTimeout(800);
+      await rested();
       const now = await locator.screenshot();
       if (now.equals(before)) return now;
       before = now;
     }
   };
-  return { browser, context, stillPicture, page, problems, take, colourAt, audit: () => page.evaluate(auditPage) };
+  return { browser, context, rested, stillPicture, page, problems, take, colourAt, audit: () => page.evaluate(auditPage) };
 }

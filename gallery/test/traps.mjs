@@ -9,7 +9,7 @@ import { fine, openPage } from './open_page.mjs';
 const [address, pictures] = process.argv.slice(2);
 if (!address) throw new Error('usage: node traps.mjs ADDRESS [PICTURES]');
 
-const { browser, context, page, problems, take, audit } = await openPage({ width: 1440, height: 900, pictures, own: address });
+const { browser, context, page, problems, take, audit, rested } = await openPage({ width: 1440, height: 900, pictures, own: address });
 
 const settled = () => page.waitForFunction(() => {
   const { editor: it } = window.crowdface;
@@ -120,7 +120,7 @@ await page.keyboard.press('f');
 await page.keyboard.press('m');
 const label = await undone.getAttribute('title');
 const picture = async () => {
-  await page.waitForFunction(() => !window.crowdface.editor.view.moving && !window.crowdface.editor.view.resting); // all is there
+  await rested();
   return page.evaluate(() => {
     const { view } = window.crowdface.editor;
     view.draw();
