@@ -137,6 +137,27 @@ TEST_F(OwnTextures, AreTheSameWhereTheHeadsMapsLieOnTheDisk) {
               ::testing::IsEmpty());
 }
 
+TEST_F(OwnTextures, AreTheSameWithStatisticsFromTheCache) {
+  const auto statistics = [&] {
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(folder_.cache())) {
+      if (entry.path().filename().string().starts_with("texture-statistics-")) {
+        entries.push_back(entry.path());
+      }
+    }
+    return entries;
+  };
+  run(folder_);
+  const auto first = testing::crowd_files(folder_.out());
+  ASSERT_EQ(statistics().size(), 1U) << "small heads keep them as well";
+  const auto written = fs::last_write_time(statistics().front());
+  fs::remove_all(folder_.out());
+  run(folder_);
+  EXPECT_EQ(fs::last_write_time(statistics().front()), written);
+  EXPECT_THAT(testing::differing_files(first, testing::crowd_files(folder_.out())),
+              ::testing::IsEmpty());
+}
+
 TEST_F(OwnTextures, AreOfTheSizeAndFormatsAskedFor) {
   run(folder_, {"textures={size: 16, formats: [jpeg, png]}"});
   EXPECT_EQ(read_image(meshes() / "blended/mob_0002.png").width, 16);

@@ -61,7 +61,7 @@ SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
   room.coarse.resize(heads);
   room.pairs = heads * (heads + 1) / 2;
   return cached(
-      cache, {"textures", key}, make, kStatisticsArrays,
+      cache, {"texture-statistics", key}, make, kStatisticsArrays,
       [&](const SurfaceStatistics& found, const CacheEntry&) {
         const auto has_all = [&](const SurfaceStatistics::Colours& colours) {
           return colours.rows() == static_cast<Index>(vertices);

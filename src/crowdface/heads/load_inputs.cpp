@@ -253,7 +253,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   take_heads(config, std::move(heads), inputs);
   take_colours(inputs);
   inputs.materials = face_materials(inputs.files[0].materials, inputs.faces.topology.face_count());
-  inputs.cache = folder_for(cache, inputs.faces.topology);
+  inputs.cache = cache;
   inputs.topology_digest = digest_of_topology(inputs.faces.topology);
   find_neighbours(inputs);
   try {

@@ -22,7 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// For smaller heads, reading from the cache takes as long as computing.
 constexpr Index kMinKeptVertices = 50'000;
+
+CacheFolder cache_of(const Inputs& inputs) {
+  return inputs.faces.topology.vertex_count >= kMinKeptVertices ? inputs.cache : fs::path();
+}
 
 Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
   return hasher.add(kSharedVersion).add(inputs.topology_digest);
@@ -123,16 +128,12 @@ bool is_mirror(const FoundMirror& found, std::size_t vertices) {
 
 }  // namespace
 
-fs::path folder_for(const fs::path& cache, const Topology& topology) {
-  return topology.vertex_count >= kMinKeptVertices ? cache : fs::path();
-}
-
 void find_neighbours(Inputs& inputs) {
   const Topology& topology = inputs.faces.topology;
   Hasher key;
   begin_key(key, inputs);
   auto found = cached(
-      inputs.cache, {"neighbours", key.digest()},
+      cache_of(inputs), {"neighbours", key.digest()},
       [&] {
         Adjacency adjacency = build_adjacency(topology);
         Components components = find_components(adjacency);
@@ -148,10 +149,10 @@ void find_neighbours(Inputs& inputs) {
 
 RegionWeights load_regions(const Config& config, const Inputs& inputs) {
   if (config.regions.names.empty()) return whole_head(inputs.faces.topology);
-  const auto key = inputs.cache.empty() ? std::nullopt : key_of_regions(config, inputs);
+  const auto key = cache_of(inputs).path.empty() ? std::nullopt : key_of_regions(config, inputs);
   if (!key) return weights_of_masks(config, inputs);
   return cached(
-      inputs.cache, {"masks", *key}, [&] { return weights_of_masks(config, inputs); },
+      cache_of(inputs), {"masks", *key}, [&] { return weights_of_masks(config, inputs); },
       [](auto& arrays, auto& weights) {
         arrays("alpha", weights.alpha);
         arrays("uncovered", weights.uncovered_vertices);
@@ -172,7 +173,7 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
       .add(config.faces.front.sign);
   const Topology& topology = inputs.faces.topology;
   return cached(
-      inputs.cache, {"samples", key.digest()},
+      cache_of(inputs), {"samples", key.digest()},
       [&] {
         return choose_face_samples(topology, inputs.skin, unplaced_mean(inputs), config.faces.front,
                                    count);
@@ -190,7 +191,7 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   begin_key(key, inputs).add_array(std::span(samples));
   for (const Digest& head : inputs.own_digests) key.add(head);
   return cached(
-      inputs.cache, {"cells", key.digest()},
+      cache_of(inputs), {"cells", key.digest()},
       [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },
       [](auto& arrays, auto& cells) { arrays("samples", cells.of_vertex); },
       [&](const SampleCells& found, const CacheEntry&) {
@@ -208,7 +209,7 @@ FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) 
   for (const double value : side) key.add(value);
   const Topology& topology = inputs.faces.topology;
   return cached(
-      inputs.cache, {"mirror", key.digest()},
+      cache_of(inputs), {"mirror", key.digest()},
       [&] { return find_mirror(topology, inputs.components, inputs.mean, side); }, kMirrorArrays,
       [&](const FoundMirror& found, const CacheEntry&) {
         return is_mirror(found, static_cast<std::size_t>(topology.vertex_count));

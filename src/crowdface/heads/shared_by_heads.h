@@ -3,17 +3,12 @@
 // so the data is looked up in the cache first. Nothing is cached for small heads.
 #pragma once
 
-#include <filesystem>
-
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/config/config.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/parts/find_mirror.h"
 
 namespace crowdface {
-
-/// The cache folder for heads with this topology; empty if they are too small to cache.
-std::filesystem::path folder_for(const std::filesystem::path& cache, const Topology& topology);
 
 /// build_adjacency and find_components, cached. \param inputs  must have the topology and its hash
 void find_neighbours(Inputs& inputs);
