@@ -9,10 +9,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "crowdface/blend/blend.h"
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/face_distances.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/parallel.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/units.h"
 #include "crowdface/crowd/plan_file.h"
@@ -20,6 +19,7 @@
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/smooth/chebyshev_filter.h"
+#include "crowdface/smooth/smooth_view.h"
 
 #include "bindings/bindings.h"
 #include "bindings/long_call.h"
@@ -189,7 +189,7 @@ class Smoothing {
 
   std::vector<Positions> smoothed(const Eigen::Ref<const Positions>& positions,
                                   const std::vector<std::uint64_t>& levels) const {
-    return smooth(filter_, positions, levels);
+    return smooth_view(filter_, positions, levels);
   }
 
   Positions blended(const std::string& recipe, const std::vector<std::string>& regions,
@@ -226,16 +226,7 @@ Eigen::MatrixXd distances(const HeadSet& heads,
       heads.topology, find_components(build_adjacency(heads.topology)), mean_head(heads),
       value_of<FaceArea>({{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}}, "area", area),
       *axis);
-  const auto count = static_cast<Index>(faces.size());
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
-  parallel_for_each(count, [&](Index i) {
-    const Positions face = faces[static_cast<std::size_t>(i)];
-    for (Index j = 0; j < i; ++j) {
-      result(i, j) =
-          face_distance(face, faces[static_cast<std::size_t>(j)], areas) * mm_per(*length);
-    }
-  });
-  return result + result.transpose();
+  return face_distances(faces, areas) * mm_per(*length);
 }
 
 /// The result of a long call.

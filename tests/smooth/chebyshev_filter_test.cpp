@@ -12,6 +12,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/smooth/iterate.h"
+#include "crowdface/smooth/smooth_view.h"
 
 #include "support/meshes.h"
 
@@ -158,6 +159,15 @@ TEST_P(Filter, SeveralLevelsComeFromOnePass) {
       filter_, positions_, {power_series(filter_.kind(), 4), power_series(filter_.kind(), 90)});
   EXPECT_EQ(results[0], smooth(filter_, positions_, 4));
   EXPECT_EQ(results[1], smooth(filter_, positions_, 90));
+}
+
+TEST_P(Filter, ReadsPositionsWhereTheyAre) {
+  const std::vector<std::uint64_t> levels = {3, 20};
+  Positions more(200, 3);
+  more.middleRows(40, 155) = positions_;
+  EXPECT_EQ(smooth_view(filter_, more.middleRows(40, 155), levels),
+            smooth(filter_, positions_, levels));
+  EXPECT_THROW(smooth_view(filter_, more, levels), BrokenPrecondition);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllOperators, Filter,

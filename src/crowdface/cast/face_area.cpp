@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/normals.h"
 
 namespace crowdface {
@@ -44,18 +43,6 @@ std::vector<double> face_areas(const Topology& topology, const Components& compo
   }
   for (std::size_t i = 0; i < mask.size(); ++i) areas[i] *= mask[i];
   return areas;
-}
-
-double face_distance(const Positions& a, const Positions& b, const std::vector<double>& areas) {
-  const Eigen::VectorXd weights =
-      Eigen::VectorXd::Map(areas.data(), static_cast<Index>(areas.size()));
-  const Positions moved = fit_similarity(b, a, ScaleFit::kRigid, weights).apply(b);
-  double squared = 0, total = 0;
-  for (Index i = 0; i < a.rows(); ++i) {
-    squared += weights(i) * (a.row(i) - moved.row(i)).squaredNorm();
-    total += weights(i);
-  }
-  return std::sqrt(squared / total);
 }
 
 }  // namespace crowdface

@@ -40,7 +40,7 @@ double Similarity::angle_degrees() const {
   return std::atan2(sine, cosine) * 180 / std::numbers::pi;
 }
 
-Positions Similarity::apply(const Positions& positions) const {
+Positions Similarity::apply(const Eigen::Ref<const Positions>& positions) const {
   const Eigen::Matrix3d linear = scale * rotation;
   Positions result(positions.rows(), 3);
   for (Index i = 0; i < positions.rows(); ++i) {
@@ -56,7 +56,8 @@ Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
   return turn_from(covariance).rotation;
 }
 
-Similarity fit_similarity(const Positions& from, const Positions& to, ScaleFit scale,
+Similarity fit_similarity(const Eigen::Ref<const Positions>& from,
+                          const Eigen::Ref<const Positions>& to, ScaleFit scale,
                           const Eigen::VectorXd& weights) {
   require(from.rows() == to.rows() && (weights.size() == 0 || weights.size() == from.rows()),
           "alignment: ", from.rows(), " points onto ", to.rows(), ", ", weights.size(), " weights");

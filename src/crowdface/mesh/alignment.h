@@ -15,7 +15,7 @@ struct Similarity {
 
   /// Rotation angle in degrees, in [0, 180].
   double angle_degrees() const;
-  Positions apply(const Positions& positions) const;
+  Positions apply(const Eigen::Ref<const Positions>& positions) const;
 };
 
 /// Returns the rotation R that maximises trace(Rᵀ M). For M = Σ a_i b_iᵀ, no other rotation brings
@@ -31,7 +31,8 @@ enum class ScaleFit { kRigid, kUniform };
 /// Source: Umeyama 1991, "Least-squares estimation of transformation parameters between two point
 /// patterns".
 /// \throws BrokenPrecondition if the sizes differ; InvalidInput if there are fewer than three rows.
-Similarity fit_similarity(const Positions& from, const Positions& to, ScaleFit scale,
+Similarity fit_similarity(const Eigen::Ref<const Positions>& from,
+                          const Eigen::Ref<const Positions>& to, ScaleFit scale,
                           const Eigen::VectorXd& weights = {});
 
 }  // namespace crowdface

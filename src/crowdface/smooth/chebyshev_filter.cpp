@@ -6,6 +6,7 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/smooth/smooth_view.h"
 
 namespace crowdface {
 namespace {
@@ -157,12 +158,39 @@ class ProbeRows {
   std::vector<std::vector<Place>> of_tile_;
 };
 
+/// Columns 3·group to 3·group + 2 of x, row r from x's row order[r].
+template <class T, class Values>
+std::vector<Row<T>> rows_in_order(std::span<const std::uint32_t> order, const Values& x,
+                                  Index group) {
+  require(x.rows() == static_cast<Index>(order.size()) && x.cols() % 3 == 0, "smooth: ", x.rows(),
+          " by ", x.cols(), " coordinates of ", order.size(), " vertices");
+  std::vector<Row<T>> rows(order.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (Index c = 0; c < 3; ++c) rows[r].value[c] = static_cast<T>(x(order[r], 3 * group + c));
+    rows[r].value[3] = 0;
+  }
+  return rows;
+}
+
 Positions positions_of(const ChebyshevFilter& filter, const RowArray<double>& rows) {
   Positions positions(filter.vertex_count(), 3);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (Index c = 0; c < 3; ++c) positions(filter.vertex_of_row()[r], c) = rows[r].value[c];
   }
   return positions;
+}
+
+std::vector<Positions> filter_view(const ChebyshevFilter& filter,
+                                   const Eigen::Ref<const Positions>& x,
+                                   std::vector<ChebyshevSeries> series) {
+  const FilterInput<double> input = {rows_in_order<double>(filter.vertex_of_row(), x, 0),
+                                     std::move(series)};
+  const auto of_input = filter.run<double>({&input, 1});
+  std::vector<Positions> results;
+  for (const RowArray<double>& rows : of_input.front()) {
+    results.push_back(positions_of(filter, rows));
+  }
+  return results;
 }
 
 }  // namespace
@@ -173,16 +201,7 @@ ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Posit
 
 template <class T>
 std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) const {
-  require(x.rows() == vertex_count() && x.cols() % 3 == 0, "smooth: ", x.rows(), " by ", x.cols(),
-          " coordinates of ", vertex_count(), " vertices");
-  std::vector<Row<T>> rows(tiling_.order.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (Index c = 0; c < 3; ++c) {
-      rows[r].value[c] = static_cast<T>(x(tiling_.order[r], 3 * group + c));
-    }
-    rows[r].value[3] = 0;
-  }
-  return rows;
+  return rows_in_order<T>(tiling_.order, x, group);
 }
 
 template <class T>
@@ -233,13 +252,7 @@ template std::vector<std::vector<RowArray<double>>> ChebyshevFilter::run(
 
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
                                    std::vector<ChebyshevSeries> series) {
-  const FilterInput<double> input = {filter.rows_of<double>(x), std::move(series)};
-  const auto of_input = filter.run<double>({&input, 1});
-  std::vector<Positions> results;
-  for (const RowArray<double>& rows : of_input.front()) {
-    results.push_back(positions_of(filter, rows));
-  }
-  return results;
+  return filter_view(filter, x, std::move(series));
 }
 
 Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level) {
@@ -248,10 +261,16 @@ Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std:
 
 std::vector<Positions> smooth(const ChebyshevFilter& filter, const Positions& positions,
                               std::span<const std::uint64_t> levels) {
+  return smooth_view(filter, positions, levels);
+}
+
+std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
+                                   const Eigen::Ref<const Positions>& positions,
+                                   std::span<const std::uint64_t> levels) {
   std::vector<ChebyshevSeries> series;
   series.reserve(levels.size());
   for (const std::uint64_t level : levels) series.push_back(power_series(filter.kind(), level));
-  return filter_many(filter, positions, std::move(series));
+  return filter_view(filter, positions, std::move(series));
 }
 
 }  // namespace crowdface

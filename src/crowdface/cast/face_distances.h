@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/cast/face_area.h"
+
+namespace crowdface {
+
+/// Returns the distance (`face_distance`) of every two faces, N by N, symmetric. The faces may be in
+/// somebody else's memory; they are not copied.
+///
+/// \param areas  #V, weights of the vertices; not all zero.
+Eigen::MatrixXd face_distances(std::span<const Eigen::Map<const Positions>> faces,
+                               const std::vector<double>& areas);
+
+}  // namespace crowdface

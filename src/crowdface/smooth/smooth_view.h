@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/mesh/topology.h"
+
+namespace crowdface {
+
+class ChebyshevFilter;
+
+/// What `smooth` returns, for positions in somebody else's memory. They are not copied.
+std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
+                                   const Eigen::Ref<const Positions>& positions,
+                                   std::span<const std::uint64_t> levels);
+
+}  // namespace crowdface
