@@ -5,6 +5,7 @@ import { BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Mesh } from 'th
 import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
 import { Draft } from './draft.js';
+import { hairShade } from './hair_shade.js';
 import { normalsOf } from './normals.js';
 import { eyeShader, eyeUniforms, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from './stage.js';
 import { pictureAt, pointsOf, Worn } from './worn.js';
@@ -140,6 +141,7 @@ export class Turntable extends Stage {
     this.wear(pictures, face.skin?.of_look ?? [], face.colours);
     this.object.geometry.setAttribute('rough', new BufferAttribute(roughness ?? this.evenly, 1));
     this.shown = name;
+    this.shade = null;
     this.act(this.values);
   }
 
@@ -196,7 +198,8 @@ export class Turntable extends Stage {
     geometry.setAttribute('position', new BufferAttribute(points, 3));
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));
     geometry.setAttribute('color', new BufferAttribute(this.face.colours, 3));
-    const sky = this.skyIn(values[this.mesh.widest?.shape]);
+    this.shade ??= hairShade(this.face.points, this.face.normals, this.worn.parts, this.group.matrix) ?? [];
+    const sky = this.skyIn(values[this.mesh.widest?.shape]).map((open, v) => open * (this.shade[v] ?? 1));
     geometry.setAttribute('sky', new BufferAttribute(sky, 1));
     geometry.computeBoundingSphere();
     this.draft?.setSky(sky);

@@ -97,7 +97,7 @@ export class Beside {
     const { editor, view } = this;
     view.blend(coefficients(editor.job, document, editor.heads), targetShares(editor.job, document.recipe), face);
     view.wear(await Promise.all(face.worn.map(async (name) =>
-      [await view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]])));
+      [await view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]])), face);
     view.worn.node.visible = true;
     await view.setSkin(skin);
     view.draw();

@@ -11,6 +11,7 @@ import { extend, surfaces } from '../studio.js';
 import { CardBlend, fitsOnCard } from './card_blend.js';
 import { Draft } from '../draft.js';
 import { ProcessorBlend } from './processor_blend.js';
+import { hairShade } from '../hair_shade.js';
 import { hitTriangle } from '../hit.js';
 import { Worn } from '../worn.js';
 import { layoutOf, texelOf } from './surface.js';
@@ -156,10 +157,18 @@ export class HeadView extends Stage {
 
   /// \param light  per vertex the root of the sky's share that it sees, in 255ths
   setLight(light) {
-    const sky = Float32Array.from(light, (root) => (root / 255) ** 2);
+    this.open = Float32Array.from(light, (root) => (root / 255) ** 2);
+    this.shadeSkin();
+    this.draw();
+  }
+
+  /// The sky that the skin sees beside what is worn.
+  shadeSkin() {
+    const { open, shade } = this;
+    if (!open) return;
+    const sky = shade ? open.map((share, v) => share * shade[v]) : open;
     this.geometry.setAttribute('sky', new BufferAttribute(sky, 1));
     this.draft?.setSky(sky);
-    this.draw();
   }
 
   /// The face's own skin. \param skin  {picture, normals, rough, colours}, each perhaps: JPEG files of the atlas, and
@@ -304,11 +313,14 @@ export class HeadView extends Stage {
     if (this.worn.skin) this.worn.follow(this.draft.positions.array);
   }
 
-  /// \param all  as of Worn.show, on the face that stands here
-  wear(all) {
+  /// \param all   as of Worn.show, on the face that stands here
+  /// \param face  its positions and normals
+  wear(all, { positions, normals }) {
     this.isPlaced = true;
     this.draft?.place(this.blender.points, 4);
     this.worn.show(all, this.draft?.positions.array);
+    this.shade = hairShade(positions, normals, this.worn.parts, this.group.matrix);
+    this.shadeSkin();
   }
 
   /// Writes what reflects light at a vertex where no texture shows.

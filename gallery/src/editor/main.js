@@ -300,7 +300,7 @@ class Editor extends ProgramPage {
     const all = await Promise.all(face.worn.map(async (name) =>
       [await this.view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]]));
     if (this.exactFace !== face || !this.exactOf) return;
-    this.view.wear(all);
+    this.view.wear(all, face);
     this.view.worn.node.visible = !this.painting?.on;
     if (this.view.moving) this.view.setMoving(this.passing !== null);
     else this.view.draw();
