@@ -265,7 +265,7 @@ await page.keyboard.press('l');
 await page.waitForFunction(() => document.querySelectorAll('.picks .card img').length === 6, null, { timeout: 120000 });
 await settled();
 await take('six');
-await page.locator('.picks .card button').nth(2).click();
+await page.locator('.picks .portrait').nth(2).click();
 await page.waitForFunction((n) => window.crowdface.editor.history.past.length > n, sofar + 1);
 await page.keyboard.press('Escape');
 await page.locator(`.regioncard[data-region="${region}"] button.lock`).click();

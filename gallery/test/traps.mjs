@@ -101,8 +101,10 @@ await settled();
 assert.ok(await isAway(), 'Draw keeps a moved head');
 await page.keyboard.press('l');
 await page.waitForFunction(() => document.querySelectorAll('.picks .card img').length === 6);
-assert.match(await page.locator('.picks .card').first().innerText(), /^[\d.]+ mm$/, 'a face to pick from says how far it is');
-await page.locator('.picks .card button').first().click();
+assert.match(await page.locator('.picks .card').first().innerText(), /^[\d.]+ mm/, 'a face to pick from says how far it is');
+await page.getByRole('button', { name: 'Keep face 2' }).click();
+await type(page.getByLabel('Caption of kept 1'), 'the baker');
+await page.locator('.picks .portrait').first().click();
 await settled();
 assert.ok(await isAway(), 'Six like it keeps a moved head');
 await page.keyboard.press('Escape');
@@ -149,12 +151,19 @@ await painted();
 await settled();
 assert.ok(await picture() === bare, 'Ctrl+Z takes back the stroke');
 assert.equal(await undone.getAttribute('title'), label, 'and no step of the face');
-// The brush is still out after a reload.
+// The brush is still out after a reload, and the view is as it was.
+await page.keyboard.press('.');
+await page.keyboard.press('+');
+const turned = await picture();
 await page.getByRole('button', { name: 'Smooth', exact: true }).click();
 await page.waitForTimeout(600);
 await page.reload();
 await page.waitForSelector('.painting:not([hidden])');
 assert.equal(await page.getByRole('button', { name: 'Smooth', exact: true }).getAttribute('aria-pressed'), 'true');
+await settled();
+await page.waitForFunction(() => window.crowdface.editor.light);
+assert.ok(await picture() === turned, 'the same view');
+assert.equal(await page.getByLabel('Caption of the baker').inputValue(), 'the baker');
 await page.keyboard.press('Escape');
 
 // A click on the head finds the region that is there, and the page tells how long a frame takes.

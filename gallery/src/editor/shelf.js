@@ -32,14 +32,12 @@ export class Shelf {
 
   // -- kept states --
 
-  keep() {
+  keep(document = this.editor.document, picture = this.editor.pictureOf(document)) {
     const { editor } = this;
     const used = new Set(editor.kept.map((entry) => entry.name));
     let number = editor.kept.length + 1;
     while (used.has(`kept ${number}`)) number += 1;
-    editor.kept.push({
-      name: `kept ${number}`, document: editor.document, picture: editor.pictureOf(editor.document),
-    });
+    editor.kept.push({ name: `kept ${number}`, document, picture });
     if (editor.kept.length > mostKept) editor.kept.shift();
     editor.comparedWith = editor.kept.length - 1;
     this.show();
@@ -116,11 +114,14 @@ export class Shelf {
     for (const [index, told] of recipes.entries()) {
       const document = this.drawn(told, start);
       await new Promise(requestAnimationFrame);
-      this.pickNode.append(el('div', { class: 'card', role: 'listitem' }, el('button', {
-        class: 'portrait', 'aria-label': `Face ${index + 1} of those to pick from, ${short(mm[index])} mm away`,
-        title: 'Go on from this one; its distance from the face',
-        onclick: () => editor.commit(document, 'one like it'),
-      }, el('img', { src: editor.pictureOf(document), alt: '' }), el('span', {}, `${short(mm[index])} mm`))));
+      const picture = editor.pictureOf(document);
+      this.pickNode.append(el('div', { class: 'card', role: 'listitem' },
+        el('button', {
+          class: 'portrait', 'aria-label': `Take face ${index + 1}`, title: 'Go on from this one',
+          onclick: () => editor.commit(document, 'one like it'),
+        }, el('img', { src: picture, alt: '' })),
+        el('div', { class: 'cardfoot' }, el('span', { title: 'Distance from the face' }, `${short(mm[index])} mm`),
+          el('button', { class: 'plain', 'aria-label': `Keep face ${index + 1}`, title: 'Keep it, to compare and with a caption', onclick: () => this.keep(document, picture) }, 'keep'))));
     }
     this.pickNode.querySelector('button')?.focus();
   }
