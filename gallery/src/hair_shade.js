@@ -7,6 +7,7 @@ const side = 96; // cells of a direction's map
 const half = 1.2; // half of the map, where a head is two units high
 const cell = (2 * half) / side;
 const clear = 0.04; // what lies this near over the skin, such as brows, keeps nothing away
+const solid = 0.3; // what hides less, such as a lens, keeps nothing away
 const opacity = 0.8; // of hair, on average
 // x right, y up, z front; most light comes from above.
 const ways = [[-0.62, 0.62, 0.62], [0.62, 0.62, 0.62], [0, 0.75, 0.66], [0, 0, 1], [-0.95, 0.3, 0.1], [0.95, 0.3, 0.1]];
@@ -16,8 +17,9 @@ function depthsOf(parts, u, v, way, middle) {
   const depths = new Float32Array(side * side).fill(-Infinity);
   const across = (p, axis) => p.dot(axis);
   const [a, b, c, p] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
-  for (const { own, triangles } of parts) {
+  for (const { own, triangles, hides } of parts) {
     for (let t = 0; t < triangles.length; t += 3) {
+      if (hides[triangles[t]] + hides[triangles[t + 1]] + hides[triangles[t + 2]] < 3 * solid) continue;
       [a, b, c].forEach((corner, k) => corner.fromArray(own, 3 * triangles[t + k]).sub(middle));
       const steps = Math.min(8, Math.max(1, Math.ceil(Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)) / cellIn(u))));
       for (let i = 0; i <= steps; i += 1) {
@@ -38,7 +40,7 @@ function depthsOf(parts, u, v, way, middle) {
 const cellIn = (u) => cell / u.length();
 
 /// \param points, normals  of the skin, three numbers a vertex
-/// \param parts            {own: places, triangles} of what is worn
+/// \param parts            {own: places, triangles, hides: a share for each place} of what is worn
 /// \param matrix           from the places to a head of two units, whose middle is 0
 /// \return                 per vertex the share of light that is left; null if nothing is worn
 export function hairShade(points, normals, parts, matrix) {

@@ -37,6 +37,19 @@ function materialsOf(look) {
   ];
 }
 
+/// How much each vertex hides of what is behind it, roughly.
+function hidesAt({ share, alphaMap }, geometry, vertices) {
+  const hides = new Float32Array(vertices).fill(share);
+  if (!alphaMap) return hides;
+  const size = 128;
+  const context = new OffscreenCanvas(size, size).getContext('2d');
+  context.drawImage(alphaMap.image, 0, 0, size, size);
+  const { data } = context.getImageData(0, 0, size, size);
+  const uvs = geometry.getAttribute('uv').array;
+  const texel = (at) => Math.min(size - 1, Math.floor((at - Math.floor(at)) * size));
+  return hides.map((own, v) => (own * data[4 * (texel(1 - uvs[2 * v + 1]) * size + texel(uvs[2 * v])) + 1]) / 255);
+}
+
 /// A part of one material, to be put on one face after the other.
 /// \param software  whether it moves in a cheap form
 async function preparePart(data, software) {
@@ -54,7 +67,7 @@ async function preparePart(data, software) {
       data.picture ? pictureAt(data.picture, { colours: true, repeated }) : null,
       data.opacity ? pictureAt(data.opacity, { repeated }) : null]);
   }
-  const part = { object: new Group(), geometry, triangles, twins: numbers(data.twins), vertices: data.vertices };
+  const part = { object: new Group(), geometry, triangles, twins: numbers(data.twins), vertices: data.vertices, hides: hidesAt(look, geometry, data.vertices) };
   if (software) return { ...part, ...formsOf(part, numbers(data.draft), look) };
   for (const material of materialsOf(look)) part.object.add(new Mesh(geometry, material));
   return part;
