@@ -129,7 +129,12 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   }
   builder.release();  // frees memory for the sheets
   const WrittenSheets sheets = pictures.get().finish(crowd, likeness);
-  ledger.record(kItem, key, sheet_files(directory, sheets));
+  std::vector<std::string> files = sheet_files(directory, sheets);
+  if (!has_gallery(job.config)) {  // the ledger then removes the files of an earlier gallery
+    const std::string folder = directory.relative(directory.gallery()) + '/';
+    std::erase_if(files, [&](const std::string& file) { return file.starts_with(folder); });
+  }
+  ledger.record(kItem, key, files);
   return sheets.pages;
 }
 
