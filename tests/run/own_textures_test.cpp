@@ -85,6 +85,33 @@ TEST_F(OwnTextures, LieBesideMeshesThatNameThem) {
   EXPECT_TRUE(verify_crowd(folder_.out()).good());
 }
 
+// A variant had the skin of the people whose detail it got.
+TEST_F(OwnTextures, OfAVariantAreThoseOfItsFace) {
+  std::string config = read_text(folder_.config());
+  config.replace(config.find("align: none"), 11, "align: none, tags: {bob: [old], cyd: [old]}");
+  folder_.folder().write("config.yaml", config);
+  const auto picture = [&](const std::string& id) {
+    return read_text(meshes() / "blended" / (id + ".png"));
+  };
+  run(folder_, {"changes={mob_0002: {variant_of: mob_0001, distance: 3 mm}}"});
+  EXPECT_EQ(picture("mob_0002"), picture("mob_0001"));
+  EXPECT_NE(picture("mob_0003"), picture("mob_0001"));
+  EXPECT_NE(read_text(meshes() / "mob_0002.obj"), read_text(meshes() / "mob_0001.obj"));
+  ConfigOverrides variants{
+      {"changes={mob_0002: {variant_of: mob_0001, distance: 3 mm}}"}, {}, {}, {}};
+  const auto review = [&](const char* changes) {
+    const std::string file = concat("review_", variants.review.size(), ".yaml");
+    variants.review = {
+        folder_.folder().write(file, concat("schema: 1\nchanges: ", changes, "\n")).string()};
+    run(folder_, variants);
+  };
+  review("{mob_0001: {age: 0.5}, mob_0003: {variant_of: mob_0004}, mob_0004: {age: older}}");
+  EXPECT_EQ(picture("mob_0002"), picture("mob_0001")) << "both are older";
+  EXPECT_NE(picture("mob_0003"), picture("mob_0004")) << "of the younger face";
+  review("{mob_0003: {age: older}}");
+  EXPECT_EQ(picture("mob_0003"), picture("mob_0004"));
+}
+
 TEST_F(OwnTextures, AreMadeAgainIfTheyAreLostAndOnlyThen) {
   run(folder_, {"output.meshes=[obj, glb]"});
   const auto files = testing::crowd_files(folder_.out());

@@ -32,6 +32,9 @@ struct BandRecipe {
 /// The recipe of one region: its coarsest band (all that Eq. 7 needs) and its finer bands.
 struct RegionRecipe : BandRecipe {
   std::vector<BandRecipe> finer;  ///< coarse to fine, at non-increasing levels
+  /// The weights of the heads in the region's textures, by ascending head, none zero. Empty: those of
+  /// the finest band. Unused if the recipe has colours.
+  std::vector<SourceWeight> colours = {};
 };
 
 std::size_t band_count(const RegionRecipe& region);

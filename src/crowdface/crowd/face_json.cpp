@@ -30,6 +30,9 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
 /// names.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
+  for (const SourceWeight& part : region.colours) {
+    json["colours"][name_at(names.heads, part.head)] = part.weight;
+  }
   for (std::size_t b = 1; b < band_count(region); ++b) {
     json["bands"][names.bands[b]] = band_to_json(band_of(region, b), names);
   }

@@ -215,6 +215,7 @@ class LineReader {
   RegionRecipe region(const Json& json, const std::string& name) const {
     RegionRecipe result;
     static_cast<BandRecipe&>(result) = band(json, name);
+    if (const Json* colours = found(json, "colours")) result.colours = shares(*colours, "colours");
     const Json* bands = found(json, "bands");
     const std::size_t finer = std::max<std::size_t>(1, names_.bands.size()) - 1;
     if (finer == 0 && bands == nullptr) return result;

@@ -2,9 +2,12 @@
 #include "crowdface/run/changed_faces.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "crowdface/cast/ageing.h"
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/core/contains.h"
+#include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
 namespace {
@@ -57,6 +60,7 @@ class ChangedLooks {
       if (changed.variant_of) {
         const FacePlan other = look_of(*changed.variant_of);
         face.recipe.colours = other.recipe.colours;
+        if (face.recipe.colours.empty()) take_skin(other, face);
         face.hair = other.hair;
       }
     }
@@ -70,6 +74,29 @@ class ChangedLooks {
   }
 
  private:
+  /// Gives the face the skin of another face, at its own age.
+  void take_skin(FacePlan other, FacePlan& face) const {
+    if (config_.textures.blend != TextureBlend::kAuto) return;  // the face has the same target
+    for (RegionRecipe& region : other.recipe.regions) {  // its skin ages like the finest band
+      if (region.colours.empty()) continue;
+      band_of(region, band_count(region) - 1).weights = std::exchange(region.colours, {});
+    }
+    if (other.age != face.age) {
+      const auto group = std::ranges::find(config_.groups, face.group.value_or(""), &Group::name);
+      const SamplingOptions& sampling =
+          group == config_.groups.end() ? config_.sampling : group->sampling;
+      take_back_age(other, sampling);
+      apply_age(other, face.age.value_or(0), sampling);
+    }
+    const auto weights = colour_weights(other.recipe, config_.faces.names.size());
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      std::vector<SourceWeight>& colours = face.recipe.regions[k].colours;
+      for (std::size_t h = 0; h < weights[k].size(); ++h) {
+        if (weights[k][h] > 0) colours.push_back({static_cast<Index>(h), weights[k][h]});
+      }
+    }
+  }
+
   FacePlan with_colours(const FacePlan& face) const {
     std::vector<FacePlan> alone = {face};
     if (config_.textures.colours == ColourWeights::kDrawn) {

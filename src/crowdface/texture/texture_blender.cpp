@@ -137,7 +137,7 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
     const BandRecipe& finest = band_of(region, band_count(region) - 1);
     std::vector<double> of_region(heads, 0.0);
     double sum = 0;
-    for (const SourceWeight& source : finest.weights) {
+    for (const SourceWeight& source : region.colours.empty() ? finest.weights : region.colours) {
       of_region[static_cast<std::size_t>(source.head)] += source.weight;
       sum += source.weight;
     }
