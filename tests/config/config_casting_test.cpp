@@ -128,16 +128,80 @@ TEST_F(ConfigTest, TagsOfAGroupBindTargetsThatHaveWeights) {
   EXPECT_EQ(config->groups[1].sampling.targets.size(), 2U);
 }
 
-TEST_F(ConfigTest, SourcesWithoutTheTagsOfTheirGroupAreWarnedOf) {
-  const auto warning = [&](const std::string& group) {
-    ::testing::internal::CaptureStderr();
-    EXPECT_TRUE(read(kTagged + "groups: [{name: women, count: 5, " + group + "}]\n")) << told();
-    return ::testing::internal::GetCapturedStderr();
+// Among the keys that bind faces to heads, tags and shares.
+TEST_F(ConfigTest, KeysThatOtherKeysOverrideAreTold) {
+  for (const char* file : {"hat.obj", "beard.obj"}) touch(file);
+  touch("wardrobe/attachments.yaml",
+        "attachments:\n  items: [{name: hat, kind: hat, file: ../hat.obj}, {name: full, kind: "
+        "beard, file: ../beard.obj}]\n  none: {hat: 0.9, beard: 0.5}\n");
+  const auto warnings = [&](const std::string& more, const std::string& config = kTagged) {
+    const ConfigReading reading = read_config_parts(touch("c.yaml", config + more), {}, problems_);
+    EXPECT_TRUE(reading.complete) << told();
+    return reading.warnings;
   };
-  EXPECT_THAT(warning("tags: [female], sources: all"),
-              HasSubstr("1 of the 3 sources do not have the group's tags, female; about 5 faces"));
-  EXPECT_EQ(warning("tags: [female], sources: [ann]"), "");
-  EXPECT_EQ(warning("sources: all"), "");
+  const auto tells = [&](const std::string& more, const std::string& warning) {
+    EXPECT_THAT(warnings(more), ElementsAre(HasSubstr(warning))) << more;
+  };
+  const auto of_women = [](const std::string& group) {
+    return "groups: [{name: women, count: 5, " + group + "}]\n";
+  };
+  const std::string kin = "families: [{name: kin, members: 2, group: women, age: 0}]\n";
+  tells(of_women("tags: [female], sources: all"),
+        "groups #1.sources: 1 of the 3 sources do not have the group's tags, female; 5 faces take "
+        "detail from them");
+  tells(of_women("tags: [female], sources: all") + kin, "7 faces take detail from them");
+  tells(of_women("tags: [female], age: 0.5"),
+        "groups #1.age: 1 of the 2 heads tagged old do not have the group's tags, female; 5 faces");
+  const std::string bands =
+      "sampling: {bands: {build: 240 mm, skin: {smoothness: 8 mm, sources: "
+      "[bob, cyd]}}}\n";
+  tells(bands + of_women("tags: [female]"),
+        "groups #1.bands.skin: 1 of the 2 sources do not have the group's tags, female; 5 faces");
+  tells(
+      "sampling: {targets: {bob: 2, cyd: 1}}\n" + of_women("tags: [female]"),
+      "sampling.targets: does not apply to the group women, whose tags select its heads (5 faces)");
+  tells("sampling: {sources: [bob]}\n" + of_women("tags: [female]"),
+        "sampling.sources: does not apply to the group women");
+  tells(of_women("targets: [ann, bob], without: [female]"),
+        "groups #1.targets: without, female, leaves out ann (5 faces)");
+  tells("groups: [{name: a, share: 1}, {name: b}]\n",
+        "groups #2: the group b gets none of the 10 sampled faces");
+  tells(of_women("tags: [female]") +
+            "families: [{name: kin, members: 2, group: women, target: bob}]\n",
+        "families #1.target: bob is not a target of the group women, but 2 faces");
+  tells(of_women("age: [0.2, 0.5]") + "families: [{name: kin, members: 1, group: women}]\n",
+        "families #1: the age of the group women does not apply to its members (1 face), whose "
+        "age is 0; write age");
+  tells("families: [{name: kin, members: 1, parents: {mother: drawn, father: drawn}}]\n",
+        "families #1.parents.father: no target of sampling.targets is tagged male, so 1 face");
+  tells("sampling: {age: 0.5}\nrecipes: [{id: mine, regions: {all: {weights: {cyd: 1}}}}]\n",
+        "recipes #1: sampling.age moves the weights of mine to other heads (1 face)");
+  tells("attachments: {items: [{name: hat, kind: hat, file: hat.obj}], hair_colours: {red: 0.5}}\n",
+        "attachments.hair_colours: no attachment has a tint, so 10 faces");
+  tells("attachments: {items: [{name: hat, kind: hat, file: hat.obj}]}\n" +
+            of_women("hair_colours: {red: 0.5}"),
+        "groups #1.hair_colours: no attachment has a tint, so 5 faces");
+  tells(
+      "attachments: {items: [{name: hat, kind: hat, file: hat.obj, tags: [old, female], without: "
+      "[female]}]}\n",
+      "attachments.items: hat: each head that has its tags also has a tag of without, female; no "
+      "face wears it");
+  tells("attachments: {from: wardrobe, quotas: {hat: 0.3}}\n",
+        "attachments: none and quotas replace those of the folder, also for beard (10 faces)");
+  touch("heads/tags.yaml", "faces: {tags: {ann: [old], bob: [old]}}");
+  EXPECT_THAT(warnings("", kPlain.substr(0, kPlain.size() - 2) + ", tags: {bob: [young]}}\n"),
+              ElementsAre(HasSubstr("faces.tags: replaces tags.yaml beside the heads, so 1 of 3 "
+                                    "heads lose their tags: ann")));
+
+  EXPECT_THAT(warnings(of_women("tags: [female], sources: [ann]")), ElementsAre());
+  EXPECT_THAT(warnings(of_women("sources: all")), ElementsAre());
+  EXPECT_THAT(warnings(of_women("tags: [old], age: 0.5")), ElementsAre());
+  EXPECT_THAT(warnings("attachments: {from: wardrobe, quotas: {hat: 0.3, beard: 0.2}}\n"),
+              ElementsAre());
+  EXPECT_THAT(warnings("sampling: {age: 0.5}\nrecipes: [{id: mine, age: 0, regions: {all: "
+                       "{weights: {cyd: 1}}}}]\n"),
+              ElementsAre());
+  EXPECT_THAT(warnings("groups: [{name: a, share: 1}, {name: b, share: 0}]\n"), ElementsAre());
 }
 
 TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
@@ -153,6 +217,11 @@ TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   refused("bands: {skin: {sources: [ann]}}, without: [old]", "the band skin has no source left");
   refused("tags: [female], targets: [ann, bob]", "\"bob\" does not have the group's tags, female");
   refused("targets: {bob: 2}, tags: [female]", "\"bob\" does not have the group's tags, female");
+  EXPECT_FALSE(
+      read("schema: 1\ncrowd: {name: mob, count: 10}\nfaces: {directory: heads, units: cm, "
+           "tags: {ann: [female], bob: [male]}}\ngroups: [{name: a, tags: [female], targets: "
+           "{female: 1, male: 1}}]\n"));
+  EXPECT_THAT(told(), HasSubstr("no head tagged \"male\" has the group's tags, female"));
   refused("without: old", "a list of tags");
   refused("without: [not old]", "name");
 }

@@ -327,6 +327,57 @@ TEST_F(Changes, OfReviewsMadeAtTheSameTimeAreMerged) {
   EXPECT_NE(line("mob_0002").at("regions"), second.at("regions"));
 }
 
+// What tags, quotas, groups and later reviews take precedence over is told, with the faces.
+TEST_F(Changes, ThatOverrideOtherKeysAreTold) {
+  std::string config = testing::read_text(folder_.config());
+  config.replace(config.find("file: wear/braid.obj"), 0, "tags: [old], ");
+  config.replace(config.find("none: {glasses: 0.5}"), 20, "quotas: {braid: 0.5}");
+  folder_.folder().write("config.yaml", config);
+  const auto warnings = [&](const std::string& changes) {
+    run(changes);
+    std::vector<std::string> texts;
+    const json report = testing::read_json(folder_.out() / "report.json");
+    for (const json& text : report.at("warnings")) texts.push_back(text);
+    return texts;
+  };
+  const auto has = [](const std::string& text) {
+    return ::testing::Contains(::testing::HasSubstr(text));
+  };
+  testing::run(folder_, std::vector<std::string>(), Replace::kForce);
+  const auto worn = [&] {
+    int faces = 0;
+    for (const json& face : plan_lines(folder_.out())) {
+      const auto names = face.at("attachments").get<std::vector<std::string>>();
+      faces += !face.at("index").is_null() && std::ranges::count(names, "braid") > 0 ? 1 : 0;
+    }
+    return faces;
+  };
+  const int before = worn();
+  ASSERT_LT(before, 4);
+  EXPECT_THAT(warnings(""), has(concat("attachments.quotas.braid: 4 sampled faces should wear it, ",
+                                       before, " do: tags")));
+  const std::vector<json> lines = plan_lines(folder_.out());
+  const std::string young = id_of(*std::ranges::find_if(lines, [](const json& face) {
+    return !face.at("index").is_null() && face.at("target") == "ann";
+  }));
+  EXPECT_THAT(warnings(concat('{', young, ": {wears: [braid]}}")),
+              has(concat("changes: 1 face with attachments that are not for the head, by tags or "
+                         "without: ",
+                         young, " (braid, ann)")));
+  EXPECT_THAT(warnings(concat('{', young, ": {wears: [], hair: red}}")),
+              has(concat("changes: 1 face with a hair colour that does not show, because nothing "
+                         "worn has a tint: ",
+                         young, " (red)")));
+  EXPECT_THAT(warnings(concat('{', young, ": {lock: [region_1], group: elderly}}")),
+              has(concat("changes: 1 face on a target outside the group, because lock keeps the "
+                         "target: ",
+                         young, " (ann, elderly)")));
+  review("a.yaml", concat("changes: {", young, ": {hair: black}}"));
+  EXPECT_THAT(warnings(concat('{', young, ": {hair: red}}")),
+              has(concat("changes: 1 face of which a review replaces changes of the config: ",
+                         young, " (hair)")));
+}
+
 TEST_F(Changes, AreStillThereAfterSheet) {
   run("{mob_0003: {age: older, wears: [braid]}}");
   const auto files = crowd_files(folder_.out());
@@ -359,6 +410,10 @@ TEST_F(Changes, ThatAreWrongAreRefused) {
   testing::expect_error(ExitCode::kUsage, {"wrong.yaml:2:", "ages"}, [&] {
     testing::run(folder_, with_review("wrong.yaml", "changes: {mob_0001: {ages: 1}}"));
   });
+  std::string config = testing::read_text(folder_.config());
+  config.replace(config.find("file: wear/round.obj"), 0, "excludes: [hair], ");
+  folder_.folder().write("config.yaml", config);
+  refused("{mob_0001: {wears: [round, braid]}}", {"round excludes braid"});
 }
 
 TEST_F(Changes, ThatCannotBeDrawnNameTheFace) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reviews stay in a crowd's folder and in effect, whatever else of the config changes.
+#include <cstdlib>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/generate.h"
@@ -37,10 +40,18 @@ SmallCrowd dressed() {
 class KeptReviews : public ::testing::Test {
  protected:
   KeptReviews() : folder_(dressed()) {
+    for (const char* file : {"index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"}) {
+      folder_.folder().write(concat("page/", file), file);
+    }
+    ::setenv("CROWDFACE_GALLERY", (folder_ / "page").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     run(folder_);
     first_ = plan_lines(folder_.out());
     review("a.yaml", "{mob_0002: reject, mob_0003: {mark: keep, note: good}}");
     reviewed_ = plan_lines(folder_.out());
+  }
+
+  ~KeptReviews() override {
+    ::unsetenv("CROWDFACE_GALLERY");  // NOLINT(concurrency-mt-unsafe)
   }
 
   ConfigOverrides with_review(const std::string& name, const std::string& faces) const {
@@ -173,8 +184,9 @@ TEST_F(KeptReviews, EachKindOfKeysThatDecideNothingMayChange) {
       {"attachments={fitted_to: ann, items: [{name: hat, kind: hat, file: other_hat.obj}]}", "",
        "hat"},
       {"attachments={fitted_to: ann, items: [{name: hat, kind: hat, file: hat.obj, moves: rigid}]}",
-       "", "hat"}};
-  for (const auto& [set, makes, touches] : changes) {
+       "", "hat"},
+      {"output.gallery=none", "", "gallery/"}};
+  const auto change = [&](const char* set, const char* makes, const char* touches) {
     SCOPED_TRACE(set);
     run(folder_, {set});
     EXPECT_EQ(plan_lines(folder_.out()), lines);
@@ -189,9 +201,27 @@ TEST_F(KeptReviews, EachKindOfKeysThatDecideNothingMayChange) {
     overrides.review = {out("reviews/review_001.yaml").string()};
     testing::run_to(folder_, "again", overrides);
     EXPECT_THAT(differing_files(crowd_files(folder_ / "again"), now), IsEmpty());
-  }
+  };
+  for (const auto& [set, makes, touches] : changes) change(set, makes, touches);
   run(folder_);
   EXPECT_THAT(differing_files(plain, crowd_files(folder_.out())), IsEmpty());
+  // Left out, it stays as it is.
+  change("output.faces_per_folder=3", "meshes/001/mob_0004.obj", "");
+}
+
+TEST_F(KeptReviews, WithoutAGalleryItsFilesGoAndOthersInItsFolderStay) {
+  const auto before = crowd_files(folder_.out());
+  ASSERT_TRUE(before.contains("gallery/data/mesh.js"));
+  folder_.folder().write("out/gallery/notes.txt", "mine");
+  run(folder_, {"output.gallery=none"});
+  std::vector<std::string> left;
+  for (const auto& [name, bytes] : crowd_files(folder_.out())) {
+    if (name.starts_with("gallery/")) left.push_back(name);
+  }
+  EXPECT_THAT(left, ::testing::ElementsAre("gallery/notes.txt"));
+  run(folder_);
+  fs::remove(out("gallery/notes.txt"));
+  EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
 }
 
 TEST_F(KeptReviews, AnotherFormatLeavesEveryOtherByte) {
@@ -248,6 +278,65 @@ TEST_F(KeptReviews, ACrowdGrowsFromItsKeptConfig) {
   const auto lines = plan_lines(folder_.out());
   ASSERT_EQ(lines.size(), 12U);
   for (std::size_t i = 0; i < reviewed_.size(); ++i) EXPECT_EQ(lines[i], reviewed_[i]);
+}
+
+// The advice was a smaller min_distance, which was then refused.
+TEST_F(KeptReviews, AFullCrowdGrowsWithASmallerDistanceAndItsFacesStay) {
+  const auto distance = [](double mm) {
+    return concat("diversity.min_distance=", format_fixed(mm, 3), " mm");
+  };
+  const auto closest_mm = [&] {
+    return testing::read_json(out("casting.json"))
+        .at("distances")
+        .at("between_faces_mm")
+        .at("min")
+        .get<double>();
+  };
+  const std::string full = distance(0.9 * closest_mm()), many = "crowd.count=60";
+  run(folder_, {full}, Replace::kForce);
+  const std::vector<json> six = plan_lines(folder_.out());
+  const auto before = crowd_files(folder_.out());
+  std::string told;
+  try {
+    run(folder_, {full, many});
+  } catch (const Unsatisfiable& error) {
+    told = error.what();
+  }
+  EXPECT_THAT(told, ::testing::HasSubstr("the 6 faces that exist stay as they are"));
+  EXPECT_THAT(told, ::testing::Not(::testing::HasSubstr("more heads")));
+  EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
+  const std::string advised = "diversity.min_distance: ";
+  ASSERT_NE(told.find(advised), told.npos) << told;
+  const double mm = std::stod(told.substr(told.find(advised) + advised.size()));
+  const auto expect_same_start = [&](const std::vector<json>& faces) {
+    const std::vector<json> lines = plan_lines(folder_.out());
+    ASSERT_GE(lines.size(), faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) EXPECT_EQ(lines[i], faces[i]);
+  };
+  run(folder_, {distance(mm), many});
+  expect_same_start(six);
+  EXPECT_GE(closest_mm(), mm - 1e-4);
+
+  // A review of the full crowd, and still nearer faces.
+  review("b.yaml", "{mob_0003: reject}", {distance(mm), many});
+  const std::vector<json> sixty = plan_lines(folder_.out());
+  EXPECT_EQ(sixty.size(), 60U);
+  EXPECT_NE(sixty[2], six[2]);
+  run(folder_, {distance(0.7 * mm), many});
+  expect_same_start(sixty);
+  run(folder_, {distance(0.7 * mm), "crowd.count=70"});
+  expect_same_start(sixty);
+  const std::vector<json> seventy = plan_lines(folder_.out());
+  EXPECT_EQ(seventy.size(), 70U);
+
+  // From nothing, with the kept config.
+  ConfigOverrides overrides;
+  overrides.out = (folder_ / "again").string();
+  generate(out("config.yaml"), overrides, {folder_.cache(), Replace::kRefuse, false});
+  EXPECT_EQ(plan_lines(folder_ / "again"), seventy);
+  testing::expect_error(ExitCode::kUsage, {"diversity.min_distance", "--force"}, [&] {
+    run(folder_, {full, "crowd.count=70"});
+  });
 }
 
 TEST_F(KeptReviews, WhatDecidesWhoTheFacesAreIsRefusedByName) {

@@ -125,6 +125,28 @@ TEST_F(RigOfACrowd, ThatDoesNotStandWhereHeadsDoIsRefused) {
   }
 }
 
+TEST_F(RigOfACrowd, MayBeGivenToAFinishedCrowdAndTakenBack) {
+  const std::string with = testing::read_text(folder_.config());
+  const std::string rig_line = "\nrig: rig.glb\n";
+  write_file(folder_.config(), with.substr(0, with.size() - rig_line.size()));
+  const std::vector<std::string> formats = {"output.meshes=[obj, glb]"};
+  testing::run(folder_, formats);
+  const auto plain = testing::crowd_files(folder_.out());
+  write_file(folder_.config(), with);
+  testing::run(folder_, formats);
+  const auto rigged = testing::crowd_files(folder_.out());
+  EXPECT_NE(rigged.at("meshes/mob_0001.glb"), plain.at("meshes/mob_0001.glb"));
+  for (const char* same : {"meshes/mob_0001.obj", "plan.jsonl", "crowd.csv"}) {
+    EXPECT_EQ(rigged.at(same), plain.at(same)) << same;
+  }
+  testing::run_to(folder_, "again", ConfigOverrides{formats, {}, {}, {}});
+  EXPECT_THAT(testing::differing_files(testing::crowd_files(folder_ / "again"), rigged),
+              ::testing::IsEmpty());
+  testing::run(folder_, {formats.front(), "rig=none"});
+  EXPECT_THAT(testing::differing_files(plain, testing::crowd_files(folder_.out())),
+              ::testing::IsEmpty());
+}
+
 TEST_F(RigOfACrowd, StandsOnTheTemplateAsItWas) {
   run();
   const GltfRig given = read_gltf_rig(rig()), own = read_gltf_rig(mesh("herself"));

@@ -231,9 +231,12 @@ class Redrawing {
 
 }  // namespace
 
-void apply_review(const CastingOptions& casting, const FaceJudge& judge, std::size_t number,
+void apply_review(const CastingOptions& of_crowd, const FaceJudge& judge, std::size_t number,
                   CastingResult& cast) {
-  const Review& review = casting.reviews[number];
+  const Review& review = of_crowd.reviews[number];
+  CastingOptions casting = of_crowd;
+  casting.diversity.min_distance_mm =
+      review.min_distance_mm.value_or(casting.diversity.min_distance_mm);
   std::vector<Redraw> redraws = read_marks(review, cast);
   std::vector<FaceChange> changes;
   std::erase_if(redraws, [&](const Redraw& redraw) {

@@ -17,12 +17,14 @@ namespace crowdface {
 namespace {
 
 /// Casts sampled faces `from` … `to`, each against all earlier faces.
-void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
-                    const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                    std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
-                    PopulationBalance& population, const FaceJoined& joined,
+///
+/// \param diversity  with the smallest distance of all these faces.
+void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
+                    const FaceJudge& judge, const std::vector<FaceKind>& kinds,
+                    const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
+                    CrowdSoFar& crowd, PopulationBalance& population, const FaceJoined& joined,
                     CastingResult& result) {
-  const AvoidedChanges changes(result, casting.diversity.min_distance_mm);
+  const AvoidedChanges changes(result, diversity.min_distance_mm);
   FaceSearch::Cost cost;
   if (!casting.population.empty()) {
     cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
@@ -37,7 +39,7 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
           [&casting, &kind, index](std::uint32_t attempt) {
             return draw_face(casting, index, attempt, kind);
           },
-          judge, casting.diversity, casting.diversity.candidates_for(index));
+          judge, diversity, DiversityOptions::candidates_for(index));
     }
     parallel_for_each(searches.size(), [&](std::size_t i) { searches[i].prepare(crowd); });
     for (std::uint64_t index = first; index <= last; ++index) {
@@ -58,6 +60,22 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
       crowd.add(std::move(found->face), std::move(found->point));
       if (joined) joined(search.rejections());
     }
+  }
+}
+
+/// Casts sampled faces `from` … `to`, which may have several smallest distances.
+void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
+                    const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
+                    std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
+                    PopulationBalance& population, const FaceJoined& joined,
+                    CastingResult& result) {
+  const auto& distances = casting.diversity.min_distance_of_first_mm;
+  while (from <= to && !result.shortfall) {
+    const auto same = distances.lower_bound(from);
+    const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);
+    cast_first_fit(casting, casting.diversity.of_face(from), judge, kinds, family_separation, from,
+                   last, crowd, population, joined, result);
+    from = last + 1;
   }
 }
 
@@ -142,10 +160,12 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   }
   FamilySeparation family_separation;
   const UnrelatedFaces unrelated(casting, judge.space());
+  CastingOptions of_families = casting;
+  of_families.diversity = casting.diversity.of_face(0);
   for (const FamilyOptions& family : casting.families) {
     Rejections rejections;
     auto cast =
-        cast_family(casting, family, judge, unrelated, crowd, family_separation, rejections);
+        cast_family(of_families, family, judge, unrelated, crowd, family_separation, rejections);
     result.rejections.add(rejections);
     if (!cast) {
       result.shortfall = Shortfall{0, rejections, -1, family.name};

@@ -36,6 +36,7 @@ struct AppliedChange {
   std::string by;  ///< such as "review 2"
   /// The other face with its changes, as it was before this change; null if there is none.
   std::shared_ptr<const ChangedFace> variant_of;
+  double min_distance_mm = 0;  ///< smallest distance of the changed face from the faces before it
 };
 
 /// A face with the changes that the config and reviews ask for.

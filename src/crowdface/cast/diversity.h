@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 
 namespace crowdface {
@@ -15,7 +16,10 @@ struct DiversityOptions {
     kSpread,  ///< choose the most spread set from a pool many times as large as the crowd
   };
   Mode mode = Mode::kFirstFit;
-  double min_distance_mm = 0;           ///< smallest distance between any two faces
+  double min_distance_mm = 0;  ///< smallest distance between any two faces
+  /// kFirstFit: other values of `min_distance_mm` for the first sampled faces, by their number. With
+  /// {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2 mm, faces 25 … 40 have 1 mm.
+  std::map<std::uint64_t, double> min_distance_of_first_mm = {};
   double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
   /// Between a rejected face and its replacement; empty: half the crowd's median distance.
   std::optional<double> min_distance_to_rejected_mm;
@@ -30,6 +34,18 @@ struct DiversityOptions {
   ///
   /// \param index  Index of the face, from 1.
   static int candidates_for(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
+
+  /// Smallest distance of a sampled face from all earlier faces. \param index  0: of families.
+  double min_distance_of(std::uint64_t index) const {
+    const auto first = min_distance_of_first_mm.lower_bound(index);
+    return first == min_distance_of_first_mm.end() ? min_distance_mm : first->second;
+  }
+  /// These options with the `min_distance_mm` of a sampled face.
+  DiversityOptions of_face(std::uint64_t index) const {
+    DiversityOptions own = *this;
+    own.min_distance_mm = min_distance_of(index);
+    return own;
+  }
 };
 
 /// Limits for a believable face. The defaults accept faces between the heads (although scans have

@@ -91,6 +91,7 @@ class Changing {
  private:
   void apply(const AppliedChange& applied) {
     const FaceChange& change = applied.change;
+    min_distance_mm_ = applied.min_distance_mm;
     changed_.traits = with_own(changed_.traits, change.traits);
     if (applied.variant_of) {
       changed_.variant_of = applied.variant_of;
@@ -203,7 +204,9 @@ class Changing {
     } else if (changed_.variant_of) {
       judge.limit_traits(nullptr);
     }
-    FaceSearch found(draw, judge, casting_.diversity, 1);
+    DiversityOptions diversity = casting_.diversity;
+    diversity.min_distance_mm = min_distance_mm_;
+    FaceSearch found(draw, judge, diversity, 1);
     auto face = found.settle(others);
     cast_.rejections.add(found.rejections());
     if (!face) {
@@ -246,7 +249,8 @@ class Changing {
   std::size_t at_;
   CastingResult& cast_;
   ChangedFace& changed_;
-  int number_ = 0;  ///< of the current change, from 1
+  int number_ = 0;              ///< of the current change, from 1
+  double min_distance_mm_ = 0;  ///< of the current change
 };
 
 /// \param first  whether the changes come before the known changes of the faces.
@@ -256,7 +260,10 @@ void apply(const CastingOptions& casting, const FaceJudge& judge,
   // The other face of a variant is the face without these changes.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
-    applied.push_back({change, by, nullptr});
+    const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;
+    applied.push_back({change, by, nullptr,
+                       first ? casting.diversity.min_distance_of(index.value_or(0))
+                             : casting.diversity.min_distance_mm});
     if (!change.variant_of) continue;
     applied.back().variant_of = current(face_called(*change.variant_of, cast), cast);
   }

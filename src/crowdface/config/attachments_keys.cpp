@@ -315,6 +315,29 @@ const Keys<Attachments>& attachments_keys() {
   return keys;
 }
 
+/// Warns of shares of a folder of attachments that the config's `none` or `quotas` replace, for kinds
+/// of which the config says nothing.
+/// \param from  the shares of the folder.
+void warn_of_lost_shares(const YamlNode& node, const Attachments& from, ConfigDraft& draft) {
+  const Attachments& own = draft.config.attachments;
+  std::set<std::string> kinds, lost;
+  const auto add_kinds = [&](const std::map<std::string, double>& shares, auto& to) {
+    for (const auto& share : shares) {
+      if (const Attachment* item = first_called(own, share.first)) to.insert(item->kind);
+    }
+  };
+  add_kinds(own.none, kinds);
+  add_kinds(own.quotas, kinds);
+  add_kinds(from.none, lost);
+  add_kinds(from.quotas, lost);
+  std::erase_if(lost, [&](const std::string& kind) { return kinds.contains(kind); });
+  if (lost.empty()) return;
+  draft.warnings.push_back(concat(node.path,
+                                  ": none and quotas replace those of the folder, also for ",
+                                  join(std::vector<std::string>(lost.begin(), lost.end())), " (",
+                                  draft.config.crowd.count, " faces); write shares for each kind"));
+}
+
 void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (is_word(node, "none")) return;
   if (!draft.complaints.expect_map(node, "none or a mapping with the keys from, items, none")) {
@@ -327,14 +350,19 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
         "from or items is missing; write from: FOLDER, or a list of attachments, [{name: bob, "
         "kind: hair, file: bob.obj}]");
   }
+  Attachments of_folder;
   if (from != nullptr) {
     read_from(from->value, config.attachments, draft);
+    of_folder = config.attachments;
     if (node.find("none") != nullptr || node.find("quotas") != nullptr) {
       config.attachments.none.clear();
       config.attachments.quotas.clear();
     }
   }
   read_keys(node, attachments_keys(), config.attachments, draft);
+  if (node.find("none") != nullptr || node.find("quotas") != nullptr) {
+    warn_of_lost_shares(node, of_folder, draft);
+  }
   if (items != nullptr) check_excluded(items->value, config.attachments, draft);
 }
 

@@ -147,6 +147,30 @@ const Keys<BelievabilityOptions>& believability_keys() {
   return keys;
 }
 
+void read_first_distances(const YamlNode& node, DiversityOptions& diversity, ConfigDraft& draft) {
+  draft.complaints.expect_map(node, "a mapping from numbers of faces to lengths, {24: 1.2 mm}");
+  for (const YamlEntry& entry : node.entries) {
+    const auto faces = parse_unsigned(entry.key);
+    if (!faces) {
+      draft.complaints.add(
+          entry.key_place,
+          concat(node.path, ": expected a number of faces, found ", quoted(entry.key)));
+    } else if (const auto mm = length(kMaxDistance).read(entry.value, draft)) {
+      diversity.min_distance_of_first_mm[*faces] = *mm;
+    }
+  }
+  if (!node.entries.empty() && diversity.mode != DiversityOptions::Mode::kFirstFit) {
+    draft.complaints.add_at(node, "requires mode: first_fit");
+  }
+}
+
+std::string write_first_distances(const DiversityOptions& diversity, const WriteContext& context) {
+  const auto entries = texts_of(diversity.min_distance_of_first_mm, [&](const auto& first) {
+    return entry(std::to_string(first.first), length(kMaxDistance).write(first.second, context));
+  });
+  return entries.empty() ? "" : flow_map(entries);
+}
+
 /// A removed key. Accepts only `value`, which the configs of older crowds contain.
 Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
   return {name,
@@ -187,7 +211,9 @@ std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
       found->distance, "",
       heads >= kEnough
           ? "No two people come nearer than this to each other: below 1 mm they look like one "
-            "person.\nA large crowd needs a smaller distance (crowdface plan --estimate)."
+            "person.\nA large crowd needs a smaller distance (crowdface plan --estimate), a group "
+            "of "
+            "few heads too:\n1 mm for 5 heads, 0.8 mm for 4, 0.5 mm for 3."
           : "No two people come nearer than this to each other. Below 1 mm they look like one "
             "person,\nbut so few heads give no faces that are farther apart."};
 }
@@ -200,6 +226,8 @@ const Keys<DiversityOptions>& diversity_keys() {
       word_key("mode", &Diversity::mode),
       key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance))
           .in_starter(min_distance_starter),
+      Key<Diversity>{"min_distance_of_first", read_first_distances, write_first_distances}.taking(
+          "`{number of faces: length}`"),
       key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance))
           .in_starter({"0.8 mm", "",
                        "No face comes nearer than this to a head: below half a millimetre it looks "

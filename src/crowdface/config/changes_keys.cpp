@@ -55,6 +55,15 @@ void read_wears(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
       draft.complaints.add_at(node.items[i],
                               concat(name, " and ", other->second, " are both of the ", "kind ",
                                      item->kind, ", of which a face wears at most one"));
+    } else {
+      const auto excluded = std::ranges::find_if(*names, [&](const std::string& worn) {
+        return std::ranges::any_of(items, [&](const Config::Attachment& one) {
+          return one.name == worn && worn != name &&
+                 (contains(item->excludes, one.name) || contains(item->excludes, one.kind));
+        });
+      });
+      if (excluded == names->end()) continue;
+      draft.complaints.add_at(node.items[i], concat(name, " excludes ", *excluded));
     }
   }
   change.wears = *names;

@@ -101,6 +101,8 @@ struct Config {
     std::string name;
     std::uint64_t count = 0;  ///< number of sampled faces; recipes add further faces
     std::uint64_t seed = 1;
+    /// Not a key: the number of sampled faces in the folder, if it has a crowd of this config
+    std::optional<std::uint64_t> existing;
   } crowd;
 
   struct Faces {

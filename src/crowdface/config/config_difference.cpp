@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/config/config_difference.h"
 
+#include <algorithm>
+#include <set>
+
 #include "crowdface/config/config.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/words.h"
@@ -10,6 +13,8 @@ namespace crowdface {
 namespace {
 
 constexpr const char* kCount = "crowd.count";
+constexpr const char* kDistance = "diversity.min_distance";
+constexpr const char* kFirstDistances = "diversity.min_distance_of_first";
 
 /// Returns a node's path without the numbers of list items: "attachments.items #2.file" gives
 /// "attachments.items.file".
@@ -75,13 +80,61 @@ std::optional<std::uint64_t> number_at(const YamlNode& root, std::string_view ke
   return node == nullptr ? std::nullopt : parse_unsigned(node->text);
 }
 
+bool casts_one_by_one(const YamlNode& root) {
+  const YamlNode* mode = node_at(root, "diversity.mode");
+  return mode == nullptr || mode->text == word_of(DiversityOptions::Mode::kFirstFit);
+}
+
 /// Returns whether the faces of the smaller crowd are the first ones of the larger crowd.
 bool only_grows(const YamlNode& old, const YamlNode& root) {
-  const YamlNode* mode = node_at(root, "diversity.mode");
   const auto before = number_at(old, kCount), now = number_at(root, kCount);
-  const bool one_by_one =
-      mode == nullptr || mode->text == word_of(DiversityOptions::Mode::kFirstFit);
-  return one_by_one && before && now && *before <= *now;
+  return casts_one_by_one(root) && before && now && *before <= *now;
+}
+
+/// Reads a length that effective_config has written, such as "1.2 mm".
+std::optional<double> millimetres_of(const YamlNode& node) {
+  constexpr std::string_view kUnit = " mm";
+  return node.text.ends_with(kUnit)
+             ? parse_double(node.text.substr(0, node.text.size() - kUnit.size()))
+             : std::nullopt;
+}
+
+std::optional<KeptDistances> distances_of(const YamlNode& root) {
+  if (!casts_one_by_one(root)) return std::nullopt;
+  KeptDistances distances;
+  if (const YamlNode* last = node_at(root, kDistance)) {
+    const auto mm = millimetres_of(*last);
+    if (!mm) return std::nullopt;
+    distances.min_distance_mm = *mm;
+  }
+  const YamlNode* first = node_at(root, kFirstDistances);
+  if (first == nullptr) return distances;
+  for (const YamlEntry& entry : first->entries) {
+    const auto faces = parse_unsigned(entry.key);
+    const auto mm = millimetres_of(entry.value);
+    if (!faces || !mm) return std::nullopt;
+    distances.of_first_mm[*faces] = *mm;
+  }
+  return distances;
+}
+
+/// Returns whether all faces of the old crowd, and its families, have the same smallest distances.
+bool keeps_distances(const YamlNode& old, const YamlNode& root) {
+  const auto before = distances_of(old), now = distances_of(root);
+  const auto count = number_at(old, kCount);
+  if (!before || !now || !count) return false;
+  DiversityOptions a, b;
+  a.min_distance_mm = before->min_distance_mm;
+  a.min_distance_of_first_mm = before->of_first_mm;
+  b.min_distance_mm = now->min_distance_mm;
+  b.min_distance_of_first_mm = now->of_first_mm;
+  // The distance may change only after these faces.
+  std::set<std::uint64_t> ends = {0, *count};
+  for (const auto* distances : {&*before, &*now}) {
+    for (const auto& first : distances->of_first_mm) ends.insert(std::min(first.first, *count));
+  }
+  return std::ranges::all_of(
+      ends, [&](std::uint64_t face) { return a.min_distance_of(face) == b.min_distance_of(face); });
 }
 
 }  // namespace
@@ -95,13 +148,22 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
     return {"every key, because one of the two is not a valid config"};
   auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);
   std::set<std::string> ignored = keys_after_casting();
-  if (only_grows(*old, *root)) ignored.insert(kCount);
+  if (only_grows(*old, *root)) {
+    ignored.insert(kCount);
+    if (keeps_distances(*old, *root)) ignored.insert({kDistance, kFirstDistances});
+  }
   for (YamlNode* node : {&*old, &*root, defaults ? &*defaults : nullptr}) {
     if (node != nullptr) remove_keys(ignored, *node);
   }
   std::vector<std::string> paths;
   add_differences(*old, *root, defaults ? &*defaults : nullptr, paths);
   return paths;
+}
+
+std::optional<KeptDistances> distances_in_config(const std::string& text) {
+  Complaints complaints;
+  const auto root = parse_yaml(text, "", complaints);
+  return root ? distances_of(*root) : std::nullopt;
 }
 
 std::optional<std::uint64_t> number_in_config(const std::string& text, std::string_view key_path) {

@@ -21,7 +21,9 @@ struct ConfigDraft {
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
   std::vector<std::filesystem::path> kept_reviews;  ///< see ConfigOverrides
   std::optional<std::uint64_t> kept_count;          ///< see ConfigOverrides
+  std::optional<double> kept_min_distance_mm;       ///< see ConfigOverrides
   std::filesystem::path ignored_reviews;            ///< see ConfigOverrides
+  std::vector<std::string> warnings;                ///< see ConfigReading
   /// Each flag becomes false after a complaint about the heads, tags, regions or smoothing. Values
   /// that refer to invalid names are then not checked, so that one mistake gives one message.
   bool heads_known = false;

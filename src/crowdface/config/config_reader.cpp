@@ -5,6 +5,7 @@
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/edits.h"
+#include "crowdface/config/overridden_keys.h"
 
 namespace crowdface {
 namespace {
@@ -73,6 +74,7 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   draft.folder = file.parent_path();
   draft.kept_reviews = overrides.kept_reviews;
   draft.kept_count = overrides.kept_count;
+  draft.kept_min_distance_mm = overrides.kept_min_distance_mm;
   draft.ignored_reviews = overrides.ignored_reviews;
   std::optional<YamlNode> root = parse(complaints);
   if (root) {
@@ -85,7 +87,13 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   if (root) read_path_options(overrides, draft);
   complaints.tell(problems);
   const bool complete = complaints.empty();
-  return {std::move(draft.config), complete, draft.heads_known, root && draft.regions_known};
+  if (complete) {
+    for (std::string& text : overridden_keys(*root, draft.config)) {
+      draft.warnings.push_back(std::move(text));
+    }
+  }
+  return {std::move(draft.config), complete, draft.heads_known, root && draft.regions_known,
+          std::move(draft.warnings)};
 }
 
 }  // namespace

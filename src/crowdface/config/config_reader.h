@@ -28,6 +28,9 @@ struct ConfigOverrides {
   std::vector<std::filesystem::path> kept_reviews = {};
   /// The crowd's number of sampled faces, for kept reviews that do not state it.
   std::optional<std::uint64_t> kept_count = {};
+  /// The crowd's `diversity.min_distance`, for kept reviews that do not state it, if the config has
+  /// another.
+  std::optional<double> kept_min_distance_mm = {};
   /// Reviews in this folder are not read; empty: all reviews are read.
   std::filesystem::path ignored_reviews = {};
 };
@@ -39,6 +42,8 @@ struct ConfigReading {
   bool complete = false;       ///< there was no problem; the whole config is valid
   bool heads_known = false;    ///< faces.files and faces.names are valid
   bool regions_known = false;  ///< regions.names and regions.mask are valid
+  /// Keys of a complete config that other keys override, a line for each.
+  std::vector<std::string> warnings = {};
 };
 
 /// Reads a config and checks everything that can be checked without opening a mesh or an image.

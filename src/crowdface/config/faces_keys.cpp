@@ -191,6 +191,26 @@ const Keys<Faces>& faces_keys() {
   return keys;
 }
 
+/// Warns of heads that have tags in tags.yaml, but not in the config, which replaces that file.
+void warn_of_lost_tags(const Faces& faces, ConfigDraft& draft) {
+  Complaints complaints;
+  ConfigDraft beside(complaints);
+  beside.heads_known = true;
+  Faces& tagged = beside.config.faces;
+  tagged.files = faces.files;
+  tagged.names = faces.names;
+  tagged.tags.resize(faces.names.size());
+  read_tags_beside_heads(tagged, beside);
+  std::vector<std::string> lost;
+  for (std::size_t h = 0; h < faces.names.size() && complaints.empty(); ++h) {
+    if (faces.tags[h].empty() && !tagged.tags[h].empty()) lost.push_back(faces.names[h]);
+  }
+  if (lost.empty()) return;
+  draft.warnings.push_back(concat("faces.tags: replaces tags.yaml beside the heads, so ",
+                                  lost.size(), " of ", faces.names.size(),
+                                  " heads lose their tags: ", name_some(lost)));
+}
+
 void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   Faces& faces = config.faces;
   const std::size_t complaints_before = draft.complaints.size();
@@ -205,7 +225,11 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
     });
   }
   read_keys(section, faces_keys(), faces, draft);
-  if (node.find("tags") == nullptr) read_tags_beside_heads(faces, draft);
+  if (node.find("tags") == nullptr) {
+    read_tags_beside_heads(faces, draft);
+  } else {
+    warn_of_lost_tags(faces, draft);
+  }
   if (faces.up.index == faces.front.index && draft.complaints.size() == complaints_before) {
     const YamlEntry* front = node.find("front");
     draft.complaints.add_at((front != nullptr ? front : node.find("up"))->value,

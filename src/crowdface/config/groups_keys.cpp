@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section `groups`.
 #include <algorithm>
-#include <cmath>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"
-#include "crowdface/core/log.h"
 
 namespace crowdface {
 namespace {
@@ -41,9 +39,15 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto& heads = draft.config.faces.names;
   const auto check = [&](const std::string& name, const YamlPlace& place) {
     const auto head = std::ranges::find(heads, name);
-    if (head == heads.end() || contains(bound, head - heads.begin())) return;
-    draft.complaints.add(place, concat(quoted(name), " does not have the group's tags, ",
-                                       join(wanted), "; change targets or tags"));
+    if (head != heads.end() && contains(bound, head - heads.begin())) return;
+    const std::vector<Eigen::Index> called = heads_with({name}, draft.config.faces);
+    const auto is_bound = [&](Eigen::Index one) { return contains(bound, one); };
+    const bool is_known = head != heads.end() || !called.empty();  // others are refused already
+    if (!is_known || std::ranges::any_of(called, is_bound)) return;
+    draft.complaints.add(
+        place, concat(head != heads.end() ? "" : "no head tagged ", quoted(name),
+                      head != heads.end() ? " does not have" : " has", " the group's tags, ",
+                      join(wanted), "; change targets or tags"));
   };
   for (const YamlEntry& entry : targets->value.entries) check(entry.key, entry.key_place);
   for (const YamlNode& item : targets->value.items) check(item.text, item.place);
@@ -164,27 +168,9 @@ void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
   }
 }
 
-/// Warns of sources that lack the tags of their group: its faces take detail from other people.
-void warn_of_other_sources(const YamlNode& node, const Group& group, const ConfigDraft& draft) {
-  const YamlEntry *tags = node.find("tags"), *sources = node.find("sources");
-  if (tags == nullptr || sources == nullptr || !draft.complaints.empty()) return;
-  const std::vector<std::string> wanted =
-      texts_of(tags->value.items, [](const YamlNode& item) { return item.text; });
-  const std::vector<Eigen::Index> tagged = heads_with(wanted, draft.config.faces);
-  const auto others = std::ranges::count_if(
-      group.sampling.sources, [&](Eigen::Index head) { return !contains(tagged, head); });
-  if (others == 0) return;
-  const double share = group.share * static_cast<double>(draft.config.crowd.count);
-  const std::uint64_t faces = group.count.value_or(static_cast<std::uint64_t>(std::round(share)));
-  log_warning(concat(sources->value.path, ": ", others, " of the ", group.sampling.sources.size(),
-                     " sources do not have the group's tags, ", join(wanted), "; about ", faces,
-                     " faces take detail from them"));
-}
-
 void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node,
                                "a list of groups, [{name: elderly, share: 0.3, tags: [old]}]");
-  std::vector<const YamlNode*> items;
   for (const YamlNode& item : node.items) {
     Group group;
     group.share = kOpenShare;
@@ -194,12 +180,8 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
     if (group.count) group.share = 0;
     if (!group.name.empty()) check_group(item, group, draft);
     config.groups.push_back(std::move(group));
-    items.push_back(&item);
   }
   part_the_rest(node, draft);
-  for (std::size_t g = 0; g < items.size(); ++g) {
-    warn_of_other_sources(*items[g], config.groups[g], draft);
-  }
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {

@@ -68,7 +68,8 @@ void read_mark(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   Review review;
   if (!root) return review;
-  const MapReader map(*root, {"schema", "count", "after", "faces", "changes"}, draft.complaints);
+  const MapReader map(*root, {"schema", "count", "after", "min_distance", "faces", "changes"},
+                      draft.complaints);
   if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
     read_whole(*schema, 1, 1, draft.complaints);
   }
@@ -77,6 +78,9 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   }
   if (const YamlNode* after = map.find("after")) {
     review.after = read_whole(*after, 0, kMostFaces, draft.complaints);
+  }
+  if (const YamlNode* distance = map.find("min_distance")) {
+    review.min_distance_mm = length(kMaxDistance).read(*distance, draft);
   }
   if (const YamlNode* changes = map.find("changes")) review.changes = read_changes(*changes, draft);
   const YamlNode* faces = map.find("changes") != nullptr
@@ -113,44 +117,57 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   return review;
 }
 
-/// Returns a review's text with the key `count`: in a new line, or as the first key of a mapping in
+/// Returns a review's text with another key: in a new line, or as the first key of a mapping in
 /// braces.
-std::string with_count(std::string text, std::uint64_t count) {
+std::string with_key(std::string text, const std::string& key) {
   std::size_t first = 0;
   while (first < text.size() &&
          (text[first] == '#' || is_blank(text[first]) || text[first] == '\n')) {
     first = text[first] == '#' ? std::min(text.find('\n', first), text.size()) : first + 1;
   }
   if (first < text.size() && text[first] == '{') {
-    return text.insert(first + 1, concat("count: ", count, ", "));
+    return text.insert(first + 1, concat(key, ", "));
   }
   if (!text.empty() && !text.ends_with('\n')) text += '\n';
-  return text + concat("count: ", count, '\n');
+  return text + concat(key, '\n');
+}
+
+/// Returns a review's text with the keys `count` and `min_distance` of `kept` that it does not state.
+std::string completed(std::string text, const Review& review, const Review& kept) {
+  if (!review.count && kept.count) {
+    text = with_key(std::move(text), concat("count: ", *kept.count));
+  }
+  if (!review.min_distance_mm && kept.min_distance_mm) {
+    text = with_key(std::move(text), concat("min_distance: ", *kept.min_distance_mm, " mm"));
+  }
+  return text;
 }
 
 /// Adds a review file, unless an earlier one is a copy of it. A review that does not state the
-/// number of faces that it is about gets this number.
+/// number of faces that it is about gets this number; a kept review also gets the smallest distance
+/// that its faces have, if the crowd's changes.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;
   if (!draft.ignored_reviews.empty() && is_inside_folder(file, draft.ignored_reviews)) return;
-  Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
+  const Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
   std::string text = draft.complaints.empty() ? read_file(file) : std::string();
   const std::string original = text;
   Config::Reviews& known = config.review;
   for (std::size_t i = 0; i < known.texts.size() && !text.empty(); ++i) {
-    if (known.texts[i] == text) return;
-    if (!review.count && known.texts[i] == with_count(text, *known.reviews[i].count)) return;
+    if (known.texts[i] == completed(text, review, known.reviews[i])) return;
   }
-  if (!review.count) {
-    const bool is_kept = contains(draft.kept_reviews, file);
-    review.count = is_kept ? draft.kept_count.value_or(config.crowd.count) : config.crowd.count;
-    if (!text.empty()) text = with_count(std::move(text), *review.count);
+  const bool is_kept = contains(draft.kept_reviews, file);
+  Review whole = review;
+  if (!whole.count) {
+    whole.count = is_kept ? draft.kept_count.value_or(config.crowd.count) : config.crowd.count;
   }
+  if (!whole.min_distance_mm && is_kept) whole.min_distance_mm = draft.kept_min_distance_mm;
+  if (!text.empty()) text = completed(std::move(text), review, whole);
   known.files.push_back(file);
   known.texts.push_back(std::move(text));
   known.originals.push_back(original);
-  known.reviews.push_back(std::move(review));
+  known.reviews.push_back(std::move(whole));
 }
 
 std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
@@ -237,6 +254,9 @@ std::string format_review(const Review& review, const Config& config) {
   std::vector<std::string> entries = {"schema: 1"};
   if (review.count) entries.push_back(concat("count: ", *review.count));
   if (review.after) entries.push_back(concat("after: ", *review.after));
+  if (review.min_distance_mm) {
+    entries.push_back(concat("min_distance: ", *review.min_distance_mm, " mm"));
+  }
   const auto marks =
       texts_of(review.marks, [&](const ReviewMark& mark) { return format_mark(mark, parts); });
   if (!marks.empty()) entries.push_back(entry("faces", block_map(marks)));

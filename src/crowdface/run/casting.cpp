@@ -146,6 +146,15 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
   }
 }
 
+/// Returns options with which the faces in the folder keep their distance in trials with another.
+CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
+  if (config.crowd.existing) {
+    casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing,
+                                                           casting.diversity.min_distance_mm);
+  }
+  return casting;
+}
+
 }  // namespace
 
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
@@ -230,8 +239,8 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     constexpr std::size_t kMaxTrials = 20;
     Progress progress("searching for values that work", kMaxTrials);
     const Remedy remedy = find_remedy(
-        casting, space, believability, &judged_in.skin, *crowd.shortfall, [&] { progress.step(); },
-        judge.traits());
+        with_existing_faces(config, casting), space, believability, &judged_in.skin,
+        *crowd.shortfall, [&] { progress.step(); }, judge.traits());
     std::vector<std::string> about_traits;
     if (remedy.binding == Reason::kTraits) {
       about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);

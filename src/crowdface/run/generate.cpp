@@ -35,6 +35,7 @@
 #include "crowdface/run/mesh_encoder.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/output_check.h"
+#include "crowdface/run/overridden_plan.h"
 #include "crowdface/run/planned.h"
 #include "crowdface/run/report.h"
 #include "crowdface/run/resume.h"
@@ -108,6 +109,15 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
                [&] { return prepare(job.config, job.inputs, job.smoothing, options.cache); });
 }
 
+/// Returns the warnings that depend only on the config and the plan.
+std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd_plan) {
+  std::vector<std::string> warnings = near_heads(crowd_plan, job.names.heads);
+  for (std::string& text : overridden_plan(job.config, crowd_plan.crowd)) {
+    warnings.push_back(std::move(text));
+  }
+  return warnings;
+}
+
 /// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if the folder has no
 /// plan of this job and the crowd may be cast instead.
 /// \throws MissingInput if the folder has no plan of this job and must have one.
@@ -129,7 +139,7 @@ std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& o
                              options.cache);
     });
     crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
-    crowd->warnings = near_heads(crowd->crowd_plan, job.names.heads);
+    crowd->warnings = casting_warnings(job, crowd->crowd_plan);
     check_compared_crowd(job.config, crowd->crowd_plan.crowd);
     log_info("using the plan in the folder");
   } else {
@@ -152,7 +162,7 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
     return plan_crowd(job.config, job.inputs, crowd->prepared, defects, options.cache);
   });
   log_casting(crowd->crowd_plan);
-  crowd->warnings = near_heads(crowd->crowd_plan, job.names.heads);
+  crowd->warnings = casting_warnings(job, crowd->crowd_plan);
   for (std::string& text : population_warnings(crowd->crowd_plan.traits)) {
     crowd->warnings.push_back(std::move(text));
   }

@@ -121,15 +121,40 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
 constexpr std::uint64_t kMaxInOneFolder = 10'000;
 constexpr std::uint64_t kFacesPerFolder = 1'000;
 
-/// Sets numbered subfolders for a large crowd. If the folder holds this crowd, keeps the crowd's
-/// subfolders.
-void choose_folders(Config& config) {
-  if (config.output.faces_per_folder) return;
+/// Takes the distances of the faces in the folder from their config.yaml: these faces stay as they
+/// are if the config has a smaller `min_distance`.
+/// \return  the config with these distances; unchanged if there are none.
+Config with_kept_distances(Config config, const std::string& before) {
+  DiversityOptions& diversity = config.diversity;
+  const auto kept = distances_in_config(before);
+  const auto count = number_in_config(before, "crowd.count");
+  const bool is_own = !diversity.min_distance_of_first_mm.empty() && kept &&
+                      diversity.min_distance_of_first_mm != kept->of_first_mm;
+  if (!kept || !count || is_own || diversity.min_distance_mm > kept->min_distance_mm) return config;
+  diversity.min_distance_of_first_mm = kept->of_first_mm;
+  if (diversity.min_distance_mm < kept->min_distance_mm) {
+    diversity.min_distance_of_first_mm[*count] = kept->min_distance_mm;
+  }
+  return config;
+}
+
+/// Sets what a config has from the crowd in its folder: the number of its faces and their smallest
+/// distances, and numbered subfolders. A new crowd gets subfolders if it is large.
+/// \param replaced  the run casts the crowd again (`--force`).
+void continue_crowd(Config& config, bool replaced) {
   const CrowdDirectory directory{config.output.directory};
   const std::string before =
       path_exists(directory.config()) ? read_file(directory.config()) : std::string();
-  if (!before.empty() &&
-      config_differences(before, effective_config(config, directory.root)).empty()) {
+  Config continued = replaced ? config : with_kept_distances(config, before);
+  const bool is_same =
+      !before.empty() &&
+      config_differences(before, effective_config(continued, directory.root)).empty();
+  if (is_same) {
+    config = std::move(continued);
+    if (!replaced) config.crowd.existing = number_in_config(before, "crowd.count");
+  }
+  if (config.output.faces_per_folder) return;
+  if (is_same) {
     config.output.faces_per_folder = number_in_config(before, "output.faces_per_folder");
   } else if (face_count(config) > kMaxInOneFolder) {
     config.output.faces_per_folder = kFacesPerFolder;
@@ -143,13 +168,13 @@ using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);
-  if (reading.complete) choose_folders(reading.config);
+  if (reading.complete) continue_crowd(reading.config, overrides.with_reviews_of_others);
   const CrowdDirectory directory{reading.config.output.directory};
   const std::vector<std::filesystem::path> kept = directory.kept_reviews();
   if (!reading.complete || kept.empty()) return reading;
   const auto read_again = [&] {
     reading = read(overrides, problems);
-    if (reading.complete) choose_folders(reading.config);
+    if (reading.complete) continue_crowd(reading.config, overrides.with_reviews_of_others);
   };
   if (overrides.without_reviews) {
     overrides.ignored_reviews = directory.reviews();
@@ -162,6 +187,11 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
     const std::string before = read_file(directory.config());
     differences = config_differences(before, effective_config(reading.config, directory.root));
     overrides.kept_count = number_in_config(before, "crowd.count");
+    const auto distances = distances_in_config(before);
+    const double now = reading.config.diversity.min_distance_mm;
+    if (distances && distances->min_distance_mm != now && !overrides.with_reviews_of_others) {
+      overrides.kept_min_distance_mm = distances->min_distance_mm;
+    }
   }
   if (!differences.empty() && !overrides.with_reviews_of_others) {
     log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
@@ -199,6 +229,7 @@ std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& 
     return std::nullopt;
   }
   Config& config = reading.config;
+  for (const std::string& text : reading.warnings) log_warning(text);
   check_paths(config, problems);
   check_reviews(config, problems);
   std::optional<Inputs> inputs = load_inputs(config, cache, problems);

@@ -21,8 +21,40 @@ std::string asked_of(const Config& config, Reason reason) {
   return describe(reason, config.diversity, config.believability);
 }
 
+/// Advice for a crowd whose faces exist: other keys cannot change without replacing the crowd.
+std::vector<std::string> advice_for_existing(const Config& config, const Remedy& remedy,
+                                             const Shortfall& shortfall) {
+  std::vector<std::string> advice;
+  const bool grows = config.crowd.count > *config.crowd.existing;
+  const bool is_first_fit = config.diversity.mode == DiversityOptions::Mode::kFirstFit;
+  if (remedy.binding == Reason::kMinDistance && is_first_fit) {
+    const std::string smaller = remedy.largest_mm
+                                    ? concat("diversity.min_distance: ", *remedy.largest_mm, " mm",
+                                             remedy.tried == config.crowd.count ? "" : " or less")
+                                    : std::string("a smaller diversity.min_distance");
+    advice.push_back(
+        concat(smaller, shortfall.changed.empty() ? "" : ", and the change in a review", "; the ",
+               *config.crowd.existing, " faces that exist stay as they are, ",
+               "only new, redrawn and changed faces come nearer"));
+  } else if (remedy.binding == Reason::kRejected) {
+    advice.emplace_back(
+        "a change of the face in place of the mark (group, lock, traits or variant_of): changes do "
+        "not keep this distance");
+  }
+  if (grows) {
+    advice.push_back(
+        concat("a crowd.count of ", std::max(shortfall.reached, *config.crowd.existing)));
+  }
+  advice.emplace_back(
+      "other keys decide who the existing faces are; to change these keys, cast another crowd with "
+      "--out");
+  return advice;
+}
+
 /// Changes that may help the user, most promising first.
-std::vector<std::string> advice(const Config& config, const Remedy& remedy) {
+std::vector<std::string> advice(const Config& config, const Remedy& remedy,
+                                const Shortfall& shortfall) {
+  if (config.crowd.existing) return advice_for_existing(config, remedy, shortfall);
   std::vector<std::string> advice;
   if (remedy.largest_mm) {
     const bool all = remedy.tried == config.crowd.count;
@@ -119,7 +151,8 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
     message += few_heads(config, group);
   }
   for (const std::string& line : about_traits) message += concat("\n  - ", line);
-  for (const std::string& line : advice(config, remedy)) message += concat("\n  - ", line);
+  for (const std::string& line : advice(config, remedy, shortfall))
+    message += concat("\n  - ", line);
   throw Unsatisfiable(message);
 }
 

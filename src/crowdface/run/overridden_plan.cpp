@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/run/overridden_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "crowdface/cast/attachment_item.h"
+#include "crowdface/cast/typical_head.h"
+#include "crowdface/core/contains.h"
+#include "crowdface/core/text.h"
+
+namespace crowdface {
+namespace {
+
+using Attachment = Config::Attachment;
+
+/// Faces that one warning is about, each with a remark.
+class NamedFaces {
+ public:
+  void add(const std::string& id, const std::string& remark) {
+    const std::string text = concat(id, " (", remark, ')');
+    if (!contains(faces_, text)) faces_.push_back(text);
+  }
+  /// Adds "2 faces …: mob_0001 (…), mob_0002 (…)" if there are any faces.
+  void tell(const char* what, std::vector<std::string>& warnings) const {
+    constexpr std::size_t kMaxNamed = 8;
+    if (faces_.empty()) return;
+    std::vector<std::string> named = faces_;
+    named.resize(std::min(named.size(), kMaxNamed));
+    warnings.push_back(concat("changes: ", faces_.size(), faces_.size() == 1 ? " face" : " faces",
+                              what, ": ", join(named), faces_.size() > kMaxNamed ? ", …" : ""));
+  }
+
+ private:
+  std::vector<std::string> faces_;
+};
+
+bool may_wear(const Attachment& item, const std::vector<std::string>& tags) {
+  const auto has = [&](const std::string& tag) { return contains(tags, tag); };
+  return std::ranges::all_of(item.tags, has) && std::ranges::none_of(item.without, has);
+}
+
+class OverriddenPlan {
+ public:
+  OverriddenPlan(const Config& config, const std::vector<FacePlan>& crowd)
+      : config_(config), crowd_(crowd) {
+    for (const FacePlan& face : crowd) faces_[face.id] = &face;
+  }
+
+  std::vector<std::string> find() {
+    find_missed_quotas();
+    for (const FaceChange& change : config_.changes) find_in(change);
+    for (const Review& review : config_.review.reviews) {
+      for (const FaceChange& change : review.changes) {
+        find_in(change);
+        find_replaced(change);
+      }
+    }
+    not_for_head_.tell(" with attachments that are not for the head, by tags or without",
+                       warnings_);
+    without_tint_.tell(" with a hair colour that does not show, because nothing worn has a tint",
+                       warnings_);
+    not_in_group_.tell(" on a target outside the group, because lock keeps the target", warnings_);
+    replaced_.tell(" of which a review replaces changes of the config", warnings_);
+    return std::move(warnings_);
+  }
+
+ private:
+  std::vector<const Attachment*> worn_by(const FacePlan& face) const {
+    std::vector<const Attachment*> worn;
+    for (const Attachment& item : config_.attachments.items) {
+      if (contains(face.attachments, item.name)) worn.push_back(&item);
+    }
+    return worn;
+  }
+
+  /// Compares the quotas with the sampled faces that wear the attachments. Changed faces do not
+  /// count as missing.
+  void find_missed_quotas() {
+    constexpr double kRounding = 1e-9;
+    for (const auto& [word, share] : config_.attachments.quotas) {
+      std::map<std::string, std::uint64_t> sizes;
+      std::uint64_t served = 0, reached = 0, asked = 0;
+      for (const FacePlan& face : crowd_) {
+        if (!face.index) continue;
+        ++sizes[face.group.value_or("")];
+        const bool wears = std::ranges::any_of(
+            worn_by(face),
+            [&, &called = word](const Attachment* item) { return is_called(*item, called); });
+        reached += wears ? 1 : 0;
+        served += wears || !face.notes.changes.empty() ? 1 : 0;
+      }
+      for (const auto& size : sizes) {
+        const double faces = share * static_cast<double>(size.second);
+        asked += static_cast<std::uint64_t>(std::floor(faces + kRounding));
+      }
+      if (served >= asked) continue;
+      warnings_.push_back(concat("attachments.quotas.", word, ": ", asked,
+                                 " sampled faces should wear it, ", reached,
+                                 " do: tags, without and excludes take precedence"));
+    }
+  }
+
+  void find_in(const FaceChange& change) {
+    const auto found = faces_.find(change.id);
+    if (found == faces_.end()) return;
+    const FacePlan& face = *found->second;
+    const auto worn = worn_by(face);
+    const auto head = static_cast<std::size_t>(typical_head(face.recipe, config_.faces.tags));
+    for (const Attachment* item : worn) {
+      if (!change.wears || !contains(*change.wears, item->name)) continue;
+      if (may_wear(*item, config_.faces.tags[head])) continue;
+      not_for_head_.add(face.id, concat(item->name, ", ", config_.faces.names[head]));
+    }
+    const bool has_tint =
+        std::ranges::any_of(worn, [](const Attachment* item) { return item->tint != Tint::kNone; });
+    if (change.hair && !has_tint) without_tint_.add(face.id, *change.hair);
+    if (!change.group || face.group != change.group) return;
+    const auto group = std::ranges::find(config_.groups, *change.group, &Group::name);
+    if (group == config_.groups.end()) return;
+    const auto& targets = group->sampling.targets;
+    if (std::ranges::find(targets, face.recipe.target, &WeightedHead::head) != targets.end())
+      return;
+    const std::string& target = config_.faces.names[static_cast<std::size_t>(face.recipe.target)];
+    not_in_group_.add(face.id, concat(target, ", ", *face.group));
+  }
+
+  /// Finds keys of a change of the config that a review replaces.
+  void find_replaced(const FaceChange& later) {
+    for (const FaceChange& change : config_.changes) {
+      if (change.id != later.id) continue;
+      const auto check = [&](const char* key, const auto& own, const auto& other) {
+        const std::decay_t<decltype(own)> none = {};
+        if (own != none && other != none && own != other) replaced_.add(change.id, key);
+      };
+      const bool steps = change.age_step || change.age;
+      if (steps && later.age && later.age != change.age) replaced_.add(change.id, "age");
+      check("variant_of", change.variant_of, later.variant_of);
+      check("group", change.group, later.group);
+      check("wears", change.wears, later.wears);
+      check("hair", change.hair, later.hair);
+      check("colours", change.colours, later.colours);
+    }
+  }
+
+  const Config& config_;
+  const std::vector<FacePlan>& crowd_;
+  std::map<std::string, const FacePlan*> faces_;  ///< by id
+  NamedFaces not_for_head_, without_tint_, not_in_group_, replaced_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> overridden_plan(const Config& config, const std::vector<FacePlan>& crowd) {
+  return OverriddenPlan(config, crowd).find();
+}
+
+}  // namespace crowdface

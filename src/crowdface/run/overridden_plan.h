@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crowdface/cast/face_plan.h"
+#include "crowdface/config/config.h"
+
+namespace crowdface {
+
+/// Returns warnings of keys that a cast crowd does not follow, because other keys take precedence:
+/// quotas of attachments, tags of attachments, groups, and changes of the config. Each warning has
+/// the number of faces concerned.
+std::vector<std::string> overridden_plan(const Config& config, const std::vector<FacePlan>& crowd);
+
+}  // namespace crowdface
