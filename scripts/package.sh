@@ -134,7 +134,8 @@ print(crowd, [face.mesh().name for face in crowd.values()])'
 scripts/install_dependencies.sh --releases
 # shellcheck source=/dev/null
 release=$(. /etc/os-release && echo "$VERSION_CODENAME")
-{ echo 'set -euxo pipefail; mkdir /tmp/try; cd /tmp/try'; declare -f try; echo try; } >"$place/inside"
+# This system's CMake may be told to use programs that the root has not.
+{ echo 'set -euxo pipefail; unset "${!CMAKE_@}"; mkdir /tmp/try; cd /tmp/try'; declare -f try; echo try; } >"$place/inside"
 tar --create --file "$place/consumer.tar" -C tests/structure consumer
 tar --create --file "$place/packages.tar" -C build packages
 echo "$release: a fresh root (log: build/packages/test.log)"
