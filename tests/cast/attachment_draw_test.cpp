@@ -421,6 +421,24 @@ TEST(HairColour, IsOfFacesThatMayWearATint) {
   }
 }
 
+// Half of the age used to leave young hair as it was.
+TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
+  const auto mean_grey = [](double age) {
+    std::vector<FacePlan> crowd = hair_crowd(200);
+    for (FacePlan& face : crowd) {
+      face.recipe.target = 0;  // young
+      face.age = age;
+    }
+    draw_attachments(hair_draw(), {}, crowd);
+    double sum = 0;
+    for (const FacePlan& face : crowd) sum += face.hair->grey / 200;
+    return sum;
+  };
+  EXPECT_EQ(mean_grey(0), 0);
+  EXPECT_GT(mean_grey(0.5), 0.2);
+  EXPECT_GT(mean_grey(1), mean_grey(0.5) + 0.2);
+}
+
 TEST(HairColour, FollowsSharesExactlyInEachGroup) {
   AttachmentDraw draw = hair_draw();
   draw.hair_colours = {{"", {{"blond", 0.3}}}, {"clan", {{"black", 1}}}};

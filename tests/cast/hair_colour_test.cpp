@@ -38,6 +38,9 @@ TEST(HairColour, OfTheBodyDiffersAsPeoplesDoes) {
   const HairColour brows = tinted(hair, Tint::kBrows), beard = tinted(hair, Tint::kBeard);
   EXPECT_GT(brows.eumelanin, hair.eumelanin);
   EXPECT_LT(brows.grey, hair.grey);
+  // White brows on a grey man and blond ones on tanned skin looked glued on.
+  EXPECT_LT(tinted({0.5, 0, 1}, Tint::kBrows).grey, 0.7);
+  EXPECT_GT(tinted({0.2, 0, 0}, Tint::kBrows).eumelanin, 0.35);
   EXPECT_GT(beard.pheomelanin, hair.pheomelanin);
   EXPECT_GT(tinted(hair, Tint::kLashes).eumelanin, brows.eumelanin);
   EXPECT_LT(tinted({0.5, 0, 1}, Tint::kLashes).grey, 0.3);

@@ -44,8 +44,8 @@ std::optional<HairColour> hair_colour_named(std::string_view name) {
 HairColour tinted(const HairColour& hair, Tint tint) {
   HairColour own = hair;
   if (tint == Tint::kBrows) {
-    own.eumelanin += 0.1;
-    own.grey = 0.8 * hair.grey * hair.grey;
+    own.eumelanin += 0.1 + 0.15 * (1 - hair.eumelanin);
+    own.grey = 0.6 * hair.grey * hair.grey;
   } else if (tint == Tint::kBeard) {
     own.eumelanin -= 0.05;
     own.pheomelanin += 0.15 * (1 - hair.eumelanin);

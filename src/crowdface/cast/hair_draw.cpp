@@ -2,6 +2,7 @@
 #include "crowdface/cast/hair_draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "crowdface/cast/shares.h"
@@ -146,9 +147,14 @@ double HairDraw::grey_of(const FacePlan& face, Index head, const std::string& pu
                          : contains(tags, "adult") ? 0.45
                          : contains(tags, "young") ? 0.15
                                                    : 0.3;
-  // Grey begins at different ages.
+  // The face's age moves it from its heads' age class towards the old or the young. Half the way
+  // must be visible, although half of the old heads' detail is less than half of their age.
+  const double age = face.age.value_or(0);
+  const double way = std::sqrt(std::min(1.0, std::abs(age)));
+  const double aged = of_head + way * ((age < 0 ? 0.15 : std::max(0.9, of_head)) - of_head);
+  // Grey begins at different ages, but not in young years.
   const double begin = random_unit({draw_.seed, face.index.value_or(0), purpose}) - 0.5;
-  return smooth_step(0.5, 1.0, of_head + 0.4 * face.age.value_or(0) + 0.35 * begin);
+  return smooth_step(0.5, 1.0, aged + 0.35 * begin);
 }
 
 }  // namespace crowdface

@@ -32,7 +32,7 @@ inline constexpr int kRigVersion = 1;
 /// that a body changes no recipe.
 inline constexpr int kNeckVersion = 2;
 /// Attachments of a face of unchanged positions.
-inline constexpr int kAttachmentsVersion = 5;
+inline constexpr int kAttachmentsVersion = 6;
 /// Levels of detail of unchanged heads.
 inline constexpr int kLevelsVersion = 1;
 /// Blended textures of faces.
