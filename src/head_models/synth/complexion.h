@@ -38,7 +38,8 @@ struct Complexion {
   double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
   ScreenColour iris;
   double receding = 0;  ///< 0 (full hairline) … 1 (bald on top)
-  double made_up = 0;   ///< 0 … 1: make-up on lips, lids and lashes
+  double made_up = 0;   ///< 0 … 1: make-up on lids, lashes and cheeks
+  double lipstick = 0;  ///< 0 … 1; 0 for most people
 };
 
 /// Draws the complexion of head `index`. Skin tones are stratified: of five successive women, and

@@ -102,9 +102,9 @@ std::span<const FacialHair> facial_hairs() {
       {.name = "brows_soft", .female = true, .width = 0.75, .arch = 0.18, .dense = 0.75},
       {.name = "brows_full", .female = true, .width = 0.85, .arch = 0.22, .dense = 0.85},
       {.name = "brows_straight", .width = 1.05, .dense = 0.85},
-      {.name = "brows_broad", .width = 1.3},
-      {.name = "brows_thin", .width = 0.9, .arch = 0.06, .dense = 0.8},
-      {.name = "brows_bushy", .width = 1.4, .arch = 0.05, .dense = 1},
+      {.name = "brows_broad", .width = 1.25},
+      {.name = "brows_thin", .width = 0.9, .arch = 0.1, .dense = 0.8},
+      {.name = "brows_bushy", .width = 1.4, .arch = 0.08, .dense = 1},
       {.name = "stubble", .is_beard = true, .share = 2, .cheeks = 0.45, .lip = 0.45, .chin = 0.45},
       {.name = "moustache", .is_beard = true, .share = 0.5, .cheeks = 0.12, .lip = 1, .chin = 0.12},
       {.name = "goatee", .is_beard = true, .share = 0.8, .cheeks = 0.15, .lip = 0.95, .chin = 1},
@@ -117,7 +117,9 @@ FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   const SkinPaint paint = paint_of(style);
   const auto cover = [&](const Vector3d& p) {
     // A layer needs denser brows than a painting: its edges are not mixed with the skin.
-    return style.is_beard ? paint.beard_cover(p) : std::sqrt(std::max(0.0, paint.brow_cover(p)));
+    if (style.is_beard) return paint.beard_cover(p);
+    const double root = std::sqrt(std::max(0.0, paint.brow_cover(p)));
+    return root * std::sqrt(root);
   };
   const std::vector<Index> faces = covered_faces(skin, cover);
   const Positions normals =

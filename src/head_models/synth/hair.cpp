@@ -63,13 +63,15 @@ bool has_curls(std::uint64_t seed, std::uint64_t index) {
   return draw_hair_style(seed, index).curls > 0.5;
 }
 
-Hair::Hair(std::uint64_t seed, std::uint64_t index)
+Hair::Hair(std::uint64_t seed, std::uint64_t index, bool falls)
     : style_(draw_hair_style(seed, index)),
       receding_(draw_complexion(seed, index).receding),
       hairs_(mix(seed, index, 106), 0.045),
       tufts_(mix(seed, index, 107), 0.3),
       edge_(mix(seed, index, 108), 0.5),
-      locks_(mix(seed, index, 109), 0.55) {}
+      locks_(mix(seed, index, 109), 0.55) {
+  if (!falls) style_.nape = 0;
+}
 
 double Hair::strand(const Vector3d& p) const {
   // Straight hair is stretched noise, in strands from the face to the back; curls are isotropic.

@@ -32,7 +32,8 @@ bool has_curls(std::uint64_t seed, std::uint64_t index);
 /// A person's hair as a layer on the scalp. All points are points of the average head, cm.
 class Hair {
  public:
-  Hair(std::uint64_t seed, std::uint64_t index);
+  /// \param falls  false: leaves out hair that falls down the neck, whose roots are elsewhere.
+  Hair(std::uint64_t seed, std::uint64_t index, bool falls = true);
 
   /// Returns whether hair may grow here; a fast conservative test.
   bool reaches(const Eigen::Vector3d& p) const;

@@ -33,7 +33,7 @@ struct Root {
 
 /// Returns roots spread over the scalp with a minimum distance of kBetween.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
-  const double least = cut.has_fringe() ? 0.5 : 0.3;
+  const double least = cut.layers > 1 ? 0.1 : cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
   for (const Address& address : make_layout(24'000).addresses) {
     const SkinPoint skin = mean_skin_with_sockets(address);
@@ -77,7 +77,8 @@ class Grower {
     const double fringe = cut_.fringe + 0.5 * (unit("hem") - 0.5),
                  twist = 0.35 * (unit("twist") - 0.5);
     const Vector3d way = combed_way(cut_, root.place);
-    Vector3d p = root.place - 0.2 * way;
+    // Roots stand in no straight line along the edge.
+    Vector3d p = root.place - (0.45 * unit("root") - 0.1) * way;
     double rest = hair_stand_off(cut_, p);
     p += (rest + 0.02 - head_distance(p)) * away_from_head(p);
     Vector3d direction = (0.1 * root.normal + way).normalized();

@@ -21,7 +21,8 @@ using Eigen::Vector3d;
 
 constexpr Index kCapLayout = 12'000;
 constexpr double kCapEdge = 0.45;    // size of the cap's quads, cm
-constexpr double kRim = 0.55;        // width of thin hair beyond the hairline, cm
+constexpr double kRim = 0.5;         // width of sparse roots beyond the hairline, cm
+constexpr double kFade = 2.1;        // width of the zone in which the cap becomes closed, cm
 constexpr double kStripWidth = 1.5;  // width of the cap that one texture strip covers, cm
 
 /// A triangle wave between 0 and 1, so that neighbouring copies of a strip match.
@@ -34,7 +35,18 @@ double to_and_fro(double x) {
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.back >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
-  return p.z() - std::abs(p.x()) * smooth_step(-3, -7, p.z());
+  // On the forehead the hairline runs from side to side, and hair crosses it.
+  const double ahead = smooth_step(1, 4, p.z()), x = std::abs(p.x());
+  return (1 - ahead) * p.z() + (ahead - smooth_step(-3, -7, p.z())) * x;
+}
+
+/// Returns the texture coordinate v of the cap at a distance from the hairline.
+double from_edge(const HairCut& cut, double within) {
+  constexpr double kTips = 0.02, kSpan = 0.75;
+  const double closed = within + kRim - kFade;
+  if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
+  // The cap of a straight cut continues as strands; curls differ in both directions.
+  return kTips + kSpan - (cut.layers > 1 ? 0.25 * to_and_fro(closed / 1.2) : 0);
 }
 
 }  // namespace
@@ -97,9 +109,7 @@ void add_hair_cap(const HairCut& cut, HairMesh& hair) {
     hair.points.emplace_back(skin.position +
                              (0.03 + hair_stand_off(cut, skin.position)) * skin.normal);
     const double u = 0.03 + 0.94 * to_and_fro(across_hair(cut, skin.position) / kStripWidth);
-    const double v_of_tips = 0.02, inner = 0.75;
-    hair.uvs.emplace_back((kCardStrips + u) / kHairStrips,
-                          v_of_tips + inner * std::clamp((within + kRim) / 1.7, 0.0, 1.0));
+    hair.uvs.emplace_back((kCardStrips + u) / kHairStrips, from_edge(cut, within));
   }
   for (Index f = 0; f < layout.topology.face_count(); ++f) {
     std::vector<std::uint32_t> corners;

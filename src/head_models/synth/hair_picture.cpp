@@ -12,8 +12,11 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kStrands = 13;          // strands per strip
-constexpr double kAcross = 4.5, kDown = 2.3;  // noise frequencies of curls on the cap's strip
+constexpr std::size_t kStrands = 30;          // strands per strip
+constexpr double kAcross = 1.9, kDown = 1.5;  // noise frequencies of curls on the cap's strip
+
+/// Below this fraction of its length, the cap's strip shows strands; beyond, it shows roots.
+constexpr double kCapClosed = 0.5;
 
 struct Strand {
   double place = 0;  ///< horizontal position, in units of a strip's width
@@ -31,8 +34,8 @@ std::vector<Strand> draw_strands() {
     const auto within = static_cast<double>(s % kStrands);
     strands.push_back(
         {static_cast<double>(strip) + 0.07 + 0.86 * (within + 0.2 + 0.6 * unit("place")) / kStrands,
-         0.062 * (0.7 + 0.6 * unit("half")), 0.07 * unit("start"), 0.76 + 0.24 * unit("end"),
-         0.74 + 0.56 * unit("light")});
+         0.03 * (0.7 + 0.6 * unit("half")), 0.12 * unit("start"), 0.7 + 0.3 * unit("end"),
+         0.78 + 0.46 * unit("light")});
   }
   return strands;
 }
@@ -43,7 +46,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
   const std::vector<Strand> strands = draw_strands();
   const SmoothNoise bends(mix(3, curly ? 1 : 0, 8), curly ? 0.09 : 0.3);
   const double swing = curly ? 0.1 : 0.05;
-  const SmoothNoise clumps(mix(3, 1, 9), 0.11);
+  const SmoothNoise clumps(mix(3, 1, 9), 0.11), roots(mix(3, 1, 10), 0.02);
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(4 * side * side);
   for (std::size_t y = 0; y < side; ++y) {
@@ -56,19 +59,26 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const double u = (static_cast<double>(x) + 0.5) / size * kHairStrips;
       const auto strip = static_cast<std::size_t>(u);
       const bool below = strip >= kCardStrips;
-      double cover = below ? smooth_step(0.9, 0.72, t) : 0, light = below ? 0.8 : 0.7;
+      // The cap ends in single roots, which become sparse: a hard edge would look like a wig.
+      const double root = below ? roots.at({u, t, 0}) : 0;
+      double cover = below ? smooth_step(0.98, 0.52, t + 0.13 * root) : 0;
+      double light = below ? 0.8 : 0.7;
       if (below && curly) {  // short, darker curls
         const double clump = clumps.at({kAcross * u, kDown * t, 0});
-        light = 0.6 + 0.3 * clump;
-        cover = smooth_step(0.95, 0.7, t + 0.12 * clump);
+        light = 0.62 + 0.5 * clump + 0.2 * root;
+      } else if (below && t > kCapClosed) {
+        light += 0.25 * root;
       } else {
         // Composite the strands of this strip; each strand is darker at its edges.
         for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {
           const Strand& strand = strands[s];
-          const double half = strand.half * (1 - 0.8 * smooth_step(0.5, 1, t / strand.end));
-          const double across = (u - middles[s]) / half;
-          const bool there = t < strand.end && (below || t >= strand.start);
-          const double inside = there ? smooth_step(1.2, 0.7, std::abs(across)) : 0.0;
+          const double away = std::abs(u - middles[s]);
+          if (away > 1.2 * strand.half || t >= strand.end) continue;
+          const double half = strand.half * (1 - 0.8 * smooth_step(0.45, 1, t / strand.end));
+          const double across = away / half;
+          // A hair comes out of the skin thin and becomes visible gradually.
+          const double grown = below ? 1 : smooth_step(strand.start, strand.start + 0.07, t);
+          const double inside = grown * smooth_step(1.2, 0.7, across);
           if (inside <= 0) continue;
           light += inside * (strand.light * (1 - 0.25 * std::min(1.0, across * across)) - light);
           cover = std::max(cover, inside);

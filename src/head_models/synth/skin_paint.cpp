@@ -74,7 +74,7 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
       tufts_(mix(seed, index, 107), 0.3),
       hairline_(mix(seed, index, 108), 0.5),
       grain_(mix(seed, index, 110), 0.03),
-      hair_(seed, index),
+      hair_(seed, index, scalp_hair == 1),
       scalp_hair_(scalp_hair) {}
 
 ScreenColour SkinPaint::bare_skin(const Vector& p) const {
@@ -115,8 +115,8 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const double pale = 0.25 * std::max(0.0, person_.aged()) + (person_.male > 0 ? 0.35 : 0.0);
-  tint(lips, {0.95, 0.76, 0.77}, 1 - pale);
-  tint(lips, {0.93, 0.62, 0.68}, look_.made_up);
+  tint(lips, {0.93, 0.82, 0.81}, 1 - pale);
+  tint(lips, {0.93, 0.58, 0.64}, look_.lipstick);
   tint(lips, ScreenColour::Constant(0.86), look_.tone);
   // The upper lip is darker, because it faces down.
   if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
@@ -129,6 +129,10 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
+  // The crease of the upper lid, in its own shade.
+  const double beside = std::min(1.0, std::abs(std::abs(p.x()) - 3.2) / 2.3);
+  const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
+  tint(colour, {0.74, 0.64, 0.62}, 0.75 * crease * smooth_step(0, 0.35, lids));
   tint(colour, {0.76, 0.68, 0.70}, 0.7 * look_.made_up * lids);
   if (place.eye <= 0) return;
   // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
@@ -152,9 +156,9 @@ double SkinPaint::brow_cover(const Vector& p) const {
   // An arch above each eye, thickest towards the nose.
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
   if (t < -0.1 || t > 1.1) return 0;
-  const double arch = 1.75 + 1.05 * t * (1 - t) * 2.2 * (0.7 + 0.6 * t) +
-                      look_.brow_arch * (0.4 + 3.2 * t * t * (1 - t));
-  const double half = look_.brow_width * (0.40 - 0.22 * t * t);
+  const double arch = 1.95 + 1.45 * t * (1 - t) * (0.8 + 0.6 * t) - 0.12 * t * t +
+                      look_.brow_arch * (0.7 + 1.7 * t * t * (1 - t));
+  const double half = look_.brow_width * (0.34 - 0.18 * t * t);
   const double off = std::abs(p.y() - arch) / half;
   const double ends = smooth_step(-0.08, 0.14, t) * smooth_step(1.06, 0.72, t);
   const double body = smooth_step(1.25, 0.45, off) * ends;
@@ -162,7 +166,7 @@ double SkinPaint::brow_cover(const Vector& p) const {
   // Hairs point outward: noise stretched along their direction.
   const double along = x - 0.9 * (p.y() - arch), across = (p.y() - arch) + 0.55 * x;
   const double strands = hairs_.at({0.22 * along, across, 7 * (p.x() > 0 ? 1.0 : -1.0)});
-  return look_.brows * body * smooth_step(-0.75, 0.45, strands + 0.9 * (body - 0.5));
+  return look_.brows * body * smooth_step(-0.75, 0.6, strands + 0.9 * (body - 0.5));
 }
 
 double SkinPaint::beard_cover(const Vector& p, double strand) const {
@@ -173,11 +177,12 @@ double SkinPaint::beard_cover(const Vector& p, double strand) const {
   const double over = p.y() - between_knots(edge, x);
   if (over > 1.5 || p.y() < -15) return 0;
   const double wander = 0.35 * hairline_.at(p);
-  const double below = smooth_step(0.6, -1.1, over + wander + 0.3 * strand);
-  const double neck = smooth_step(-14.2, -12.2, p.y() + wander);
+  const double lip = smooth_step(3.0, 2.4, x);
+  const double below = smooth_step(0.6, -1.1 + 0.4 * lip, over + wander + 0.3 * strand);
+  const double neck = smooth_step(-13.4, -11.4, p.y() + wander);
   const double back = smooth_step(-0.5, 0.8, p.z());
   // Bare patches below the lower lip, on both sides of the chin.
-  const double bare = 0.5 * patch(p, {1.3, -8.4}, {0.9, 0.55});
+  const double bare = 0.2 * patch(p, {1.3, -8.4}, {0.9, 0.55});
   return below * neck * back * (1 - on_lips(p)) * (1 - bare);
 }
 
@@ -186,7 +191,11 @@ double SkinPaint::beard_length(const Vector& p) const {
   const double x = std::abs(p.x());
   const double lip =
       smooth_step(3.0, 2.3, x) * smooth_step(-7.3, -6.6, p.y()) * smooth_step(6, 8, p.z());
-  const double chin = smooth_step(2.9, 1.9, x) * smooth_step(-7.4, -8.2, p.y());
+  // A beard on the chin is round and joined to the moustache at the corners of the mouth.
+  const double round = Vector2d(x / 2.9, (p.y() + 9.5) / 2.5).norm();
+  const double joint = smooth_step(0.7, 0.25, std::abs(x - 2.55)) * smooth_step(-6.2, -6.8, p.y()) *
+                       smooth_step(-10.2, -9.2, p.y());
+  const double chin = std::max(smooth_step(1, 0.7, round) * smooth_step(-7.4, -8.0, p.y()), joint);
   double length = look_.beard;
   length += lip * (look_.moustache - length);
   return length + chin * (look_.chin_beard - length);
@@ -222,21 +231,22 @@ void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
 /// dark rim, a pupil. \param ball  point on the unit sphere, pupil at +z.
 ScreenColour SkinPaint::eyeball(const Vector& ball) const {
   const double flat = std::sqrt(ball.x() * ball.x() + ball.y() * ball.y());
-  ScreenColour colour(0.83, 0.815, 0.79);
+  ScreenColour colour(0.80, 0.785, 0.765);
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.45, 0.95, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
   tint(colour, {0.93, 0.87, 0.76}, 0.5 * look_.tone + 0.25 * std::max(0.0, person_.aged()));
   if (ball.z() < 0) return colour;
-  constexpr double kIris = 0.43, kPupil = 0.165;
+  constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
   ScreenColour iris =
       look_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
   // Lighter around the pupil, and in the lower half, which light from above reaches.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
-  iris *= 1 - 0.62 * smooth_step(0.34, kIris, flat);
+  iris *= 1 - 0.62 * smooth_step(kIris - 0.08, kIris, flat);
   cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));
   cover(colour, iris, smooth_step(kIris + 0.03, kIris - 0.02, flat));
-  return colour;
+  // The shadow of the upper lid and its lashes.
+  return colour * (1 - 0.45 * smooth_step(0.12, 0.36, ball.y()));
 }
 
 ScreenColour SkinPaint::at(const SkinPlace& place) const {

@@ -93,8 +93,8 @@ double skin_roughness(const SkinPlace& place, double on_lips, double hair, doubl
                       smooth_step(2, 0.5, p.y());
   const double forehead =
       smooth_step(5, 2, std::abs(p.x())) * smooth_step(2.5, 4, p.y()) * smooth_step(7.5, 6, p.y());
-  double roughness = 0.52 + 0.04 * std::clamp(aged, 0.0, 1.0);
-  roughness -= front * (0.12 * nose + 0.08 * forehead);
+  double roughness = 0.57 + 0.04 * std::clamp(aged, 0.0, 1.0);
+  roughness -= front * (0.09 * nose + 0.07 * forehead);
   roughness += on_lips * (0.34 - roughness);
   roughness += smooth_step(1.05, 1.15, place.eye) * (0.15 - roughness);  // moist inner edge of lids
   return roughness + hair * (0.8 - roughness);

@@ -69,7 +69,7 @@ std::vector<SyntheticHeads::Piece> SyntheticHeads::pieces() const {
 Positions SyntheticHeads::positions(std::uint64_t seed, std::uint64_t index) const {
   const synth::Identity identity(seed, index);
   const synth::Relief relief(identity, edge_cm_);
-  const synth::Hair hair(seed, index);
+  const synth::Hair hair(seed, index, scalp_ != Scalp::kShorn);
   const bool haired = scalp_ != Scalp::kBare;
   const double most = scalp_ == Scalp::kShorn ? 0.2 : 10;  // cm
   Positions out(topology_.vertex_count, 3);
