@@ -59,6 +59,10 @@ export async function postForBinary(path, body, signal) {
   return unpack(await (await answer(path, withBody('POST', body, signal))).arrayBuffer());
 }
 
+export async function putBytes(path, bytes) {
+  await answer(path, { method: 'PUT', headers: { 'Content-Type': 'application/octet-stream' }, body: bytes });
+}
+
 /// \param leaving  true as the page goes away: the browser sends it all the same, up to 64 kB.
 export async function put(path, body, leaving = false) {
   const options = withBody('PUT', body);

@@ -14,11 +14,12 @@ export class ProgramPage {
     }
   }
 
-  say(text, bad = false) {
+  /// \param stays  until something else is said
+  say(text, bad = false, stays = false) {
     clearTimeout(this.timer);
     this.message.hidden = !text;
     this.message.classList.toggle('bad', bad);
     this.message.textContent = text ?? '';
-    if (text) this.timer = setTimeout(() => { this.message.hidden = true; }, bad ? 9000 : 5000);
+    if (text && !stays) this.timer = setTimeout(() => { this.message.hidden = true; }, bad ? 9000 : 5000);
   }
 }

@@ -79,6 +79,24 @@ for (let i = 0; i < regions.length; i += 1) await page.keyboard.press('Control+z
 await settled();
 assert.doesNotMatch(await page.locator('.measures').innerText(), /would reject/);
 
+// A face is not nearest to itself, and one far beyond the heads is not near one of them.
+const nearest = async (what) => (await page.locator('.measures').innerText()).match(new RegExp(`nearest ${what} ([\\d.]+) mm (\\S+)`)).slice(1);
+assert.equal(await page.getByLabel('Name of the face').inputValue(), 'mob_0001_edited');
+await page.keyboard.press('Escape');
+await page.getByLabel('Open a face').selectOption('face mob_0001');
+await settled();
+const [away, neighbour] = await nearest('face');
+assert.ok(Number(away) > 0 && neighbour !== 'mob_0001', `${neighbour}, ${away} mm`);
+await page.getByLabel('Open a face').selectOption(`head ${heads[1]}`);
+await settled();
+assert.deepEqual(await nearest('head'), ['0', heads[1]]);
+for (const region of regions) await type(typed(region, 'Strength'), '3');
+await settled();
+const exaggeration = (await page.locator('.measures').innerText()).match(/nearest head [\d.]+ mm \S+ \(at strength 1; ([\d.]+) mm as shown\)/);
+assert.ok(Number(exaggeration?.[1]) > 1, `strength 3 leads away from every head: ${await page.locator('.measures').innerText()}`);
+for (let i = 0; i < regions.length + 2; i += 1) await page.keyboard.press('Control+z');
+await settled();
+
 // No two controllers bear the same letter.
 const letters = await page.locator('.handle text').allTextContents();
 assert.equal(new Set(letters).size, regions.length, letters.join());

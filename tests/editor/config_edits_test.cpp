@@ -81,6 +81,28 @@ TEST_F(ConfigEdits, RegionsTakeThePlaceOfThoseOfTheConfig) {
   EXPECT_EQ(config().regions.names, (std::vector<std::string>{"brow", "jaw"}));
 }
 
+TEST_F(ConfigEdits, HeadsComeAfterThoseOfTheConfig) {
+  const std::filesystem::path more = folder_ / "more";
+  std::filesystem::create_directory(more);
+  for (const char* name : {"eva.obj", "zoe.obj"}) {
+    std::filesystem::copy_file(folder_.head(folder_.names()[0]), more / name);
+  }
+  std::vector<std::string> names = folder_.names();
+  const auto file = put_heads(folder_.config(), {more / "eva.obj"});
+  const auto one = section_in_edits(file, "faces");
+  EXPECT_EQ(one, "{also: [more/eva.obj]}");
+  put_heads(folder_.config(), {more / "zoe.obj"});
+  names.insert(names.end(), {"eva", "zoe"});
+  EXPECT_EQ(config().faces.names, names);
+  expect_error(ExitCode::kUsage, {"two heads are called"},
+               [&] { put_heads(folder_.config(), {more / "eva.obj"}); });
+  put_back_section(folder_.config(), "faces", one);
+  names.pop_back();
+  EXPECT_EQ(config().faces.names, names);
+  put_back_section(folder_.config(), "faces", std::nullopt);
+  EXPECT_EQ(config().faces.names, folder_.names());
+}
+
 TEST_F(ConfigEdits, ThatTheConfigWouldRefuseChangeNothing) {
   const auto file = put_recipe(recipe("eva", 1), config());
   const std::string config_text = read_file(folder_.config()), edits = read_file(file);

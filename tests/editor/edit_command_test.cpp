@@ -382,6 +382,72 @@ TEST_F(EditCommandTest, RegionsComeAndGoInTheConfig) {
   EXPECT_EQ(check.code, 0) << check.err;
 }
 
+TEST_F(EditCommandTest, DroppedHeadsJoinTheConfigIfItCanUseThem) {
+  const std::string config = read_text(folder_.config());
+  const std::string head = read_text(folder_.head(folder_.names()[0]));
+  const auto error = [](const httplib::Result& answer) {
+    EXPECT_EQ(answer->status, 400) << answer->body;
+    return Json::parse(answer->body)["error"].get<std::string>();
+  };
+  const auto heads = [&] {
+    std::vector<std::string> names;
+    const Json job = Json::parse(get("api/job")->body);
+    for (const Json& one : job["heads"]) names.push_back(one["name"]);
+    return names;
+  };
+  const auto drop = [&](const std::string& name, const std::string& text) {
+    EXPECT_EQ(post("api/dropped", {{name, text.size()}})->status, 200);
+    const std::size_t half = text.size() / 2;
+    EXPECT_EQ(put("api/dropped/0/" + name, text.substr(0, half)), 200);
+    EXPECT_EQ(put("api/dropped/" + std::to_string(half) + "/" + name, text.substr(half)), 200);
+    return post("api/heads", Json::object());
+  };
+  const std::filesystem::path added = folder_.config().parent_path() / "added";
+  edit([&] {
+    for (const char* name : {"../eva.obj", "a/eva.obj", ".eva.obj", "eva\n.obj", "", "eva.exe"}) {
+      EXPECT_FALSE(error(post("api/dropped", {{name, 3}})).empty()) << name;
+    }
+    EXPECT_THAT(error(post("api/dropped", {{"skin.png", 3}})), ::testing::HasSubstr("heads"));
+    EXPECT_THAT(error(post("api/dropped", {{"eva.obj", 3e9}})), ::testing::HasSubstr("2 GiB"));
+    EXPECT_EQ(put("api/dropped/0/eva.obj", "v 0 0 0"), 400) << "it was not announced";
+    EXPECT_EQ(put("api/dropped/x/eva.obj", "v 0 0 0"), 404);
+    EXPECT_EQ(post("api/dropped", {{"eva.obj", 3}})->status, 200);
+    EXPECT_EQ(put("api/dropped/0/eva.obj", "v 0 0 0"), 400) << "it is larger than announced";
+    EXPECT_EQ(put("api/dropped/1/eva.obj", "v"), 400) << "a piece is missing";
+    EXPECT_THAT(error(post("api/heads", Json::object())), ::testing::HasSubstr("incomplete"));
+
+    EXPECT_THAT(error(drop("eva.obj", "v 0 0 0\nf 1 2 3\n")), ::testing::HasSubstr("eva.obj"));
+    EXPECT_THAT(error(drop(folder_.names()[1] + ".obj", head)),
+                ::testing::HasSubstr("two heads are called"));
+    EXPECT_EQ(read_text(folder_.config()), config);
+    EXPECT_FALSE(std::filesystem::exists(added));
+    EXPECT_EQ(heads(), folder_.names());
+
+    const auto joined = drop("eva.obj", head);
+    ASSERT_EQ(joined->status, 200) << joined->body;
+    std::vector<std::string> more = folder_.names();
+    more.emplace_back("eva");
+    EXPECT_EQ(heads(), more);
+    EXPECT_EQ(read_text(added / "eva" / "eva.obj"), head);
+    const std::string faces = Json::parse(joined->body)["faces"];
+    EXPECT_EQ(Json::parse(get("api/job")->body)["faces_edit"], faces);
+    EXPECT_THAT(read_text(edits()), ::testing::HasSubstr("also: [added/eva/eva.obj]"));
+
+    // Heads that were added can be taken away and added again, and others with them.
+    EXPECT_EQ(post("api/heads", {{"back", nullptr}})->status, 200);
+    EXPECT_EQ(heads(), folder_.names());
+    EXPECT_EQ(post("api/heads", {{"back", faces}})->status, 200);
+    EXPECT_EQ(drop("zoe.obj", head)->status, 200);
+    more.emplace_back("zoe");
+    EXPECT_EQ(heads(), more);
+    EXPECT_THAT(error(drop("eva.obj", head)), ::testing::HasSubstr("two heads are called"));
+    EXPECT_EQ(heads(), more);
+  });
+  const Outcome check =
+      run_program(CROWDFACE_PROGRAM, {"check", folder_.config(), "--cache", folder_.cache()});
+  EXPECT_EQ(check.code, 0) << check.err;
+}
+
 TEST_F(EditCommandTest, BenchmarksWithoutServing) {
   std::vector<std::string> benchmark = arguments();
   benchmark.emplace_back("--benchmark");

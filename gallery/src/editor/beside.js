@@ -3,6 +3,7 @@
 import { getJson, postForBinary } from '../api.js';
 import { el } from '../dom.js';
 import { linkViews } from '../linked_views.js';
+import { dressedFace } from './exact.js';
 import { HeadView } from './head_view.js';
 import { Newest } from './newest.js';
 import { coefficients, headAlone, targetShares, wire } from './recipe.js';
@@ -20,7 +21,7 @@ export class Beside {
     this.exact = new Newest({
       ask: async ({ document, key }) => {
         const recipe = wire(editor.job, document);
-        const face = await postForBinary('face', { recipe, face: document.face, wears: editor.look.wears });
+        const face = await dressedFace({ recipe, face: document.face, wears: editor.look.wears, expression: editor.look.expression });
         return { document, key, face, skin: await postForBinary('skin', { recipe }) };
       },
       show: (answer) => this.showExact(answer),
@@ -83,7 +84,7 @@ export class Beside {
     const { editor, view } = this;
     const document = this.choices.get(this.choice.value);
     const shares = targetShares(editor.job, document.recipe);
-    const key = JSON.stringify([document, editor.look.wears, editor.masksTurn]);
+    const key = JSON.stringify([document, editor.look.wears, editor.look.expression, editor.masksTurn]);
     if (key === this.key || shares.some((share, h) => share !== 0 && !editor.heads[h])) return;
     this.key = key;
     view.blender.unsettle();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heads, faces of the crowd and what faces can wear, by picture: put onto the face, a region or the plane.
 import { el } from '../dom.js';
+import { AddedHeads } from './added_heads.js';
 import { bandNames, takeOver, underAnchors } from './recipe.js';
 
 const kindOfDrag = 'application/x-crowdface';
@@ -33,7 +34,7 @@ export class Library {
     this.tools = el('div', { class: 'choices' }, el('label', {}, 'click: onto ', this.where), this.search);
     this.hint = el('p', { class: 'muted' }, 'Drag a picture onto the face, a region or the plane.');
     this.node = el('section', { class: 'library', 'aria-label': 'Library' },
-      el('header', {}, el('h2', {}, 'Library'), el('span', { class: 'grow' }), el('span', { class: 'group' }, this.tabs)),
+      el('header', {}, el('h2', {}, 'Library'), el('span', { class: 'grow' }), new AddedHeads(editor).node, el('span', { class: 'group' }, this.tabs)),
       this.tools, this.hint, this.cards);
     this.choose(this.shelves.has(editor.look.shelf) ? editor.look.shelf : null);
   }

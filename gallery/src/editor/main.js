@@ -6,7 +6,8 @@ import { el, short } from '../dom.js';
 import { History } from '../history.js';
 import { Beside } from './beside.js';
 import { showElsewhere, showGenerate, showPutBack, showReplace } from './dialogs.js';
-import { Exact } from './exact.js';
+import { dressedFace, Exact } from './exact.js';
+import { Expressions } from './expressions.js';
 import { Library } from './library.js';
 import { Measurements } from './measurements.js';
 import { Newest } from './newest.js';
@@ -31,6 +32,8 @@ const patient = 250; // ms that a draft waits for the program's face before it i
 const again = 1000; // ms after which a page asks anew for what a face wears
 const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us
+const exaggerated = 0.5; // mm that strengths other than 1 add to a distance; from here on the page says so
+const toldLater = 'crowdface told later';
 const namePattern = /^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/;
 
 class Editor extends ProgramPage {
@@ -43,7 +46,8 @@ class Editor extends ProgramPage {
     this.kept = kept;
     this.linked = new Set(state?.linked ?? []);
     this.locked = new Set(state?.locked ?? []);
-    this.look = { show: 'surface', wireframe: false, wears: {}, ...state?.look };
+    this.look = { show: 'surface', wireframe: false, wears: {}, expression: {}, ...state?.look };
+    this.look.expression = Object.fromEntries(Object.entries(this.look.expression).filter(([name]) => job.shapes.includes(name)));
     const bands = bandNames(job);
     this.band = bands.find((band) => band === this.look.band) ?? bands[0]; // the one that panel and plane show
     this.look.wears = Object.fromEntries(Object.entries(this.look.wears)
@@ -75,6 +79,15 @@ class Editor extends ProgramPage {
       },
       waiting: (waits) => this.status?.classList.toggle('waits', waits && !this.passing),
     });
+    this.acting = new Newest({
+      ask: async (document) => ({ document, face: await postForBinary('face', this.faceRequest(document)) }),
+      show: ({ document, face }) => {
+        if (!this.isActing || document !== this.document) return;
+        this.view.setMoving(true);
+        this.showExact(face, document);
+      },
+      fail: (error) => this.say(error.message, true),
+    });
     this.measures = new Newest({
       ask: (asked) => post('measures', asked),
       show: (measures) => { if (this.exactOf !== this.document) this.tell(measures); },
@@ -103,21 +116,22 @@ class Editor extends ProgramPage {
   /// What was kept, as far as it speaks of the heads that there are: regions may have come and gone.
   restored(state) {
     const known = (names) => Object.keys(names ?? {}).every((name) => headIndex(this.job, name) >= 0);
+    const isKnown = ({ recipe, anchors }) => headIndex(this.job, recipe.target) >= 0 && known(anchors) && known(recipe.mixture) &&
+      Object.values(recipe.regions).every((region) =>
+        known(region.weights) && Object.values(region.bands ?? {}).every((band) => known(band.weights)));
     const documents = [];
     const again = (document) => {
+      if (!this.hasConfigOf(document)) return document; // the config is put back before it is shown
       documents.push(document);
-      return this.hasRegionsOf(document) ? this.here(document) : document;
+      return this.here(document);
     };
     const step = ({ document, label }) => ({ document: again(document), label });
     const { history } = state ?? {};
-    const result = history ? {
-      history: { ...history, now: this.here(again(history.now)), past: history.past.map(step), future: history.future.map(step) },
-      kept: (state.kept ?? []).map((entry) => ({ ...entry, document: this.here(again(entry.document)) })),
-    } : { kept: [] };
-    const fits = documents.every(({ recipe, anchors }) => headIndex(this.job, recipe.target) >= 0 && known(anchors) &&
-      known(recipe.mixture) && Object.values(recipe.regions).every((region) =>
-        known(region.weights) && Object.values(region.bands ?? {}).every((band) => known(band.weights))));
-    return fits ? result : { kept: [] };
+    const kept = (state?.kept ?? []).filter(({ document }) => isKnown(document))
+      .map((entry) => ({ ...entry, document: this.here(entry.document) }));
+    if (!history) return { kept: [] };
+    const restored = { ...history, now: this.here(again(history.now)), past: history.past.map(step), future: history.future.map(step) };
+    return documents.every(isKnown) && isKnown(restored.now) ? { history: restored, kept } : { kept: [] };
   }
 
   /// A document under the regions that there are: a new one begins like another.
@@ -125,13 +139,13 @@ class Editor extends ProgramPage {
     const { recipe } = document;
     const any = Object.values(recipe.regions)[0];
     const regions = Object.fromEntries(this.job.regions.map(({ name }) => [name, recipe.regions[name] ?? any]));
-    return { ...document, recipe: { ...recipe, regions }, config_regions: this.job.regions_edit };
+    return { ...document, recipe: { ...recipe, regions }, config_regions: this.job.regions_edit, config_faces: this.job.faces_edit };
   }
 
-  /// Whether a step was made with the regions that the config has now. Steps of earlier versions do not say.
-  hasRegionsOf({ config_regions: regions }) {
-    const now = this.job.regions_edit;
-    return regions === undefined || now === undefined || regions === now;
+  /// Whether a step was made with the regions and heads that the config has now. Steps of earlier versions do not say.
+  hasConfigOf({ config_regions: regions, config_faces: faces }) {
+    const isSame = (then, now) => then === undefined || now === undefined || then === now;
+    return isSame(regions, this.job.regions_edit) && isSame(faces, this.job.faces_edit);
   }
 
   build() {
@@ -149,6 +163,7 @@ class Editor extends ProgramPage {
     this.viewTools = viewBar(this);
     this.status = el('div', { class: 'measures', role: 'status', 'aria-live': 'polite' });
     this.measurements = new Measurements(this);
+    this.expressions = new Expressions(this);
     this.frameNode = el('div', { class: 'frames', hidden: true });
     this.message = el('div', { class: 'message', role: 'alert', hidden: true });
     const skip = el('a', { class: 'skip', href: '#regions', onclick: (event) => {
@@ -160,7 +175,7 @@ class Editor extends ProgramPage {
         el('section', { class: 'viewbox', 'aria-label': 'The face' }, this.stage, this.beside.stage, this.viewTools.node,
           this.frameNode, this.status, this.beside.bar),
         el('section', { class: 'middle', 'aria-label': 'The plane' }, this.board.node, this.shelf.node),
-        el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.measurements.node)),
+        el('aside', { 'aria-label': 'Regions' }, this.panel.node, this.expressions.node, this.measurements.node)),
       this.message);
   }
 
@@ -200,14 +215,16 @@ class Editor extends ProgramPage {
   undo() { this.step('past', () => this.history.undo(), 'Nothing to undo.'); }
   redo() { this.step('future', () => this.history.redo(), 'Nothing to redo.'); }
 
-  /// A step whose regions are other ones than the config's puts these back first.
+  /// A step whose regions or heads are other ones than the config's puts these back first.
   step(way, act, nothing) {
     this.comparing = null;
     this.passing = null;
     const next = this.history[way].at(-1);
-    if (next && !this.hasRegionsOf(next.document)) {
-      this.say('Opening again with the other regions …');
-      this.attempt(() => this.openAgain('regions', { back: next.document.config_regions }, act));
+    if (next && !this.hasConfigOf(next.document)) {
+      const { config_faces: faces, config_regions: regions } = next.document;
+      const areHeads = faces !== undefined && faces !== this.job.faces_edit;
+      this.say(`Opening again with the other ${areHeads ? 'heads' : 'regions'} …`, false, true);
+      this.attempt(() => this.openAgain(areHeads ? 'heads' : 'regions', { back: areHeads ? faces : regions }, act));
     } else if (!act()) {
       this.say(nothing);
     }
@@ -255,17 +272,22 @@ class Editor extends ProgramPage {
 
   /// Asks for the program's own face, unless it stands here or is on its way.
   askExact(document) {
-    const asked = JSON.stringify([this.look.wears, this.masksTurn, this.ready]);
+    const asked = JSON.stringify([this.look.wears, this.look.expression, this.masksTurn, this.ready]);
     if (this.exactOf === document) return;
     this.exactOf = null;
     if (this.onItsWay?.document === document && this.onItsWay.asked === asked) return;
     this.onItsWay = { document, asked };
     if (!this.view.draft) this.view.worn.node.visible = false;
-    const recipe = wire(this.job, document);
-    if (this.passing) this.measures.ask({ recipe, face: document.face });
-    this.exact.ask(document, { recipe, face: document.face, wears: this.look.wears, measure: Boolean(this.ready) });
+    const request = this.faceRequest(document);
+    if (this.passing) this.measures.ask({ recipe: request.recipe, face: document.face });
+    this.exact.ask(document, { ...request, measure: Boolean(this.ready) });
     clearTimeout(this.holding);
     this.holding = setTimeout(() => this.view.setMoving(this.passing !== null), patient);
+  }
+
+  faceRequest(document) {
+    const { wears, expression } = this.look;
+    return { recipe: wire(this.job, document), face: document.face, wears, expression };
   }
 
   /// What a blend takes of a document: coefficients by regions, and the target's shares.
@@ -306,6 +328,20 @@ class Editor extends ProgramPage {
     else this.view.draw();
   }
 
+  /// \param shares    above zero, by the expressions' names
+  /// \param isMoving  whether a slider is still held
+  express(shares, isMoving) {
+    this.look.expression = shares;
+    this.isActing = isMoving;
+    if (isMoving) {
+      this.acting.ask(this.document);
+      return;
+    }
+    this.exactOf = null;
+    this.refresh();
+    this.remember();
+  }
+
   /// \param choice  draw, none or a name.
   wear(kind, choice) {
     this.look.wears = { ...this.look.wears, [kind]: choice };
@@ -317,7 +353,8 @@ class Editor extends ProgramPage {
   tell(face) {
     const limits = this.job.limits ?? {};
     const distance = (title, near, name, limit) => (near ? el('span', { class: near.mm < limit ? 'bad' : null },
-      `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`) : null);
+      `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`,
+      near.as_built_mm > near.mm + exaggerated ? ` (at strength 1; ${short(near.as_built_mm)} mm as shown)` : null) : null);
     const { asymmetry = 1, mirrored = false } = this.document.recipe;
     this.measurements.show(face.traits ?? []);
     this.status.replaceChildren(...[
@@ -499,7 +536,7 @@ class Editor extends ProgramPage {
 
   pictureOf(document) {
     const [lists, shares] = this.coefficientsOf(document);
-    const other = shares.join() !== this.shares;
+    const other = shares.join() !== this.shares || Object.keys(this.look.expression).length > 0;
     if (other) this.view.blender.unsettle();
     if (document !== this.exactOf) this.view.worn.node.visible = false;
     this.view.blender.blend(lists, shares);
@@ -515,7 +552,8 @@ class Editor extends ProgramPage {
   /// The face with something on, beside what it wears.
   async wornPicture(kind, name) {
     const { document, view } = this;
-    const face = await postForBinary('face', { recipe: wire(this.job, document), face: document.face, wears: { ...this.look.wears, [kind]: name } });
+    const request = { recipe: wire(this.job, document), face: document.face, wears: { ...this.look.wears, [kind]: name } };
+    const face = await dressedFace(request);
     const all = await Promise.all(face.worn.map(async (item) =>
       [await view.worn.prepare(item, () => getJson(`attachments/${item}`)), face[`worn ${item}`]]));
     view.worn.show(all);
@@ -583,7 +621,7 @@ class Editor extends ProgramPage {
     try {
       const { file } = await post('save', { recipe: this.wire(), format, ask: !this.savedMeshes.has(name) });
       this.savedMeshes.add(name);
-      this.say(`Saved: ${file}`);
+      this.say(`Saved: ${file}${Object.keys(this.look.expression).length > 0 ? ' (without the expression)' : ''}`);
     } catch (error) {
       if (error.status !== 409) throw error;
       this.say('');
@@ -622,6 +660,21 @@ class Editor extends ProgramPage {
     step(answer);
     await this.keepNow(false);
     location.reload();
+  }
+
+  /// Says something once the page has been loaded again.
+  tellLater(text) {
+    try {
+      sessionStorage.setItem(toldLater, text);
+    } catch {
+      // only a comfort
+    }
+  }
+
+  tellNow() {
+    const text = sessionStorage.getItem(toldLater);
+    sessionStorage.removeItem(toldLater);
+    if (text) this.say(text);
   }
 
   /// Another page edits the face now: this one shows it, and keeps nothing any more.
@@ -776,6 +829,7 @@ async function start() {
     editor.showTexture();
     editor.refresh();
     await editor.attempt(() => editor.load());
+    await editor.attempt(() => editor.tellNow());
   } catch (error) {
     place.replaceChildren(el('p', { class: 'waiting' }, error.message));
   }

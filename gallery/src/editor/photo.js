@@ -2,6 +2,7 @@
 // A reference photo behind or beside the head. Points that are clicked on both match the camera to the photo.
 import { Vector3 } from 'three';
 import { el } from '../dom.js';
+import { arePictures } from './added_heads.js';
 import { matchCamera } from './match_camera.js';
 import { still } from './plane_board.js';
 
@@ -56,10 +57,10 @@ export class Photo {
     });
     this.box.addEventListener('dragover', (event) => { if (event.dataTransfer.types.includes('Files')) event.preventDefault(); });
     this.box.addEventListener('drop', (event) => {
-      const [file] = event.dataTransfer.files;
-      if (!file) return;
+      const files = [...event.dataTransfer.files];
+      if (files.length === 0 || !arePictures(files)) return;
       event.preventDefault();
-      this.editor.attempt(() => this.load(file));
+      this.editor.attempt(() => this.load(files[0]));
     });
     view.controls.addEventListener('change', () => this.place());
     new ResizeObserver(() => requestAnimationFrame(() => this.place())).observe(this.box); // after the view

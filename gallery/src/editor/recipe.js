@@ -258,12 +258,18 @@ export function withWeights(job, document, before, after) {
 /// The same face with heads where they were moved to: positions that speak of other places become weights.
 export function underAnchors(job, document, anchors) {
   if (JSON.stringify(document.anchors ?? {}) === JSON.stringify(anchors ?? {})) return document;
+  return { ...asWeights(job, document), anchors };
+}
+
+/// The same face with weights in place of positions, where the program takes them.
+export function asWeights(job, document) {
+  if (job.normalization === 'printed') return document;
   const { recipe } = document;
   const regions = Object.fromEntries(job.regions.map(({ name }) => [name, withBands(job, recipe, name, (numbers, band) => {
     const { position, ...rest } = numbers;
     return position ? { ...rest, weights: named(job, weightsOf(job, document, name, band)) } : numbers;
   })]));
-  return { ...document, recipe: { ...recipe, regions }, anchors };
+  return { ...document, recipe: { ...recipe, regions } };
 }
 
 /// A part `t` of the way from one recipe to another. Positions stay positions where both have one;

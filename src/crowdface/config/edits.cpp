@@ -28,6 +28,15 @@ void merge_recipes(const YamlNode& recipes, YamlNode& own) {
 
 }  // namespace
 
+void merge_faces(const YamlNode& faces, YamlNode& own) {
+  const YamlEntry* also = faces.find("also");
+  if (also == nullptr) return;
+  const auto there = std::ranges::find(own.entries, "also", &YamlEntry::key);
+  if (there == own.entries.end()) return own.entries.push_back(*also);
+  std::vector<YamlNode>& items = there->value.items;
+  items.insert(items.end(), also->value.items.begin(), also->value.items.end());
+}
+
 void merge_edits(const YamlNode& edits, YamlNode& root) {
   for (const YamlEntry& edit : edits.entries) {
     const auto own = std::ranges::find(root.entries, edit.key, &YamlEntry::key);
@@ -35,6 +44,8 @@ void merge_edits(const YamlNode& edits, YamlNode& root) {
       root.entries.push_back(edit);
     } else if (edit.key == "recipes") {
       merge_recipes(edit.value, own->value);
+    } else if (edit.key == "faces") {
+      merge_faces(edit.value, own->value);
     } else {
       own->value = edit.value;
     }
@@ -49,7 +60,7 @@ void read_edits(YamlNode& root, ConfigDraft& draft) {
   draft.config.edits = *file;
   const auto edits = read_yaml(file->string(), draft.complaints);
   if (!edits) return;
-  const MapReader known(*edits, {"regions", "recipes"}, draft.complaints);
+  const MapReader known(*edits, {"faces", "regions", "recipes"}, draft.complaints);
   merge_edits(*edits, root);
 }
 

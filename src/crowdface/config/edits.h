@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file of the config key `edits`: recipes and regions that `crowdface edit` saved.
+// The file of the config key `edits`: recipes, regions and heads that `crowdface edit` saved.
 #pragma once
 
 #include "crowdface/config/config_draft.h"
@@ -7,8 +7,11 @@
 
 namespace crowdface {
 
-/// Replaces each section of `root` by the one in `edits`, except `recipes`: each edited recipe
-/// replaces the recipe with the same id, or is appended.
+/// Appends the heads of `also` in the section `faces` of the edits to those of a config's section.
+void merge_faces(const YamlNode& faces, YamlNode& own);
+
+/// Replaces each section of `root` by the one in `edits`, except `faces`, see merge_faces, and
+/// `recipes`: each edited recipe replaces the recipe with the same id, or is appended.
 void merge_edits(const YamlNode& edits, YamlNode& root);
 
 /// Merges the file of the key `edits` into `root`, if the config has that key.

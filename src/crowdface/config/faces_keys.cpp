@@ -80,16 +80,10 @@ void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
 }
 
-void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
-  if (node.kind == YamlNode::Kind::kScalar && node.text.find_first_of("*?") != std::string::npos) {
-    return read_file_pattern(node, faces, draft);
-  }
-  if (!draft.complaints.expect_list(
-          node, "a list of meshes, [a.obj, b.obj], or a pattern, \"people/*/neutral.obj\""))
-    return;
+/// Reads a list of heads. \return whether all of them are files that may be heads.
+bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
+                    std::vector<const YamlNode*>& nodes, ConfigDraft& draft) {
   bool sound = true;
-  std::vector<fs::path> files;
-  std::vector<const YamlNode*> nodes;
   for (const YamlNode& item : node.items) {
     const auto file = path("a mesh").read(item, draft);
     if (file && is_head_file(*file)) {
@@ -102,9 +96,35 @@ void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
       draft.complaints.expected(item,
                                 "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx or .npy");
   }
+  return sound;
+}
+
+void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
+  if (node.kind == YamlNode::Kind::kScalar && node.text.find_first_of("*?") != std::string::npos) {
+    return read_file_pattern(node, faces, draft);
+  }
+  if (!draft.complaints.expect_list(
+          node, "a list of meshes, [a.obj, b.obj], or a pattern, \"people/*/neutral.obj\""))
+    return;
+  std::vector<fs::path> files;
+  std::vector<const YamlNode*> nodes;
+  const bool sound = read_file_list(node, files, nodes, draft);
   add_heads(files, nodes, faces, draft);
   draft.heads_known =
       sound && expect_head_count(node, node.items.size(), " files", draft.complaints);
+}
+
+void read_more_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
+  if (!draft.complaints.expect_list(node, "a list of meshes, [a.obj, b.obj]")) return;
+  std::vector<fs::path> files;
+  std::vector<const YamlNode*> nodes;
+  const bool sound = read_file_list(node, files, nodes, draft);
+  // Their names do not depend on each other: a head keeps its name when another one joins.
+  for (std::size_t h = 0; h < files.size(); ++h) {
+    add_head(files[h], files[h].stem().string(), *nodes[h], faces, draft);
+  }
+  draft.heads_known = draft.heads_known && sound &&
+                      expect_head_count(node, faces.files.size(), " with these", draft.complaints);
 }
 
 std::string write_files(const Faces& faces, const WriteContext& context) {
@@ -168,6 +188,8 @@ const Keys<Faces>& faces_keys() {
             return StarterLines{write_scalar(facts.heads.string())};
           }),
       Key<Faces>{"files", read_files, write_files}.taking("list of meshes, or a pattern"),
+      Key<Faces>{"also", read_more_files, [](const auto&...) { return ""; }}.taking(
+          "list of meshes"),
       key("units", &Faces::units, length_unit(),
           "write the unit of the files: mm, cm, m, in, or a length")
           .in_starter(starter_units),

@@ -89,6 +89,14 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   return file;
 }
 
+/// The paths as the config names them, in one line.
+std::string paths_from(const fs::path& config, const std::vector<fs::path>& files) {
+  const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
+  return flow_names(texts_of(files, [&](const fs::path& file) {
+    return fs::absolute(file).lexically_normal().lexically_proximate(folder).generic_string();
+  }));
+}
+
 /// Saves sections, given as text in the format of a config.
 fs::path put_sections(const fs::path& config, const std::string& sections) {
   return put_edit(config, [&](YamlNode& edits) { merge_edits(parsed(sections, "edits"), edits); });
@@ -103,28 +111,36 @@ fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
 
 fs::path put_regions(const fs::path& config, const std::vector<std::string>& names,
                      const std::vector<fs::path>& masks) {
-  const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
-  const auto from_config = texts_of(masks, [&](const fs::path& mask) {
-    return fs::absolute(mask).lexically_normal().lexically_proximate(folder).generic_string();
-  });
   return put_sections(config, concat("regions: {names: ", flow_names(names),
-                                     ", mask: ", flow_names(from_config), "}\n"));
+                                     ", mask: ", paths_from(config, masks), "}\n"));
 }
 
-std::optional<std::string> regions_in_edits(const fs::path& edits) {
+fs::path put_heads(const fs::path& config, const std::vector<fs::path>& heads) {
+  const YamlNode faces =
+      parsed(concat("faces: {also: ", paths_from(config, heads), "}\n"), "edits");
+  return put_edit(config, [&](YamlNode& edits) {
+    YamlEntry* own = nullptr;
+    for (YamlEntry& edit : edits.entries) own = edit.key == "faces" ? &edit : own;
+    if (own == nullptr) return edits.entries.push_back(faces.entries.front());
+    merge_faces(faces.entries.front().value, own->value);
+  });
+}
+
+std::optional<std::string> section_in_edits(const fs::path& edits, const std::string& section) {
   if (edits.empty() || !path_exists(edits)) return std::nullopt;
   const YamlNode root = parsed(read_file(edits), edits.string());
-  const YamlEntry* regions = root.find("regions");
-  if (regions == nullptr) return std::nullopt;
-  return in_flow(regions->value);
+  const YamlEntry* found = root.find(section);
+  if (found == nullptr) return std::nullopt;
+  return in_flow(found->value);
 }
 
-fs::path put_back_regions(const fs::path& config, const std::optional<std::string>& regions) {
+fs::path put_back_section(const fs::path& config, const std::string& section,
+                          const std::optional<std::string>& value) {
   return put_edit(config, [&](YamlNode& edits) {
-    std::erase_if(edits.entries, [](const YamlEntry& edit) { return edit.key == "regions"; });
-    if (!regions) return;
-    YamlNode root = parsed(entry("regions", *regions), "regions");
-    if (root.entries.size() != 1) throw UsageError("regions: expected one value");
+    std::erase_if(edits.entries, [&](const YamlEntry& edit) { return edit.key == section; });
+    if (!value) return;
+    YamlNode root = parsed(entry(section, *value), section);
+    if (root.entries.size() != 1) throw UsageError(concat(section, ": expected one value"));
     edits.entries.push_back(std::move(root.entries.front()));
   });
 }

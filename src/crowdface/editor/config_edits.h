@@ -27,14 +27,24 @@ std::filesystem::path put_regions(const std::filesystem::path& config,
                                   const std::vector<std::string>& names,
                                   const std::vector<std::filesystem::path>& masks);
 
-/// The value of `regions` in a file of edits, on one line; nothing if the file has none.
-/// \param edits  the file; empty or absent: nothing
-std::optional<std::string> regions_in_edits(const std::filesystem::path& edits);
-
-/// Puts back what regions_in_edits returned earlier.
+/// Saves heads, after all heads that the config has.
+/// \param config  file of the config.
+/// \param heads   files of meshes.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, or if `regions` is more than one value.
-std::filesystem::path put_back_regions(const std::filesystem::path& config,
-                                       const std::optional<std::string>& regions);
+/// \throws Error as put_recipe does, for example if two heads would have the same name.
+std::filesystem::path put_heads(const std::filesystem::path& config,
+                                const std::vector<std::filesystem::path>& heads);
+
+/// The value of a section in a file of edits, on one line; nothing if the file has none.
+/// \param edits  the file; empty or absent: nothing
+std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
+                                            const std::string& section);
+
+/// Puts back what section_in_edits returned earlier.
+/// \return the file of the edits.
+/// \throws Error as put_recipe does, or if `value` is more than one value.
+std::filesystem::path put_back_section(const std::filesystem::path& config,
+                                       const std::string& section,
+                                       const std::optional<std::string>& value);
 
 }  // namespace crowdface

@@ -28,6 +28,8 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
       placed_(session.job(), session.crowd()),
+      expressions_(session.job()),
+      dropped_(session.job().config.file.parent_path()),
       painting_(session, folder.path() / "strokes.jsonl") {
   folder_.finish_saves(session_.job(), mesh_writer());
 }
@@ -52,7 +54,6 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/state", &EditApi::take_over},
                                             {"PUT", "api/state", &EditApi::keep_state},
                                             {"POST", "api/save", &EditApi::save},
-                                            {"POST", "api/picture", &EditApi::picture},
                                             {"POST", "api/recipes", &EditApi::put_recipe},
                                             {"GET", "api/generate", &EditApi::generate_progress},
                                             {"POST", "api/generate", &EditApi::generate},
@@ -62,6 +63,9 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/masks/undo", &EditApi::undo_masks},
                                             {"POST", "api/masks/save", &EditApi::save_masks},
                                             {"POST", "api/regions", &EditApi::use_regions},
+                                            {"POST", "api/dropped", &EditApi::begin_drop},
+                                            {"PUT", "api/dropped/", &EditApi::drop_bytes},
+                                            {"POST", "api/heads", &EditApi::add_heads},
                                             {"POST", "api/open", &EditApi::open_again}};
   return answer_or_refuse(request, [this](const HttpRequest& asked) {
     for (const Route& route : routes) {
@@ -82,10 +86,11 @@ HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
     json["painted"] = painting_.painted();
   }
   if (may_edit_config_) {
-    const auto regions = regions_in_edits(session_.job().config.edits);
-    json["regions_edit"] = regions ? Json(*regions) : Json();
+    json["regions_edit"] = edit_json(session_.job().config.edits, "regions");
+    json["faces_edit"] = edit_json(session_.job().config.edits, "faces");
   }
   json["attachments"] = placed_.kinds();
+  json["shapes"] = expressions_.names();
   return json_answer(json);
 }
 
@@ -199,7 +204,8 @@ nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
   const auto& names = session_.job().names.heads;
   Json json;
   json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.head)]},
-                          {"mm", measures.head_mm}};
+                          {"mm", measures.head_mm},
+                          {"as_built_mm", measures.head_as_built_mm}};
   json["nearest_face"] = nullptr;
   if (measures.face) {
     json["nearest_face"] = {{"id", (*session_.crowd())[*measures.face].id},
@@ -243,20 +249,24 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   painting_.apply();
   const auto begin = std::chrono::steady_clock::now();
   const Positions positions = session_.build(face.recipe);
+  const EditExpressions::Moves moves =
+      body.contains("expression")
+          ? expressions_.moves_of(body["expression"], face.recipe, positions)
+          : EditExpressions::Moves();
+  Positions shown = positions;
+  for (const Displacements& move : moves) move.add_to(shown);
   BinaryAnswer answer;
-  const std::vector<float> points = session_.points(positions);
-  const std::vector<float> normals = session_.normals(positions);
+  const std::vector<float> points = session_.points(shown);
+  const std::vector<float> normals = session_.normals(shown);
   answer.add("positions", std::span(points));
   answer.add("normals", std::span(normals));
   const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
   if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
   const std::string opened = opened_in(body);
   answer.head["worn"] = Json::array();
-  const bool is_bare = !placed_.are_bound();  // the page asks again
-  answer.head["bare"] = is_bare;
-  for (const PlacedAttachment& one :
-       is_bare ? std::vector<PlacedAttachment>()
-               : placed_.attachments_of(face, opened, chosen, positions)) {
+  const auto worn = placed_.attachments_of(face, opened, chosen, positions, moves);
+  answer.head["bare"] = !worn;  // the page asks again
+  for (const PlacedAttachment& one : worn.value_or(std::vector<PlacedAttachment>())) {
     const std::vector<float> places = placed_.points(one);
     const std::string name = one.look().name();
     answer.head["worn"].push_back(name);

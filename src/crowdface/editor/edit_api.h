@@ -12,7 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crowdface/editor/dropped_files.h"
 #include "crowdface/editor/edit_attachments.h"
+#include "crowdface/editor/edit_expressions.h"
 #include "crowdface/editor/edit_pictures.h"
 #include "crowdface/editor/edit_session.h"
 #include "crowdface/editor/edited_folder.h"
@@ -46,10 +48,12 @@ class EditApi {
   // Requests about the job and its faces.
   Handler job, mesh, light, head, attachment, face, skin, measures, draw, steer, face_picture;
   // Requests that save or write files.
-  Handler state, take_over, keep_state, save, picture, put_recipe, review;
+  Handler state, take_over, keep_state, save, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
   // Requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
+  // Requests that add heads.
+  Handler begin_drop, drop_bytes, add_heads;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
   /// A path for new masks: earlier masks stay, so that steps can be undone.
@@ -63,6 +67,7 @@ class EditApi {
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   FacePlan face_of(const Json& body, const std::string& key = "recipe") const;
   static std::string opened_in(const Json& body);
+  static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json told(const FaceMeasures& measures) const;
   void note_turn(const std::string& page, std::uint64_t turn);
   bool overtaken(const std::string& page, std::uint64_t turn);
@@ -75,6 +80,8 @@ class EditApi {
   PageFiles page_;
   EditPictures pictures_;
   EditAttachments placed_;
+  EditExpressions expressions_;
+  DroppedFiles dropped_;
   RegionPainting painting_;  ///< guarded by `building_`
   std::mutex building_;      ///< builds one face at a time, because each build uses all cores
   /// Attempts so far, so that each draw differs from the previous draws.

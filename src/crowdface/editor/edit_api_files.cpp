@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests of the editor's page that save or write files, and requests that paint masks.
 #include <algorithm>
-#include <cmath>
 
 #include "crowdface/config/edited_entries.h"
 #include "crowdface/config/words.h"
@@ -33,19 +32,9 @@ Value word_in(const Json& body, const std::string& key) {
   throw UsageError(concat(key, ": expected ", join(known, " or "), ", found ", quoted(text)));
 }
 
-/// Reads a view's name, or returns the standard view nearest to {yaw, pitch} in degrees.
-View view_in(const Json& body) {
-  if (!body.contains("view")) return View::kFront;
-  if (!body["view"].is_object()) return word_in<View>(body, "view");
-  constexpr double kFrontUpTo = 17.5, kThreeQuarterUpTo = 62.5, kProfileUpTo = 135;
-  const double yaw = std::abs(number_in(body["view"], "yaw", -360, 360));
-  if (yaw <= kFrontUpTo) return View::kFront;
-  if (yaw <= kThreeQuarterUpTo) return View::kThreeQuarter;
-  return yaw <= kProfileUpTo ? View::kProfile : View::kBack;
-}
-
-Json json_of(const std::optional<std::string>& text) {
-  return text ? Json(*text) : Json();
+/// The text of a key that may be null.
+std::optional<std::string> optional_text_in(const Json& body, const std::string& key) {
+  return body[key].is_null() ? std::nullopt : std::optional(text_in(body, key));
 }
 
 Json file_json(const std::filesystem::path& file) {
@@ -98,20 +87,6 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   }
   painting_.apply();
   return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));
-}
-
-HttpAnswer EditApi::picture(const HttpRequest& request, const std::string&) {
-  constexpr double kMin = 64, kMax = 4096;
-  const Json body = body_of(request);
-  const FacePlan face = face_of(body);
-  const View view = view_in(body);
-  const auto size =
-      body.contains("size") ? static_cast<int>(number_in(body, "size", kMin, kMax)) : 1024;
-  const std::lock_guard lock(building_);
-  painting_.apply();
-  std::string png = pictures_.picture(face.recipe, session_.build(face.recipe), view, size);
-  folder_.save_picture(face.id, png);
-  return {200, "image/png", std::move(png)};
 }
 
 void EditApi::require_own_config() const {
@@ -245,6 +220,12 @@ std::filesystem::path EditApi::unused_masks() const {
   }
 }
 
+nlohmann::ordered_json EditApi::edit_json(const std::filesystem::path& edits,
+                                          const std::string& section) {
+  const auto value = section_in_edits(edits, section);
+  return value ? Json(*value) : Json();
+}
+
 HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& rest) {
   require_own_config();
   require_no_run();
@@ -255,8 +236,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
     const std::lock_guard lock(building_);
     folder_.require_same();
     if (body.contains("back")) {
-      edits = put_back_regions(
-          config, body["back"].is_null() ? std::nullopt : std::optional(text_in(body, "back")));
+      edits = put_back_section(config, "regions", optional_text_in(body, "back"));
     } else {
       const PaintedRegions regions = painting_.regions(body);
       edits = put_regions(config, regions.names, painting_.save(regions, unused_masks()));
@@ -264,7 +244,65 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
     painting_.forget();
   }
   open_again(request, rest);
-  return json_answer({{"regions", json_of(regions_in_edits(edits))}});
+  return json_answer({{"regions", edit_json(edits, "regions")}});
+}
+
+HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
+  constexpr double kMostBytes = 1e15;
+  require_own_config();
+  const Json body = body_of(request);
+  std::map<std::string, std::uint64_t> sizes;
+  for (const auto& [name, ignored] : body.items()) {
+    sizes[name] = static_cast<std::uint64_t>(number_in(body, name, 0, kMostBytes));
+  }
+  dropped_.begin(sizes);
+  return json_answer(Json::object());
+}
+
+/// PUT api/dropped/OFFSET/NAME with the bytes of the file from this offset on.
+HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& rest) {
+  const std::size_t slash = std::min(rest.find('/'), rest.size());
+  const auto offset = parse_unsigned(std::string_view(rest).substr(0, slash));
+  if (!offset || slash == rest.size()) return refusal(404, "there is nothing at this address");
+  dropped_.add(rest.substr(slash + 1), *offset, request.body);
+  return json_answer(Json::object());
+}
+
+/// Adds the dropped heads to the config, or, with {"back": value}, puts earlier edits back. If the
+/// program cannot work with the heads, the config is as it was.
+HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
+  require_own_config();
+  require_no_run();
+  const Json body = body_of(request);
+  const Config& config = session_.job().config;
+  const auto before = section_in_edits(config.edits, "faces");
+  const std::string config_text = read_file(config.file);
+  if (body.contains("back")) {
+    folder_.require_same();
+    put_back_section(config.file, "faces", optional_text_in(body, "back"));
+    open_again(request, rest);
+    return json_answer(Json::object());
+  }
+  const std::vector<std::filesystem::path> heads = dropped_.keep();
+  try {
+    const auto edits = put_heads(config.file, heads);
+    try {
+      open_again_();
+    } catch (...) {
+      put_back_section(config.file, "faces", before);
+      write_file(config.file, config_text);
+      throw;
+    }
+    Json names = Json::array();
+    for (const auto& head : heads) names.push_back(head.stem().string());
+    return json_answer({{"faces", edit_json(edits, "faces")}, {"heads", names}});
+  } catch (...) {
+    std::error_code ignored;
+    const auto folder = heads.front().parent_path();
+    std::filesystem::remove_all(folder, ignored);
+    std::filesystem::remove(folder.parent_path(), ignored);  // only if it is empty
+    throw;
+  }
 }
 
 }  // namespace crowdface

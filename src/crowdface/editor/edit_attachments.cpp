@@ -20,14 +20,7 @@ constexpr int kTexels = 1024;
 }  // namespace
 
 EditAttachments::EditAttachments(const Job& job, const std::vector<FacePlan>* crowd)
-    : job_(job),
-      crowd_(crowd),
-      bound_(std::async(std::launch::async,
-                        [this] {
-                          return std::make_unique<const FaceAttachments>(job_.config, job_.inputs);
-                        })
-                 .share()),
-      surfaces_(kTexels, true) {}
+    : job_(job), crowd_(crowd), surfaces_(kTexels, true) {}
 
 Json EditAttachments::kinds() const {
   Json kinds = Json::object();
@@ -58,16 +51,25 @@ FacePlan EditAttachments::drawn_for(const FacePlan& face, const std::string& ope
   return alone[0];
 }
 
-bool EditAttachments::are_bound() const {
-  return bound_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+EditAttachments::Bound EditAttachments::bound(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  Bound& bound = bound_[name];
+  if (bound.valid()) return bound;
+  FacePlan wearer;
+  wearer.attachments = {name};
+  bound = std::async(std::launch::async, [this, wearer] {
+            return std::make_unique<const FaceAttachments>(job_.config, job_.inputs,
+                                                           std::span(&wearer, 1));
+          }).share();
+  return bound;
 }
 
-std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& face,
-                                                              const std::string& opened,
-                                                              const Json& chosen,
-                                                              const Positions& positions) const {
+std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
+    const FacePlan& face, const std::string& opened, const Json& chosen, const Positions& positions,
+    std::span<const Displacements> moves) {
   const std::vector<Attachment>& items = job_.inputs.attachments.items;
-  if (items.empty()) return {};
+  std::vector<PlacedAttachment> placed;
+  if (items.empty()) return placed;
   const FacePlan plan = drawn_for(face, opened);
   const std::vector<std::string>& drawn = plan.attachments;
   const Json known = kinds();
@@ -83,15 +85,26 @@ std::vector<PlacedAttachment> EditAttachments::attachments_of(const FacePlan& fa
                quoted(concat(kind, ": ", name))));
   }
   FacePlan dressed = face;
-  dressed.attachments.clear();
   dressed.hair = plan.hair;
+  std::vector<Bound> worn;
+  std::vector<std::string> names;
   for (const Attachment& item : items) {
     const std::string choice = chosen.value(item.kind, std::string("draw"));
     const bool wears =
         choice == "draw" ? std::ranges::find(drawn, item.name) != drawn.end() : choice == item.name;
-    if (wears) dressed.attachments.push_back(item.name);
+    if (!wears) continue;
+    worn.push_back(bound(item.name));
+    names.push_back(item.name);
   }
-  return bound_.get()->attachments_of(dressed, positions);
+  for (std::size_t i = 0; i < worn.size(); ++i) {
+    if (worn[i].wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+    dressed.attachments = {names[i]};
+    for (PlacedAttachment& one : worn[i].get()->attachments_of(dressed, positions, moves)) {
+      for (const Displacements& move : one.moves) move.add_to(one.positions);
+      placed.push_back(std::move(one));
+    }
+  }
+  return placed;
 }
 
 }  // namespace crowdface

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <future>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,27 +32,32 @@ class EditAttachments {
   /// \param name  see AttachmentLook::name.
   std::optional<std::string> look(const std::string& name) const;
 
-  /// Whether attachments_of can answer at once: binding them to the heads takes a while.
-  bool are_bound() const;
-  /// The attachments of a face.
+  /// The attachments of a face; nothing while one of them is being bound to the heads for the first
+  /// time, which takes seconds if there are expressions.
   /// \param face    the edited face; determines the attachments that are drawn for it
   /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
   ///                keeps; or empty
   /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are drawn
+  /// \param moves      displacements of the face, which the attachments follow
   /// \throws UsageError if a kind or a name does not exist.
-  std::vector<PlacedAttachment> attachments_of(const FacePlan& face, const std::string& opened,
-                                               const nlohmann::ordered_json& chosen,
-                                               const Positions& positions) const;
+  std::optional<std::vector<PlacedAttachment>> attachments_of(const FacePlan& face,
+                                                              const std::string& opened,
+                                                              const nlohmann::ordered_json& chosen,
+                                                              const Positions& positions,
+                                                              std::span<const Displacements> moves);
   /// Vertex positions of the attachment that `look` describes, three numbers for each vertex.
   std::vector<float> points(const PlacedAttachment& placed) const { return shown_.points(placed); }
 
  private:
+  using Bound = std::shared_future<std::unique_ptr<const FaceAttachments>>;
+
+  Bound bound(const std::string& name);
   FacePlan drawn_for(const FacePlan& face, const std::string& opened) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;
-  /// Attachments bound to the heads; takes about a second to compute.
-  std::shared_future<std::unique_ptr<const FaceAttachments>> bound_;
+  std::mutex mutex_;
+  std::map<std::string, Bound> bound_;  ///< by name, as far as any face wore them
   AttachmentSurfaces surfaces_;
   ShownAttachments shown_;
 };

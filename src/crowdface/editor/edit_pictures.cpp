@@ -48,10 +48,4 @@ std::optional<TextureSet> EditPictures::textures_of(const Recipe& recipe) {
   return own.texture_set();
 }
 
-std::string EditPictures::picture(const Recipe& recipe, const Positions& positions, View view,
-                                  int size) {
-  const CrowdRenders renders(job_.config, one_picture(view, size), job_.inputs);
-  return renders.render_png(positions, textures(), recipe);
-}
-
 }  // namespace crowdface

@@ -21,9 +21,6 @@ class EditPictures {
 
   /// A PNG file that shows a head from the front.
   std::string thumbnail(Index head);
-  /// A PNG file that shows a face as contact sheets do.
-  /// \param size  width and height in pixels.
-  std::string picture(const Recipe& recipe, const Positions& positions, View view, int size);
   const FaceTextures& textures();
   /// The textures of a face, as contact sheets show them; nothing if faces have no textures.
   std::optional<TextureSet> textures_of(const Recipe& recipe);

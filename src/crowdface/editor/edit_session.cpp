@@ -192,6 +192,8 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
   const FacePointIndex::Nearest head = judge.nearest_head(point);
   measures.head = head.face;
   measures.head_mm = head.mm;
+  measures.head_as_built_mm =
+      (point.as_built - judge.space().head_point(head.face).as_built).norm();
   if (crowd_) {
     const FacePointIndex::Nearest nearest = nearest_other_face(point, recipe, opened);
     if (nearest.face >= 0) {

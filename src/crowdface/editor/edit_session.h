@@ -33,6 +33,8 @@ Job load_edited_job(const std::filesystem::path& given, ConfigOverrides override
 struct FaceMeasures {
   Index head = 0;  ///< the nearest input head
   double head_mm = 0;
+  /// Distance to this head as built; head_mm ignores all extrapolation if that makes it smaller.
+  double head_as_built_mm = 0;
   /// The nearest face of the crowd other than the face itself and the face it was opened from.
   std::optional<std::size_t> face;
   double face_mm = 0;

@@ -150,12 +150,6 @@ void EditedFolder::finish_saves(const Job& job, const WriteMesh& write) {
   }
 }
 
-void EditedFolder::save_picture(const std::string& name, std::string_view png) {
-  const std::lock_guard lock(mutex_);
-  require_same();
-  write_file(path_ / (name + ".png"), png);
-}
-
 fs::path EditedFolder::save_mark(const Config& config, const ReviewMark& mark) {
   return save_review(config, [&](Review& review) { put_entry(mark, review.marks); });
 }

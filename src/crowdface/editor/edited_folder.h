@@ -53,7 +53,6 @@ class EditedFolder {
   /// Writes the meshes that are older than their recipe because a save was interrupted by a crash
   /// or a disk error.
   void finish_saves(const Job& job, const WriteMesh& write);
-  void save_picture(const std::string& name, std::string_view png);
   /// Writes a mark or a change to review.yaml, in place of the mark or change of the same face; an
   /// empty change removes it. If the crowd already has the review in this file, begins another one,
   /// so that nothing applies twice.

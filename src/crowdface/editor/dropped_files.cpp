@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/dropped_files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include "crowdface/config/config_values.h"
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/io/mesh_as_obj.h"
+
+namespace crowdface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Refuses names that lead out of the folder, are hidden, or that a config or a terminal cannot show.
+void require_safe_name(const std::string& name) {
+  constexpr std::size_t kLongest = 128;
+  static const std::set<std::string> beside = {".mtl",  ".bin", ".png",  ".jpg",
+                                               ".jpeg", ".tif", ".tiff", ".exr"};
+  const bool is_safe = !name.empty() && name.size() <= kLongest && name.front() != '.' &&
+                       name.find_first_of("/\\:") == std::string::npos && is_utf8(name) &&
+                       !has_control_character(name);
+  if (!is_safe) throw UsageError(concat(quoted(name), ": a file with this name cannot be added"));
+  if (is_head_file(name) || beside.contains(lower_case(fs::path(name).extension().string())))
+    return;
+  throw UsageError(concat(quoted(name),
+                          ": expected heads (OBJ, PLY, GLB, glTF, FBX, USD or NumPy), material "
+                          "files (.mtl) and textures (PNG, JPEG, TIFF or EXR)"));
+}
+
+}  // namespace
+
+DroppedFiles::DroppedFiles(const fs::path& folder)
+    : added_(folder / "added"), arriving_(added_ / ".arriving") {}
+
+DroppedFiles::~DroppedFiles() {
+  forget();
+}
+
+void DroppedFiles::forget() {
+  if (sizes_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(arriving_, ignored);
+  fs::remove(added_, ignored);  // only if it is empty
+  sizes_.clear();
+  arrived_.clear();
+}
+
+void DroppedFiles::begin(const std::map<std::string, std::uint64_t>& sizes) {
+  constexpr std::size_t kMostFiles = 256;
+  constexpr std::uint64_t kMostBytes = std::uint64_t{2} << 30U;
+  if (sizes.size() > kMostFiles) {
+    throw UsageError(concat("expected at most ", kMostFiles, " files at once"));
+  }
+  std::uint64_t all = 0;
+  for (const auto& [name, bytes] : sizes) {
+    require_safe_name(name);
+    if (bytes > kMostBytes - all) throw UsageError("expected at most 2 GiB at once");
+    all += bytes;
+  }
+  if (std::ranges::none_of(sizes, [](const auto& file) { return is_head_file(file.first); })) {
+    throw UsageError("none of these files is a head: drop textures together with their heads");
+  }
+  const std::lock_guard lock(mutex_);
+  forget();
+  sizes_ = sizes;
+  make_directories(arriving_);
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(arriving_)) fs::remove_all(entry, ignored);
+}
+
+void DroppedFiles::add(const std::string& name, std::uint64_t offset, std::string_view bytes) {
+  const std::lock_guard lock(mutex_);
+  const auto size = sizes_.find(name);
+  if (size == sizes_.end()) throw UsageError(concat(quoted(name), ": this file was not announced"));
+  std::uint64_t& arrived = arrived_[name];
+  if (offset != arrived || bytes.size() > size->second - arrived) {
+    throw UsageError(concat(quoted(name), ": the file changed while it was read; drop it again"));
+  }
+  const fs::path path = arriving_ / name;
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw CannotCreate(concat(path.string(), ": cannot be written"));
+  arrived += bytes.size();
+}
+
+std::vector<fs::path> DroppedFiles::keep() {
+  const std::lock_guard lock(mutex_);
+  if (sizes_.empty()) throw UsageError("no files were dropped");
+  std::vector<fs::path> heads;
+  for (const auto& [name, bytes] : sizes_) {
+    const auto arrived = arrived_.find(name);
+    if ((arrived == arrived_.end() ? 0 : arrived->second) != bytes) {
+      throw UsageError(concat(quoted(name), " is incomplete; drop the files again"));
+    }
+    if (is_head_file(name)) heads.emplace_back(name);
+  }
+  const std::string stem = heads.front().stem().string();
+  fs::path folder;
+  for (std::size_t number = 1; folder.empty() || path_exists(folder); ++number) {
+    folder = added_ / (number == 1 ? stem : concat(stem, '-', number));
+  }
+  fs::rename(arriving_, folder);
+  sizes_.clear();
+  arrived_.clear();
+  for (fs::path& head : heads) head = folder / head;
+  return heads;
+}
+
+}  // namespace crowdface

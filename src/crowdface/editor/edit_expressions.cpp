@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/edit_expressions.h"
+
+#include <algorithm>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/text.h"
+#include "crowdface/page/answer_request.h"
+
+namespace crowdface {
+
+std::vector<std::string> EditExpressions::names() const {
+  std::vector<std::string> names;
+  for (const Shape& shape : job_.inputs.shapes.shapes) names.push_back(shape.name);
+  return names;
+}
+
+EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& shares,
+                                                 const Recipe& recipe, const Positions& positions) {
+  if (!shares.is_object()) throw UsageError("expression: expected a mapping from shapes to shares");
+  const std::vector<std::string> known = names();
+  std::vector<std::pair<std::size_t, double>> wanted;
+  for (const auto& [name, ignored] : shares.items()) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) {
+      throw UsageError(concat("expression: no shape is called ", quoted(name)));
+    }
+    const double share = number_in(shares, name, 0, 1);
+    if (share > 0) wanted.emplace_back(found - known.begin(), share);
+  }
+  Moves moves;
+  if (wanted.empty()) return moves;
+  const std::lock_guard lock(mutex_);
+  if (!shapes_) shapes_ = std::make_unique<const FaceShapes>(job_.config, job_.inputs);
+  if (face_.rows() != positions.rows() || face_ != positions) {
+    moves_ = shapes_->of_face(recipe, positions);
+    face_ = positions;
+  }
+  for (const auto& [shape, share] : wanted) {
+    moves.push_back(moves_[shape]);
+    moves.back().moves *= share;
+  }
+  return moves;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "crowdface/blend/recipe.h"
+#include "crowdface/heads/face_attachments.h"
+#include "crowdface/heads/face_shapes.h"
+#include "crowdface/run/pipeline.h"
+
+namespace crowdface {
+
+/// Expressions of the edited face. Thread-safe.
+class EditExpressions {
+ public:
+  /// The displacements of some expressions, each multiplied by its share.
+  using Moves = std::vector<Displacements>;
+
+  /// \param job  must outlive this object.
+  explicit EditExpressions(const Job& job) : job_(job) {}
+
+  /// The names of the expressions.
+  std::vector<std::string> names() const;
+  /// How a face moves in an expression. Computes all expressions of the face once.
+  /// \param shares     {name: share 0 … 1}; missing expressions are at rest
+  /// \param positions  the face at rest
+  /// \throws UsageError if a name does not exist or a share is outside its range.
+  Moves moves_of(const nlohmann::ordered_json& shares, const Recipe& recipe,
+                 const Positions& positions);
+
+ private:
+  const Job& job_;
+  std::mutex mutex_;
+  std::unique_ptr<const FaceShapes> shapes_;
+  Positions face_;  ///< the face of `moves_`
+  std::vector<Displacements> moves_;
+};
+
+}  // namespace crowdface
