@@ -13,7 +13,7 @@ import { openPage } from './open_page.mjs';
 const [folder, count, most, pictures, address] = process.argv.slice(2);
 if (!most) throw new Error('usage: node agreement.mjs GALLERY_FOLDER COUNT MOST [PICTURES] [ADDRESS]');
 
-const { browser, page, problems } = await openPage({ width: 1440, height: 900 });
+const { browser, page, problems, rested } = await openPage({ width: 1440, height: 900 });
 await page.goto(pathToFileURL(join(resolve(folder), 'index.html')).href);
 await page.waitForSelector('.cell');
 const provideCompare = () => page.evaluate(() => {
@@ -134,9 +134,10 @@ if (address) {
     await page.getByLabel('Open a face').selectOption(`face ${id}`);
     await page.waitForFunction((name) => { // until its own skin and what it wears are there
       const { editor: it } = window.crowdface;
-      return it.document.face === name && !it.pending && it.exactOf === it.document && !it.skin.running && it.view.worn.node.visible;
+      return it.document.face === name && !it.pending && it.exactOf === it.document && !it.skin.running && it.view.worn.node.visible && !it.exactFace.bare;
     }, id);
     await page.waitForTimeout(500);
+    await rested();
   });
 }
 assert.deepEqual(problems, []);
