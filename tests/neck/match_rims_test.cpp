@@ -152,6 +152,21 @@ TEST_F(MatchingRim, TurnedIsRefused) {
   }
 }
 
+// A rotation by more than half the distance of two vertices: the nearest vertices are others.
+TEST_F(MatchingRim, KeepsItsOrderIfItIsTurnedALittle) {
+  const Eigen::AngleAxisd turn(10 * std::numbers::pi / 180, Eigen::Vector3d(0.28, 0.96, 0));
+  move([&](const Eigen::Vector3d& p) { return turn * p; });
+  EXPECT_EQ(find(), tube_.rim());
+}
+
+TEST_F(MatchingRim, MayHaveAGivenOrder) {
+  Rim rim = tube_.rim();
+  EXPECT_EQ(matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven), rim);
+  std::ranges::rotate(rim, rim.begin() + 1);
+  expect_error(ExitCode::kBadData, {"turned by"},
+               [&] { matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven); });
+}
+
 TEST_F(MatchingRim, InAnotherOrderIsRefused) {
   // The ring's polygons connect every fifth vertex.
   Positions body = body_;

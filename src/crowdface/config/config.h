@@ -168,6 +168,7 @@ struct Config {
     std::optional<Eigen::Index> like;    ///< the head whose neck all faces get
     bool mean = false;                   ///< all faces get the mean of the heads' necks
     std::filesystem::path rim;           ///< file of the ring's vertices; empty: the open rim
+    std::filesystem::path body_rim;      ///< file of the body's vertices there; empty: an open rim
     double falloff_mm = 60;              ///< how far up from the ring faces are bent
     std::filesystem::path body_texture;  ///< the body's colours, tinted for each face; empty: none
     bool show_body = false;              ///< whether pictures show the body

@@ -190,6 +190,7 @@ std::vector<fs::path> input_files(const Config& config) {
   add(config.rig);
   add(config.neck.body);
   add(config.neck.rim);
+  add(config.neck.body_rim);
   add(config.neck.body_texture);
   std::ranges::for_each(config.lists, add);
   add(config.attachments.file);

@@ -31,6 +31,7 @@ const Keys<Neck>& neck_keys() {
       key("body", &Neck::body, existing_file("a mesh file")),
       Key<Neck>{"like", read_like, write_like}.taking("head, or `mean`"),
       key("rim", &Neck::rim, existing_file("a text file of vertex numbers")),
+      key("body_rim", &Neck::body_rim, existing_file("a text file of vertex numbers")),
       key("falloff", &Neck::falloff_mm, positive_length(kMaxFalloffMm)),
       key("body_texture", &Neck::body_texture, existing_file("an image file")),
       word_key("show_body", &Neck::show_body),
@@ -43,8 +44,8 @@ void read_neck(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (config.neck.mean || is_word(node, "none")) return;
   if (!draft.complaints.expect_map(
           node,
-          "none, mean, or a mapping with the keys body, like, rim, falloff, body_texture, "
-          "show_body, write_body")) {
+          "none, mean, or a mapping with the keys body, like, rim, body_rim, falloff, "
+          "body_texture, show_body, write_body")) {
     return;
   }
   const std::size_t before = draft.complaints.size();
@@ -54,8 +55,10 @@ void read_neck(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (has_like == !config.neck.body.empty()) {
     draft.complaints.add_at(node, "expected either body (a mesh file) or like (a head, or mean)");
   }
-  if (config.neck.needs_body_mesh() && config.neck.body.empty()) {
-    draft.complaints.add_at(node, "body_texture, show_body and write_body need body (a mesh file)");
+  const bool needs_body = config.neck.needs_body_mesh() || !config.neck.body_rim.empty();
+  if (needs_body && config.neck.body.empty()) {
+    draft.complaints.add_at(
+        node, "body_rim, body_texture, show_body and write_body need body (a mesh file)");
   }
 }
 

@@ -28,9 +28,8 @@ inline constexpr int kShapesVersion = 9;
 inline constexpr int kPointsVersion = 1;
 /// Joints that follow the face, and the skin weights bound to them.
 inline constexpr int kRigVersion = 1;
-/// Placement of heads on a body, and bending of necks to its ring. Version 2 turns all heads alike, so
-/// that a body changes no recipe.
-inline constexpr int kNeckVersion = 2;
+/// Placement of heads and faces on a body, and bending of necks to its ring.
+inline constexpr int kNeckVersion = 3;
 /// Attachments of a face of unchanged positions.
 inline constexpr int kAttachmentsVersion = 6;
 /// Levels of detail of unchanged heads.

@@ -88,9 +88,16 @@ std::string mm_text(double mm) {
   return concat(format_fixed(mm, 1), " mm");
 }
 
+/// The vertices of a body's rim in one order, and how well they fit the heads' rim.
+struct OrderedRim {
+  Rim order;
+  double square_sum = 0;  ///< of the distances without a motion
+  RigidFit fit;
+};
+
 /// Returns why two matched rims do not belong together; empty if they do.
-/// \param turned  the fit for the start of the rim that fits best after a rotation
-std::string fault_of(const Positions& head, const Positions& body, const RigidFit& turned,
+/// \param fit  in the order of the match
+std::string fault_of(const Positions& head, const Positions& body, const RigidFit& fit,
                      double reach_mm) {
   const Positions from = centred(head), to = centred(body);
   const double radius = root_mean_square(from), found = root_mean_square(to);
@@ -101,24 +108,17 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
   }
   const double off = (centroid(body) - centroid(head)).norm();
   if (off > reach_mm) return concat("lies elsewhere, ", mm_text(off), " off the heads' rim");
-  const RigidFit own = rigid_fit(from, to);
-  // The neck of a rotated head fits with its true start, which needs a large angle, better than
-  // with the nearest start.
-  constexpr double kBetter = 0.85;
-  const bool fits_turned =
-      turned.degrees > kMaxTurnDegrees && turned.left < kBetter * own.left - kRoundingMm;
-  const double degrees = fits_turned ? turned.degrees : own.degrees;
-  if (degrees > kMaxTurnDegrees) {
-    return concat("is turned by ", format_fixed(degrees, 0), " degrees, ",
-                  mm_text(2 * radius * std::sin(degrees * std::numbers::pi / 360)),
+  if (fit.degrees > kMaxTurnDegrees) {
+    return concat("is turned by ", format_fixed(fit.degrees, 0), " degrees, ",
+                  mm_text(2 * radius * std::sin(fit.degrees * std::numbers::pi / 360)),
                   " along the heads' rim");
   }
-  if (own.left <= reach_mm / 3) return {};
-  if (nearest_rms(from, to) < own.left / 2) {
+  if (fit.left <= reach_mm / 3) return {};
+  if (nearest_rms(from, to) < fit.left / 2) {
     return concat("has its vertices in another order: one after the other they lie ",
-                  mm_text(own.left), " (rms) off those of the heads' rim");
+                  mm_text(fit.left), " (rms) off those of the heads' rim");
   }
-  return concat("has another form: its vertices lie ", mm_text(own.left),
+  return concat("has another form: its vertices lie ", mm_text(fit.left),
                 " (rms) off those of the heads' rim");
 }
 
@@ -147,36 +147,42 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
   return *long_ones.front().second;
 }
 
-RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm) {
-  RimMatch match;
-  double least = std::numeric_limits<double>::max();
-  RigidFit turned{0, least};
+RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
+                    RimOrder order) {
+  // The rim of a rotated head fits in its true order after a rotation much better than in the
+  // nearest order.
+  constexpr double kMuchBetter = 0.85;
+  std::vector<OrderedRim> orders;
+  const bool is_free = order == RimOrder::kFree;
   for (const bool forwards : {true, false}) {
     for (std::size_t shift = 0; shift < rim.size(); ++shift) {
-      Rim order = shifted(rim, shift, forwards);
-      const Positions points = body(order, kAllColumns);
-      const RigidFit fit = rigid_fit(head, points);
-      if (fit.left < turned.left) turned = fit;
+      if (!is_free && !orders.empty()) continue;
+      Rim vertices = shifted(rim, shift, forwards);
+      const Positions points = body(vertices, kAllColumns);
       const double sum = square_sum(points - head);
-      if (sum >= least) continue;
-      least = sum;
-      match.rim = std::move(order);
+      orders.push_back({std::move(vertices), sum, rigid_fit(head, points)});
     }
   }
+  const OrderedRim* best = &*std::ranges::min_element(orders, {}, &OrderedRim::square_sum);
+  const OrderedRim& turned =
+      *std::ranges::min_element(orders, {}, [](const OrderedRim& one) { return one.fit.left; });
+  if (turned.fit.left < kMuchBetter * best->fit.left - kRoundingMm) best = &turned;
+  RimMatch match;
+  match.rim = best->order;
   const Positions points = body(match.rim, kAllColumns);
   match.off_mm = (centroid(points) - centroid(head)).norm();
-  match.fault = fault_of(head, points, turned, reach_mm);
+  match.fault = fault_of(head, points, best->fit, reach_mm);
   return match;
 }
 
 Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
-                 double reach_mm) {
+                 double reach_mm, RimOrder order) {
   const auto count = static_cast<std::size_t>(head.rows());
   std::vector<RimMatch> matches;
   std::vector<std::string> others;
   for (const Rim& rim : rims) {
     if (rim.size() == count) {
-      matches.push_back(match_rims(head, rim, body, reach_mm));
+      matches.push_back(match_rims(head, rim, body, reach_mm, order));
       continue;
     }
     const Positions points = body(rim, kAllColumns);

@@ -17,6 +17,11 @@ namespace crowdface {
 Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const Eigen::Vector3d& up,
                double mm);
 
+enum class RimOrder {
+  kFree,   ///< the body's rim may have another start and direction than the heads' rim
+  kGiven,  ///< the rims have the same vertices in the same order
+};
+
 /// The match of a body's rim with the heads' rim.
 struct RimMatch {
   Rim rim;            ///< the body's vertex for each vertex of the heads' rim
@@ -25,16 +30,18 @@ struct RimMatch {
 };
 
 /// Matches the vertices of two rims of equal length: tries every start in both directions and takes
-/// the order with the smallest sum of squared distances.
+/// the order with the smallest sum of squared distances, or another order if that sum is much
+/// smaller after a rotation.
 /// \param head     the heads' rim, #rim by 3, in mm, in order
 /// \param body     positions of the whole body, in mm
 /// \param reach_mm largest distance of the rims: the falloff
-RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm);
+RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
+                    RimOrder order = RimOrder::kFree);
 
 /// Finds the rim of a body that matches the heads' rim.
 /// \throws InvalidInput with the number of vertices and the offsets that were found if no rim
 ///         matches, or if several do.
 Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
-                 double reach_mm);
+                 double reach_mm, RimOrder order = RimOrder::kFree);
 
 }  // namespace crowdface

@@ -48,6 +48,19 @@ Eigen::Vector3d RigidMotion::apply(const Eigen::Vector3d& point) const {
   return to + turn(point - from);
 }
 
+void move_rows(const RigidMotion& motion, Positions& positions) {
+  for (Index i = 0; i < positions.rows(); ++i) {
+    positions.row(i) = motion.apply(row3(positions, i)).transpose();
+  }
+}
+
+RigidMotion inverse(const RigidMotion& motion) {
+  return {.rotation = motion.rotation.transpose(),
+          .scale = 1 / motion.scale,
+          .from = motion.to,
+          .to = motion.from};
+}
+
 RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
                    const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth) {
   RigidMotion result = motion;

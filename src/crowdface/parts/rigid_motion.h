@@ -32,6 +32,11 @@ struct RigidMotion {
   Eigen::Vector3d turn(const Eigen::Vector3d& direction) const;
 };
 
+/// Moves all rows of positions.
+void move_rows(const RigidMotion& motion, Positions& positions);
+/// Returns the motion back.
+RigidMotion inverse(const RigidMotion& motion);
+
 /// Returns the axes of a head after a motion.
 inline HeadAxes moved(const HeadAxes& axes, const RigidMotion& by) {
   return {.front = by.turn(axes.front) / by.scale, .up = by.turn(axes.up) / by.scale};

@@ -106,8 +106,14 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   }
   correct_contacts(recipe, face);
   if (follower_) follower_->follow(recipe.target, face);
+  if (const auto turn = turning(recipe)) move_rows(*turn, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
   if (inputs_.neck) inputs_.neck->seam.fit(face);
+}
+
+std::optional<RigidMotion> FaceBuilder::turning(const Recipe& recipe) const {
+  if (!inputs_.neck) return std::nullopt;
+  return inputs_.neck->turning(recipe, recipe.asymmetry == 1 ? nullptr : &mirror().plane);
 }
 
 std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
@@ -143,10 +149,14 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   const Positions& target =
       mixed ? *mixed : inputs_.faces.heads[static_cast<std::size_t>(recipe.target)].positions;
   Positions judged = face;
+  const auto turn = turning(recipe);
   if (inputs_.neck) {  // the bend at the neck is no defect: undo it
-    inputs_.neck->seam.bend_like(recipe.mirrored ? mirrored(mirror(), target) : target, judged);
+    Positions like = target;
+    if (turn) move_rows(*turn, like);
+    inputs_.neck->seam.bend_like(recipe.mirrored ? mirrored(mirror(), like) : like, judged);
   }
   if (recipe.mirrored) judged = mirrored(mirror(), judged);
+  if (turn) move_rows(inverse(*turn), judged);
   SkinDefects defects =
       mixed ? check.compare(judged, *mixed) : check.compare(judged, recipe.target);
   defects.wider_mm = contacts_->wider(judged) * mm_per_unit_;

@@ -10,6 +10,7 @@
 #include "crowdface/config/config.h"
 #include "crowdface/heads/prepare.h"
 #include "crowdface/parts/follower.h"
+#include "crowdface/parts/rigid_motion.h"
 #include "crowdface/parts/skin_contacts.h"
 #include "crowdface/validity/skin_check.h"
 
@@ -52,6 +53,10 @@ class FaceBuilder {
   /// is mirrored. \param face  #V by 3; only contact_vertices() need positions
   void correct_contacts(const Recipe& recipe, Positions& face) const;
 
+  /// The rotation of a finished face, before it is mirrored, onto a body (config section `neck`);
+  /// none if it needs none.
+  std::optional<RigidMotion> turning(const Recipe& recipe) const;
+
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
@@ -63,7 +68,7 @@ class FaceBuilder {
   std::uint64_t bytes(std::size_t faces) const;
 
  private:
-  /// The steps after blending: asymmetry, contacts, parts, mirroring, the ring at the neck.
+  /// The steps after blending: asymmetry, contacts, parts, pose, mirroring, the ring at the neck.
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed at the first call. Thread-safe.
   const MirrorMap& mirror() const;

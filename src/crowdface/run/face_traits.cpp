@@ -130,8 +130,8 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
                     });
 }
 
-/// Follows the steps of FaceBuilder at a few vertices: blending and asymmetry, contacts, mirroring,
-/// the bend at the neck.
+/// Follows the steps of FaceBuilder at a few vertices: blending and asymmetry, contacts, pose,
+/// mirroring, the bend at the neck.
 Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
   Recipe plain = recipe;
   plain.mirrored = false;
@@ -142,6 +142,9 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
     face.row(samples_[s]) = at.row(static_cast<Index>(s));
   }
   builder_.correct_contacts(plain, face);
+  if (const auto turn = neck == Neck::kBent ? builder_.turning(plain) : std::nullopt) {
+    for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
+  }
   if (recipe.mirrored) mirror_wanted(face);
   if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.fit(face);
   return landmarks_.on(face, mm_per_unit_);

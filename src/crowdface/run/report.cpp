@@ -186,11 +186,11 @@ Json neck_to_json(const Job& job) {
   const HeadsOnBody& neck = *job.inputs.neck;
   Json heads = Json::array();
   for (std::size_t h = 0; h < neck.heads.size(); ++h) {
-    const auto& [placed, moved_mm, bent_mm] = neck.heads[h];
+    const HeadsOnBody::Head& head = neck.heads[h];
     heads.push_back({{"name", job.names.heads[h]},
-                     {"moved_mm", rounded(moved_mm)},
-                     {"turned_degrees", rounded(Similarity{placed.rotation}.angle_degrees())},
-                     {"bent_mm", rounded(bent_mm)}});
+                     {"moved_mm", rounded(head.moved_mm)},
+                     {"turned_degrees", rounded(head.turned_degrees)},
+                     {"bent_mm", rounded(head.bent_mm)}});
   }
   return {{"ring_vertices", neck.seam.rim.size()},
           {"bent_vertices", neck.seam.neck.vertices().size()},

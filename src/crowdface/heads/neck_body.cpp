@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/neck_body.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "crowdface/core/error.h"
+#include "crowdface/core/file.h"
+#include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
+#include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/mesh/winding.h"
+#include "crowdface/neck/body_below.h"
+#include "crowdface/neck/match_rims.h"
+
+namespace crowdface {
+namespace {
+
+/// Reads vertex numbers, counted from 0, that form a closed loop.
+Rim read_rim(const std::filesystem::path& file, const Adjacency& adjacency) {
+  const auto count = static_cast<std::uint64_t>(adjacency.vertex_count());
+  std::vector<std::uint32_t> vertices;
+  std::string text = read_file(file);
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  for (const std::string& word : words_of(text)) {
+    const auto vertex = parse_unsigned(word);
+    if (!vertex || *vertex >= count) {
+      refuse_file(
+          file, concat("expected vertex numbers from 0 to ", count - 1, ", found ", quoted(word)));
+    }
+    vertices.push_back(static_cast<std::uint32_t>(*vertex));
+  }
+  Rim rim = rim_through(vertices, adjacency);
+  if (rim.empty()) {
+    refuse_file(file, concat("expected the vertices of one closed loop of edges, found ",
+                             vertices.size(), " vertices that form none"));
+  }
+  return rim;
+}
+
+/// Removes polygons, and vertices that no other polygon uses.
+/// \param kept  #F
+/// \param rim   renumbered with the vertices
+void keep_polygons(const std::vector<bool>& kept, ObjFile& mesh, Rim& rim) {
+  if (std::ranges::all_of(kept, [](bool keep) { return keep; })) return;
+  const Topology whole = std::exchange(mesh.topology, {});
+  const std::vector<std::uint32_t> normals = std::exchange(mesh.corner_normals, {});
+  std::vector<Index> number;  // of each old polygon: the number of polygons kept before it
+  for (Index f = 0; f < whole.face_count(); ++f) {
+    number.push_back(mesh.topology.face_count());
+    if (!kept[static_cast<std::size_t>(f)]) continue;
+    mesh.topology.add_face(whole.face(f), whole.face_uvs(f));
+    const auto [begin, end] = whole.corners(f);
+    if (!normals.empty()) {
+      mesh.corner_normals.insert(mesh.corner_normals.end(), normals.begin() + begin,
+                                 normals.begin() + end);
+    }
+  }
+  number.push_back(mesh.topology.face_count());
+  for (auto* ranges : {&mesh.materials, &mesh.groups}) {
+    for (MaterialRange& range : *ranges) {
+      range.first_face = number[static_cast<std::size_t>(range.first_face)];
+    }
+  }
+  const std::vector<std::uint32_t> used =
+      renumber(mesh.topology.corner_vertices, whole.vertex_count);
+  mesh.topology.vertex_count = static_cast<Index>(used.size());
+  mesh.positions = Positions(mesh.positions(used, kAllColumns));
+  for (std::uint32_t& v : rim) {
+    v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+  }
+}
+
+/// \throws InvalidInput if the body is a head.
+void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
+  if (body.is_head) {
+    throw InvalidInput("body_texture, show_body and write_body need a body, found a head");
+  }
+  auto kept = std::make_shared<Attachment>();
+  kept->name = kept->kind = "body";
+  kept->materials = find_material_files(mesh.material_path(), mesh.material_libraries);
+  kept->text = Hasher().add(mesh.file.bytes()).digest();
+  kept->file = std::move(mesh);
+  body.mesh = std::move(kept);
+  body.mesh_rim = rim;
+}
+
+}  // namespace
+
+Rim find_neck_rim(const Config& config, const Inputs& inputs) {
+  if (!config.neck.rim.empty()) return read_rim(config.neck.rim, inputs.adjacency);
+  const Components& components = inputs.components;
+  std::vector<Rim> rims = open_rims(inputs.faces.topology, inputs.adjacency);
+  std::erase_if(rims, [&](const Rim& rim) {
+    return components.of_vertex[rim.front()] != components.largest();
+  });
+  return lowest_rim(rims, mean_head(inputs.faces), unit_vector(config.faces.up),
+                    mm_per(config.faces.units));
+}
+
+Positions areas_around(const Topology& topology, const Positions& positions, const Rim& rim) {
+  const VertexFaces around(topology);
+  Positions areas = Positions::Zero(static_cast<Index>(rim.size()), 3);
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    for (const std::uint32_t face : around.of(rim[i])) {
+      areas.row(static_cast<Index>(i)) += face_area_vector(topology, face, positions).transpose();
+    }
+  }
+  return areas;
+}
+
+void NeckBody::face_outward(const Positions& head_areas) {
+  if (head_areas.cwiseProduct(areas).sum() >= 0) return;
+  areas = -areas;
+  if (!mesh) return;
+  Topology& topology = mesh->file.topology;
+  turn_faces(topology);
+  std::vector<std::uint32_t>& normals = mesh->file.corner_normals;
+  for (Index f = 0; f < topology.face_count() && !normals.empty(); ++f) {
+    const auto [begin, end] = topology.corners(f);
+    if (begin < end) std::reverse(normals.begin() + begin + 1, normals.begin() + end);
+  }
+}
+
+NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& rim,
+                        const Positions& ring) {
+  const Config::Neck& neck = config.neck;
+  ObjFile mesh = read_mesh_as_obj(neck.body);
+  const double mm = mm_per(config.faces.units);
+  const Positions head = mm * ring;
+  NeckBody body;
+  body.is_head = first_difference(inputs.faces.topology, mesh.topology).empty();
+  const bool is_order_known = body.is_head && neck.body_rim.empty();
+  std::vector<Rim> rims = {rim};
+  if (!neck.body_rim.empty()) {
+    rims = {read_rim(neck.body_rim, build_adjacency(mesh.topology))};
+  } else if (!body.is_head) {
+    rims = open_rims(mesh.topology, build_adjacency(mesh.topology));
+  }
+  try {
+    Rim found = matching_rim(head, rims, mm * mesh.positions, neck.falloff_mm,
+                             is_order_known ? RimOrder::kGiven : RimOrder::kFree);
+    body.rim = mesh.positions(found, kAllColumns);
+    if (!neck.body_rim.empty()) {
+      keep_polygons(
+          polygons_below(mesh.topology, mesh.positions, found, unit_vector(config.faces.up)), mesh,
+          found);
+    }
+    body.areas = areas_around(mesh.topology, mesh.positions, found);
+    if (body.is_head) body.skin = mesh.positions;
+    if (neck.needs_body_mesh()) keep_body(std::move(mesh), found, body);
+  } catch (const InvalidInput& error) {
+    refuse_file(neck.body, error.what());
+  }
+  return body;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "crowdface/config/config.h"
+#include "crowdface/heads/inputs.h"
+#include "crowdface/neck/open_rims.h"
+
+namespace crowdface {
+
+/// The ring of the heads at the neck: the one that `neck.rim` names, or the lowest open rim.
+/// \throws InvalidInput if there is none.
+Rim find_neck_rim(const Config& config, const Inputs& inputs);
+
+/// The sum of the area vectors of the polygons around each vertex of a rim, #rim by 3.
+Positions areas_around(const Topology& topology, const Positions& positions, const Rim& rim);
+
+/// The body of `neck.body`.
+struct NeckBody {
+  Positions rim;    ///< #rim by 3, in the order of the heads' rim
+  Positions areas;  ///< area vectors of its polygons around the rim, #rim by 3
+  bool is_head = false;
+  Positions skin = {};  ///< positions of the whole mesh if it is a head; else empty
+  /// The mesh and its vertices in the order of the rim, if the config needs it; else null.
+  std::shared_ptr<Attachment> mesh = {};
+  Rim mesh_rim = {};
+
+  /// Makes the polygons face outward like those of the heads, if they face inward.
+  /// \param head_areas  the area vectors of the heads' polygons around the rim
+  void face_outward(const Positions& head_areas);
+};
+
+/// Reads the body and matches its rim with the heads' rim. Removes the head of a body whose rim
+/// (`neck.body_rim`) is not open.
+/// \param rim   the heads' rim
+/// \param ring  the mean of the heads' positions at the rim, #rim by 3
+/// \throws InvalidInput if no rim fits, or if the config needs a body and the file has a head.
+NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& rim,
+                        const Positions& ring);
+
+}  // namespace crowdface

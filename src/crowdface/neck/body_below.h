@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "crowdface/neck/open_rims.h"
+
+namespace crowdface {
+
+/// Finds the polygons of a body below a closed loop of edges: those that are connected with the
+/// loop from below, and separate parts whose middle is lower than the middle of the loop.
+/// \param up  unit vector
+/// \return  #F; all true if the loop is an open rim.
+/// \throws InvalidInput if the loop does not separate the polygons along it.
+std::vector<bool> polygons_below(const Topology& topology, const Positions& positions,
+                                 const Rim& rim, const Eigen::Vector3d& up);
+
+}  // namespace crowdface

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/neck/head_turns.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/parts/rigid_motion.h"
+
+namespace crowdface {
+namespace {
+
+/// The points after a rotation about their centroid, which moves to the origin.
+Positions turned(const Positions& points, const Eigen::Matrix3d& rotation) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < points.rows(); ++i) middle += row3(points, i);
+  middle /= static_cast<double>(points.rows());
+  Positions result(points.rows(), 3);
+  for (Index i = 0; i < points.rows(); ++i) {
+    result.row(i) = apply3(rotation, row3(points, i) - middle).transpose();
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::Matrix3d head_rotation(const Positions& from, const Positions& to) {
+  constexpr int kRounds = 10;
+  constexpr double kLeast = 0.1;  // of the mean distance; limits the weight of close points
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
+  std::iota(all.begin(), all.end(), 0U);
+  std::vector<double> weights(all.size(), 1.0);
+  RigidMotion motion;
+  for (int round = 0; round < kRounds; ++round) {
+    motion = fit_rigid_motion(from, to, all, weights);
+    motion.scale = 1;
+    double sum = 0;
+    for (const std::uint32_t i : all) {
+      weights[i] = (motion.apply(row3(from, i)) - row3(to, i)).norm();
+      sum += weights[i];
+    }
+    const double least = kLeast * sum / static_cast<double>(all.size());
+    if (!(least > 0)) break;
+    for (double& weight : weights) weight = 1 / std::max(weight, least);
+  }
+  return motion.rotation;
+}
+
+Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across) {
+  // The forms of 24 MakeHuman, 24 synthetic and 16 ICT heads explain 4.3 degrees about the axis
+  // through the ears and 0.9 degrees about others.
+  constexpr double kInclined = 0.10481555856608242;    // 2 tan(6°/2)
+  constexpr double kAsymmetric = 0.03491012985643517;  // 2 tan(2°/2)
+  const Eigen::Vector3d turn = turn_vector(rotation);
+  Eigen::Vector3d inclined = turn.dot(across) * across, rest = turn - inclined;
+  if (inclined.norm() <= kInclined) inclined.setZero();
+  if (rest.norm() <= kAsymmetric) rest.setZero();
+  if (inclined.isZero(0) && rest.isZero(0)) return Eigen::Matrix3d::Identity();
+  return nudged({}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), inclined + rest, 0).rotation;
+}
+
+std::vector<Eigen::Matrix3d> rotations_to_mean(const std::vector<Positions>& heads,
+                                               const Eigen::Vector3d& across) {
+  constexpr int kRounds = 10;  // the mean moves as heads turn
+  std::vector<Eigen::Matrix3d> rotations(heads.size(), Eigen::Matrix3d::Identity());
+  for (int round = 0; round < kRounds; ++round) {
+    Positions mean = Positions::Zero(heads.front().rows(), 3);
+    for (std::size_t h = 0; h < heads.size(); ++h) mean += turned(heads[h], rotations[h]);
+    mean /= static_cast<double>(heads.size());
+    const std::vector<Eigen::Matrix3d> before = rotations;
+    for (std::size_t h = 0; h < heads.size(); ++h) {
+      rotations[h] = pose_part(head_rotation(heads[h], mean), across);
+    }
+    if (rotations == before) break;
+  }
+  return rotations;
+}
+
+Eigen::Vector3d turn_vector(const Eigen::Matrix3d& rotation) {
+  const double scale = 2 / (1 + rotation(0, 0) + rotation(1, 1) + rotation(2, 2));
+  return scale * Eigen::Vector3d(rotation(2, 1) - rotation(1, 2), rotation(0, 2) - rotation(2, 0),
+                                 rotation(1, 0) - rotation(0, 1));
+}
+
+}  // namespace crowdface
