@@ -48,7 +48,7 @@ Eigen::Matrix3d head_rotation(const Positions& from, const Positions& to) {
 
 Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across) {
   // The forms of 24 MakeHuman, 24 synthetic and 16 ICT heads explain 4.3 degrees about the axis
-  // through the ears and 0.9 degrees about others.
+  // through the ears and 0.8 degrees about others.
   constexpr double kInclined = 0.10481555856608242;    // 2 tan(6°/2)
   constexpr double kAsymmetric = 0.03491012985643517;  // 2 tan(2°/2)
   const Eigen::Vector3d turn = turn_vector(rotation);
