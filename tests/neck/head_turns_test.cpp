@@ -61,25 +61,25 @@ TEST(HeadRotation, HardlyFollowsASingleFeature) {
   EXPECT_LT(degrees_of(head_rotation(head, other)), 0.2 * squares);
 }
 
-TEST(RotationsToMean, TurnBackTheHeadsThatAreTurned) {
+TEST(RotationsToMedian, TurnBackTheHeadsThatAreTurned) {
   const Eigen::AngleAxisd turn(10 * kDegree, Eigen::Vector3d(0, 0.8, 0.6));
   std::vector<Positions> heads;
   for (unsigned h = 0; h < 5; ++h) heads.push_back(egg(h, 4));
   heads[1] = rotated(turn, heads[1]);
-  const std::vector<Eigen::Matrix3d> rotations = rotations_to_mean(heads, kAcross);
+  const std::vector<Eigen::Matrix3d> rotations = rotations_to_median(heads, kAcross);
   for (std::size_t h = 0; h < heads.size(); ++h) {
     if (h != 1) EXPECT_TRUE(rotations[h].isIdentity(0)) << h;
   }
   EXPECT_LT(degrees_of(rotations[1] * turn), 0.6);
 }
 
-TEST(RotationsToMean, AreNoneForHeadsThatDifferInFormOnly) {
+TEST(RotationsToMedian, AreNoneForHeadsThatDifferInFormOnly) {
   std::vector<Positions> heads;
   for (unsigned h = 0; h < 4; ++h) {
     heads.push_back(egg(h, 6));
     heads.back().col(2) += 0.05 * heads.back().col(1);  // sheared, as by a receding forehead
   }
-  for (const Eigen::Matrix3d& rotation : rotations_to_mean(heads, kAcross)) {
+  for (const Eigen::Matrix3d& rotation : rotations_to_median(heads, kAcross)) {
     EXPECT_TRUE(rotation.isIdentity(0));
   }
 }

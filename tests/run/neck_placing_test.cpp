@@ -110,7 +110,10 @@ TEST_F(NeckPlacing, TurnedHeadsAreTurnedBackToAHead) {
 // A head in another pose than the others: its faces are turned back, and are the same faces as
 // without a body.
 TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
-  const std::string more = concat(testing::kThreeRecipes, "sampling: {asymmetry: [0.4, 1.3]}\n");
+  const std::string more = concat(testing::kThreeRecipes,
+                                  "  - {id: d, target: head_4, regions: {all: {weights: "
+                                  "{head_1: 1}, smoothness: 0.2}}}\n",
+                                  "sampling: {asymmetry: [0.4, 1.3]}\n");
   run("{body: body.obj}", more, "", "straight");
   const Eigen::AngleAxisd turn(0.16, Eigen::Vector3d(-0.8, 0.36, 0.48));  // 9.2 degrees
   change_head(4, [&](const Eigen::Vector3d& p) { return turn * p; });
@@ -122,19 +125,25 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
     const double degrees = heads.at(h).at("turned_degrees").get<double>();
     EXPECT_NEAR(degrees, h == 4 ? 9.17 : 0, h == 4 ? 1.5 : 0) << h;
   }
-  const Positions straight = mesh_of("straight", "c"), turned = mesh_of("plain", "c");
-  EXPECT_GT(degrees_between(job, turned, straight), 8);
-  EXPECT_LT(degrees_between(job, mesh_of("out", "c"), straight), 1.5);
+  const auto left = [&](const std::string& crowd, const std::string& id) {
+    return degrees_between(job, mesh_of(crowd, id), mesh_of("straight", id));
+  };
+  EXPECT_GT(left("plain", "d"), 8);
+  EXPECT_LT(left("out", "d"), 1.5);
+  // A face with all details of another head has a part of that head's pose.
+  EXPECT_LT(left("out", "c"), 0.5 * left("plain", "c"));
   const auto before = testing::plan_lines(folder_ / "plain"), after = testing::plan_lines(out);
   ASSERT_EQ(before.size(), after.size());
-  std::vector<double> areas(static_cast<std::size_t>(turned.rows()), 1.0);
+  std::vector<double> areas = face_areas(job.inputs.faces.topology, job.inputs.skin,
+                                         job.inputs.mean, FaceArea::kFront, {2, 1});
   for (const std::uint32_t v : job.inputs.neck->seam.neck.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   bool any_asymmetric = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_EQ(before[i].at("regions"), after[i].at("regions"));
     const std::string id = before[i].at("id");
-    EXPECT_LT(face_distance(mesh_of("plain", id), mesh_of("out", id), areas), 1e-4) << id;
+    // The fits of levels depend a little on the place of a head, here 3 cm elsewhere.
+    EXPECT_LT(face_distance(mesh_of("plain", id), mesh_of("out", id), areas), 5e-3) << id;
     any_asymmetric |= before[i].at("target") == "head_4" && before[i].contains("asymmetry");
   }
   EXPECT_TRUE(any_asymmetric);
@@ -231,7 +240,7 @@ TEST_F(NeckPlacing, TheBodysRimMayBeNamed) {
     numbers += concat(at, ' ');
   }
   write_body(full);
-  expect_refused({"expected an open rim of", "found none"});
+  expect_refused({"expected an open rim of", "1.60 times as large"});  // the lower end
   folder_.write("seam.txt", numbers);
   const auto closed =
       run("{body: body.obj, body_rim: seam.txt, write_body: true}", "", kFiles, "closed");

@@ -77,14 +77,14 @@ Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
 struct Poses {
   std::vector<std::uint32_t> skin;
   Vector3d across;              ///< the axis through the ears
-  std::vector<Matrix3d> turns;  ///< of each head into the mean pose
+  std::vector<Matrix3d> turns;  ///< of each head into the common pose
 
   Poses(const Config& config, const HeadSet& faces, std::vector<std::uint32_t> vertices)
       : skin(std::move(vertices)),
         across(unit_vector(config.faces.up).cross(unit_vector(config.faces.front))) {
     std::vector<Positions> points;
     for (const Head& head : faces.heads) points.emplace_back(head.positions(skin, kAllColumns));
-    turns = rotations_to_mean(points, across);
+    turns = rotations_to_median(points, across);
   }
 
   /// The mean of the heads at some vertices after each was turned and its rim's middle moved to the
@@ -107,7 +107,7 @@ struct Poses {
     return sum / static_cast<double>(turns.size());
   }
 
-  /// The rotation from the mean pose into that of a mesh with the heads' vertices.
+  /// The rotation from the common pose into that of a mesh with the heads' vertices.
   Matrix3d rotation_to(const HeadSet& faces, const Rim& rim, const Positions& mesh) const {
     return pose_part(head_rotation(mean(faces, rim, skin), mesh(skin, kAllColumns)), across);
   }
@@ -116,7 +116,7 @@ struct Poses {
 /// What the heads are placed on.
 struct Goal {
   NeckBody body;
-  Matrix3d rotation = Matrix3d::Identity();  ///< of all heads, from their mean pose
+  Matrix3d rotation = Matrix3d::Identity();  ///< of all heads, from their common pose
 };
 
 Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const Poses& poses) {

@@ -43,37 +43,35 @@ Rim read_rim(const std::filesystem::path& file, const Adjacency& adjacency) {
   return rim;
 }
 
-/// Removes polygons, and vertices that no other polygon uses.
+/// The mesh with some polygons only, and with the vertices that they use.
 /// \param kept  #F
 /// \param rim   renumbered with the vertices
-void keep_polygons(const std::vector<bool>& kept, ObjFile& mesh, Rim& rim) {
-  if (std::ranges::all_of(kept, [](bool keep) { return keep; })) return;
-  const Topology whole = std::exchange(mesh.topology, {});
-  const std::vector<std::uint32_t> normals = std::exchange(mesh.corner_normals, {});
+ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
+  if (std::ranges::all_of(kept, [](bool keep) { return keep; })) return whole;
+  FileMesh mesh;
+  mesh.uvs = std::move(whole.uvs);
+  mesh.materials = std::move(whole.materials);
   std::vector<Index> number;  // of each old polygon: the number of polygons kept before it
-  for (Index f = 0; f < whole.face_count(); ++f) {
+  for (Index f = 0; f < whole.topology.face_count(); ++f) {
     number.push_back(mesh.topology.face_count());
     if (!kept[static_cast<std::size_t>(f)]) continue;
-    mesh.topology.add_face(whole.face(f), whole.face_uvs(f));
-    const auto [begin, end] = whole.corners(f);
-    if (!normals.empty()) {
-      mesh.corner_normals.insert(mesh.corner_normals.end(), normals.begin() + begin,
-                                 normals.begin() + end);
-    }
+    mesh.topology.add_face(whole.topology.face(f), whole.topology.face_uvs(f));
   }
   number.push_back(mesh.topology.face_count());
-  for (auto* ranges : {&mesh.materials, &mesh.groups}) {
-    for (MaterialRange& range : *ranges) {
-      range.first_face = number[static_cast<std::size_t>(range.first_face)];
-    }
+  for (MaterialRange& range : mesh.materials) {
+    range.first_face = number[static_cast<std::size_t>(range.first_face)];
   }
   const std::vector<std::uint32_t> used =
-      renumber(mesh.topology.corner_vertices, whole.vertex_count);
+      renumber(mesh.topology.corner_vertices, whole.topology.vertex_count);
   mesh.topology.vertex_count = static_cast<Index>(used.size());
-  mesh.positions = Positions(mesh.positions(used, kAllColumns));
+  mesh.positions = whole.positions(used, kAllColumns);
   for (std::uint32_t& v : rim) {
     v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
   }
+  ObjFile cut = as_obj(std::move(mesh), whole.path);
+  cut.material_libraries = std::move(whole.material_libraries);
+  cut.textures_at = std::move(whole.textures_at);
+  return cut;
 }
 
 /// \throws InvalidInput if the body is a head.
@@ -147,9 +145,9 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
                              is_order_known ? RimOrder::kGiven : RimOrder::kFree);
     body.rim = mesh.positions(found, kAllColumns);
     if (!neck.body_rim.empty()) {
-      keep_polygons(
-          polygons_below(mesh.topology, mesh.positions, found, unit_vector(config.faces.up)), mesh,
-          found);
+      const std::vector<bool> below =
+          polygons_below(mesh.topology, mesh.positions, found, unit_vector(config.faces.up));
+      mesh = with_polygons(below, std::move(mesh), found);
     }
     body.areas = areas_around(mesh.topology, mesh.positions, found);
     if (body.is_head) body.skin = mesh.positions;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
 
@@ -18,6 +19,17 @@ Positions turned(const Positions& points, const Eigen::Matrix3d& rotation) {
   Positions result(points.rows(), 3);
   for (Index i = 0; i < points.rows(); ++i) {
     result.row(i) = apply3(rotation, row3(points, i) - middle).transpose();
+  }
+  return result;
+}
+
+/// The median of each coordinate: a few turned heads hardly move it.
+Positions median(const std::vector<Positions>& heads) {
+  Positions result(heads.front().rows(), 3);
+  std::vector<double> values(heads.size());
+  for (Index i = 0; i < result.size(); ++i) {
+    for (std::size_t h = 0; h < heads.size(); ++h) values[h] = heads[h].data()[i];
+    result.data()[i] = nth_smallest(values, values.size() / 2);
   }
   return result;
 }
@@ -59,17 +71,20 @@ Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d
   return nudged({}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), inclined + rest, 0).rotation;
 }
 
-std::vector<Eigen::Matrix3d> rotations_to_mean(const std::vector<Positions>& heads,
-                                               const Eigen::Vector3d& across) {
-  constexpr int kRounds = 10;  // the mean moves as heads turn
+std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& heads,
+                                                 const Eigen::Vector3d& across) {
+  constexpr int kRounds = 10;  // the median moves as heads turn
   std::vector<Eigen::Matrix3d> rotations(heads.size(), Eigen::Matrix3d::Identity());
+  if (heads.size() < 3) return rotations;  // of two heads, either may be the turned one
   for (int round = 0; round < kRounds; ++round) {
-    Positions mean = Positions::Zero(heads.front().rows(), 3);
-    for (std::size_t h = 0; h < heads.size(); ++h) mean += turned(heads[h], rotations[h]);
-    mean /= static_cast<double>(heads.size());
+    std::vector<Positions> placed;
+    for (std::size_t h = 0; h < heads.size(); ++h) {
+      placed.push_back(turned(heads[h], rotations[h]));
+    }
+    const Positions middle = median(placed);
     const std::vector<Eigen::Matrix3d> before = rotations;
     for (std::size_t h = 0; h < heads.size(); ++h) {
-      rotations[h] = pose_part(head_rotation(heads[h], mean), across);
+      rotations[h] = pose_part(head_rotation(heads[h], middle), across);
     }
     if (rotations == before) break;
   }

@@ -19,10 +19,11 @@ Eigen::Matrix3d head_rotation(const Positions& from, const Positions& to);
 /// \param across  the axis through the ears, a unit vector
 Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across);
 
-/// For each head, the rotation into the mean pose of all heads, see pose_part.
+/// For each head, the rotation into the median pose of the heads, see pose_part; the identity if
+/// there are fewer than three heads.
 /// \param heads  the same points of each head, #points by 3
-std::vector<Eigen::Matrix3d> rotations_to_mean(const std::vector<Positions>& heads,
-                                               const Eigen::Vector3d& across);
+std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& heads,
+                                                 const Eigen::Vector3d& across);
 
 /// A rotation as its axis times twice the tangent of half its angle. Such vectors can be mixed.
 Eigen::Vector3d turn_vector(const Eigen::Matrix3d& rotation);
