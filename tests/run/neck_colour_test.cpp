@@ -261,7 +261,8 @@ TEST_F(NeckColour, TheTableTellsTheColoursOfVertices) {
     std::istringstream lines(testing::read_text(folder_ / file));
     std::string text;
     for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("v ")) line += concat(" ", (100.0 + 20.0 * static_cast<double>(h)) / 255, " 0.4 0.2");
+      if (line.starts_with("v "))
+        line += concat(" ", (100.0 + 20.0 * static_cast<double>(h)) / 255, " 0.4 0.2");
       text += line + '\n';
     }
     folder_.write(file, text);
