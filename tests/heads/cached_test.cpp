@@ -35,6 +35,19 @@ struct Lists {
 
 class Cached : public ::testing::Test {
  protected:
+  /// A square that is large enough for its neighbours and its mirror to be cached, of kSide² vertices.
+  static constexpr std::uint32_t kSide = 225;
+  static Topology large_topology() { return testing::grid_topology(kSide - 1, kSide - 1); }
+  static Positions large_positions() {
+    Positions positions(kSide * kSide, 3);
+    for (std::uint32_t row = 0; row < kSide; ++row) {
+      for (std::uint32_t column = 0; column < kSide; ++column) {
+        positions.row(row * kSide + column) << column - 0.5 * (kSide - 1), row, 0;
+      }
+    }
+    return positions;
+  }
+
   Lists lists(const Digest& key, std::uint32_t most = 9) {
     return cached(
         folder_.path(), {"test", key},
@@ -149,21 +162,22 @@ TEST_F(Cached, NoForgedHeaderIsFollowedOutOfTheFile) {
 // Rows were made for as many vertices as a component said to have.
 TEST_F(Cached, ComponentsOfOtherSizesThanTheyHaveAreNotTaken) {
   Inputs inputs;
-  inputs.faces.topology = testing::cube_topology();
+  inputs.faces.topology = large_topology();
   inputs.cache = folder_.path();
   find_neighbours(inputs);
-  ASSERT_EQ(inputs.components.sizes, std::vector<std::uint32_t>{8});
+  const std::vector<std::uint32_t> sizes = {kSide * kSide};
+  ASSERT_EQ(inputs.components.sizes, sizes);
   const std::string kept = read_file(entry());
   write_file(entry(), testing::forged_array(kept, "sizes", 0, std::uint32_t{1'000'000'000}));
   find_neighbours(inputs);
-  EXPECT_EQ(inputs.components.sizes, std::vector<std::uint32_t>{8});
+  EXPECT_EQ(inputs.components.sizes, sizes);
   EXPECT_EQ(read_file(entry()), kept);
 }
 
 TEST_F(Cached, PlacesOnTheOtherSideLieInTheirTriangles) {
   Inputs inputs;
-  inputs.faces.topology = testing::cube_topology();
-  inputs.mean = testing::cube_positions();
+  inputs.faces.topology = large_topology();
+  inputs.mean = large_positions();
   find_neighbours(inputs);
   inputs.cache = folder_.path();
   const Eigen::Vector3d side(1, 0, 0);
