@@ -110,7 +110,7 @@ crowd=$work/disk/crowd
 "$program" status "$crowd" --watch --json --every 1 >"$work/watched" &
 watching=$!
 # A failed attempt may be followed by the next within a second.
-while sleep 0.2; do "$program" status "$crowd" --json; done >"$work/looked" 2>/dev/null &
+while sleep 0.2; do "$program" status "$crowd" --json || true; done >"$work/looked" 2>/dev/null &
 looking=$!
 
 until_true 90 "shard 2 begins" test -s "$work/node_of_2"
