@@ -12,11 +12,11 @@ export PATH=$PATH:/usr/sbin:/sbin
 getent hosts "$(hostname -s)" | grep -q '^127\.' || { echo "SKIPPED: $(hostname -s) is not 127.0.0.1"; exit 77; }
 source "$root/tests/farm/private_slurm.sh"
 
-work=$(mktemp -d) mounted= watching= looking=
+work=$(mktemp -d) mounted= watching=
 chmod 755 "$work"
 finish() {
   local code=$?
-  [ -z "$watching$looking" ] || kill $watching $looking 2>/dev/null || true
+  [ -z "$watching" ] || kill "$watching" 2>/dev/null || true
   slurm_stop "$work/slurm" || true
   if [ $code -ne 0 ]; then
     for log in "$work"/disk/crowd/submit/log/*.log; do echo "--- $log"; tail -n 15 "$log"; done
@@ -109,9 +109,6 @@ crowd=$work/disk/crowd
   --memory "1 GiB" --scratch "$work/\$SLURMD_NODENAME" --program "$work/disturbed"
 "$program" status "$crowd" --watch --json --every 1 >"$work/watched" &
 watching=$!
-# A failed attempt may be followed by the next within a second.
-while sleep 0.2; do "$program" status "$crowd" --json || true; done >"$work/looked" 2>/dev/null &
-looking=$!
 
 until_true 90 "shard 2 begins" test -s "$work/node_of_2"
 node=$(cat "$work/node_of_2")
@@ -150,6 +147,7 @@ if [ -n "$mounted" ]; then
 fi
 ls "$work"/n?/crowdface-cache-*/prepared-*.cfcache >/dev/null || fail "no node has a copy of the prepared heads"
 grep -q '"state":"interrupted"' "$work/watched" || fail "status never showed an interrupted shard"
-grep -q '"state":"failed"[^}]*"reason":"[^"]' "$work/watched" "$work/looked" || fail "status never showed a reason"
+# Slurm queues a failed shard again, within the second between two looks.
+grep -Eq '"state":"(failed|requeued)"[^}]*"reason":"[^"]' "$work/watched" || fail "status never showed a reason"
 grep -q '"faces_a_second":[0-9]' "$work/watched" || fail "status never showed a pace"
 echo "the crowd of two nodes is that of one machine"
