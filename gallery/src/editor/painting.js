@@ -178,16 +178,16 @@ export class Painting {
     this.send();
   }
 
-  /// While the brush is out, Ctrl+Z speaks of strokes first, then of the regions; the program keeps no strokes to paint
-  /// again.
+  /// While the brush is out, Ctrl+Z takes back strokes first, then changes of regions and heads. The program keeps no
+  /// strokes to paint again.
   heldKeys(event) {
     const { editor } = this;
-    const isOfRegions = (way) => editor.history[way].length > 0 && !editor.hasRegionsOf(editor.history[way].at(-1).document);
-    const redo = () => (isOfRegions('future') ? editor.redo()
+    const isOfConfig = (way) => editor.history[way].length > 0 && !editor.hasConfigOf(editor.history[way].at(-1).document);
+    const redo = () => (isOfConfig('future') ? editor.redo()
       : editor.say('A stroke that was undone cannot be redone: paint it again.'));
     const undo = () => {
       if (editor.job.painted || this.waiting.length > 0 || this.sending) this.undo();
-      else if (isOfRegions('past')) editor.undo();
+      else if (isOfConfig('past')) editor.undo();
       else editor.say('No stroke to undo. The button Undo takes back the steps of the face.');
     };
     return { z: () => (event.shiftKey ? redo() : undo()), y: redo };
