@@ -136,7 +136,7 @@ scripts/install_dependencies.sh --releases
 release=$(. /etc/os-release && echo "$VERSION_CODENAME")
 # This system's CMake may be told to use programs that the root has not.
 # shellcheck disable=SC2016
-{ echo 'set -euxo pipefail; unset "${!CMAKE_@}"; mkdir /tmp/try; cd /tmp/try'; declare -f try; echo try; } >"$place/inside"
+{ echo 'set -euxo pipefail; unset "${!CMAKE_@}"; cd "$(mktemp -d)"'; declare -f try; echo try; } >"$place/inside"
 tar --create --file "$place/consumer.tar" -C tests/structure consumer
 tar --create --file "$place/packages.tar" -C build packages
 echo "$release: a fresh root (log: build/packages/test.log)"

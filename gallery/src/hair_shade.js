@@ -1,43 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much light hair keeps from the skin: for some directions from which light comes, the parts of the skin are found
-// that lie behind something worn.
+// How much light hair keeps from the skin: a depth map for each of some directions of light tells which parts of the
+// skin lie behind something worn.
 import { Matrix3, Vector3 } from 'three';
 
 const side = 96; // cells of a direction's map
 const half = 1.2; // half of the map, where a head is two units high
 const cell = (2 * half) / side;
-const clear = 0.04; // what lies this near over the skin, such as brows, keeps nothing away
-const solid = 0.3; // what hides less, such as a lens, keeps nothing away
+const clear = 0.04; // anything nearer to the skin, such as brows, casts no shade
+const solid = 0.3; // anything more transparent, such as a lens, casts no shade
 const opacity = 0.8; // of hair, on average
 // x right, y up, z front; most light comes from above.
 const ways = [[-0.62, 0.62, 0.62], [0.62, 0.62, 0.62], [0, 0.75, 0.66], [0, 0, 1], [-0.95, 0.3, 0.1], [0.95, 0.3, 0.1]];
 
-/// The depth towards the light of what is worn, in cells; without anything −∞.
+/// For each cell, how far towards the light something worn reaches; −∞ where there is nothing.
 function depthsOf(parts, u, v, way, middle) {
   const depths = new Float32Array(side * side).fill(-Infinity);
-  const across = (p, axis) => p.dot(axis);
+  const cellLength = cell / u.length(); // in the units of the points
   const [a, b, c, p] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
   for (const { own, triangles, hides } of parts) {
     for (let t = 0; t < triangles.length; t += 3) {
       if (hides[triangles[t]] + hides[triangles[t + 1]] + hides[triangles[t + 2]] < 3 * solid) continue;
       [a, b, c].forEach((corner, k) => corner.fromArray(own, 3 * triangles[t + k]).sub(middle));
-      const steps = Math.min(8, Math.max(1, Math.ceil(Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)) / cellIn(u))));
+      const steps = Math.min(8, Math.max(1, Math.ceil(Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)) / cellLength)));
       for (let i = 0; i <= steps; i += 1) {
         for (let j = 0; j <= steps - i; j += 1) {
           p.copy(a).addScaledVector(b, i / steps).addScaledVector(a, -(i + j) / steps).addScaledVector(c, j / steps);
-          const x = Math.floor((across(p, u) + half) / cell);
-          const y = Math.floor((across(p, v) + half) / cell);
+          const x = Math.floor((p.dot(u) + half) / cell);
+          const y = Math.floor((p.dot(v) + half) / cell);
           if (x < 0 || y < 0 || x >= side || y >= side) continue;
-          depths[y * side + x] = Math.max(depths[y * side + x], across(p, way));
+          depths[y * side + x] = Math.max(depths[y * side + x], p.dot(way));
         }
       }
     }
   }
   return depths;
 }
-
-/// How long a cell is in the units of the points.
-const cellIn = (u) => cell / u.length();
 
 /// \param points, normals  of the skin, three numbers a vertex
 /// \param parts            {own: places, triangles, hides: a share for each place} of what is worn

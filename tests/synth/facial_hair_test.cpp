@@ -54,7 +54,7 @@ TEST(FacialHair, BeardsHaveAMoustacheThatReachesTheChinsBeard) {
   }
 }
 
-// Brows that rise steeply from the nose made everybody look angry.
+// Brows that rise steeply from the nose make a face look angry.
 TEST(FacialHair, BrowsRiseLittleFromTheNose) {
   for (const FacialHair& style : facial_hairs()) {
     if (style.is_beard) continue;

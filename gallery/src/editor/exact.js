@@ -3,14 +3,14 @@
 import { postForBinary } from '../api.js';
 
 const rest = 60; // ms
-const again = 1000; // ms until the program is asked anew for a face with all that it wears
+export const undressed = 1000; // ms until the program is asked anew for a face without all that it wears
 
 /// The program's face of a request once it has put on what the face wears.
 export async function dressedFace(request) {
   for (;;) {
     const face = await postForBinary('face', request);
     if (!face.bare) return face;
-    await new Promise((done) => { setTimeout(done, again); });
+    await new Promise((done) => { setTimeout(done, undressed); });
   }
 }
 

@@ -6,7 +6,7 @@ import { el, short } from '../dom.js';
 import { History } from '../history.js';
 import { Beside } from './beside.js';
 import { showElsewhere, showGenerate, showPutBack, showReplace } from './dialogs.js';
-import { dressedFace, Exact } from './exact.js';
+import { dressedFace, Exact, undressed } from './exact.js';
 import { Expressions } from './expressions.js';
 import { Library } from './library.js';
 import { Measurements } from './measurements.js';
@@ -29,7 +29,6 @@ import { toolbar, viewBar } from './toolbar.js';
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
 const patient = 250; // ms that a draft waits for the program's face before it is drawn in full
-const again = 1000; // ms after which a page asks anew for what a face wears
 const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const exaggerated = 0.5; // mm that strengths other than 1 add to a distance; from here on the page says so
@@ -310,7 +309,7 @@ class Editor extends ProgramPage {
         if (this.exactOf !== document) return;
         this.exactOf = null;
         this.refresh();
-      }, again);
+      }, undressed);
     }
     if (this.skinOf?.document === document && this.skinOf.masksTurn === this.masksTurn) return;
     this.skinOf = { document, masksTurn: this.masksTurn };

@@ -231,10 +231,10 @@ class Redrawing {
 
 }  // namespace
 
-void apply_review(const CastingOptions& of_crowd, const FaceJudge& judge, std::size_t number,
+void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge, std::size_t number,
                   CastingResult& cast) {
-  const Review& review = of_crowd.reviews[number];
-  CastingOptions casting = of_crowd;
+  const Review& review = crowd_options.reviews[number];
+  CastingOptions casting = crowd_options;
   casting.diversity.min_distance_mm =
       review.min_distance_mm.value_or(casting.diversity.min_distance_mm);
   std::vector<Redraw> redraws = read_marks(review, cast);

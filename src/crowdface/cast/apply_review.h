@@ -15,9 +15,9 @@ namespace crowdface {
 /// - If an earlier review had a face drawn again (FaceChange::draws_again), a mark that rejects it
 ///   and locks parts acts as a change that locks these parts.
 ///
-/// \param number  index of the review in `of_crowd.reviews`.
+/// \param number  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.
-void apply_review(const CastingOptions& of_crowd, const FaceJudge& judge, std::size_t number,
+void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge, std::size_t number,
                   CastingResult& cast);
 
 }  // namespace crowdface

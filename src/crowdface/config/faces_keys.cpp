@@ -119,7 +119,7 @@ void read_more_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   std::vector<fs::path> files;
   std::vector<const YamlNode*> nodes;
   const bool sound = read_file_list(node, files, nodes, draft);
-  // Their names do not depend on each other: a head keeps its name when another one joins.
+  // Each head is named after its own file, so it keeps its name when another head joins.
   for (std::size_t h = 0; h < files.size(); ++h) {
     add_head(files[h], files[h].stem().string(), *nodes[h], faces, draft);
   }

@@ -14,26 +14,21 @@ namespace {
 
 using Heads = std::vector<Eigen::Index>;
 
-/// Returns the value at a path of keys from a mapping; null if there is none.
-const YamlNode* value_at(const YamlNode& node, std::initializer_list<std::string_view> keys) {
-  const YamlNode* value = &node;
-  for (const std::string_view key : keys) {
-    const YamlEntry* entry = value->find(key);
-    if (entry == nullptr) return nullptr;
-    value = &entry->value;
-  }
-  return value;
+/// Returns the value of a key of a mapping; null if there is none.
+const YamlNode* value_at(const YamlNode& node, std::string_view key) {
+  const YamlEntry* entry = node.find(key);
+  return entry == nullptr ? nullptr : &entry->value;
 }
 
 const std::vector<YamlNode>& items_at(const YamlNode& root, std::string_view key) {
   static const std::vector<YamlNode> none;
-  const YamlNode* list = value_at(root, {key});
+  const YamlNode* list = value_at(root, key);
   return list == nullptr ? none : list->items;
 }
 
 std::vector<std::string> words_at(const YamlNode& node, std::string_view key) {
   std::vector<std::string> words;
-  if (const YamlNode* value = value_at(node, {key})) {
+  if (const YamlNode* value = value_at(node, key)) {
     for (const YamlNode& item : value->items) words.push_back(item.text);
     for (const YamlEntry& entry : value->entries) words.push_back(entry.key);
   }
@@ -97,7 +92,7 @@ class OverriddenKeys {
     const Group& group = config_.groups[g];
     if (const auto tags = words_at(node, "tags"); !tags.empty()) find_beside_tags(node, g, tags);
     if (const auto tags = words_at(node, "without"); !tags.empty()) find_left_out(node, g, tags);
-    const YamlNode *count = value_at(node, {"count"}), *share = value_at(node, {"share"});
+    const YamlNode *count = value_at(node, "count"), *share = value_at(node, "share");
     const bool wants_none =
         (count != nullptr && group.count == 0U) || (share != nullptr && group.share == 0);
     if (sampled_[g] == 0 && !wants_none && config_.crowd.count > 0) {
@@ -118,7 +113,7 @@ class OverriddenKeys {
            " do not have the group's tags, ", join(tags), "; ", counted_faces(faces_of_[g]),
            " take detail from them");
     };
-    const YamlNode *targets = value_at(node, {"targets"}), *sources = value_at(node, {"sources"});
+    const YamlNode *targets = value_at(node, "targets"), *sources = value_at(node, "sources");
     if (sources != nullptr) take(sources->path, own.sources, "sources");
     for (const BandSampling& band : own.bands) {
       if (band.sources) take(concat(node.path, ".bands.", band.name), *band.sources, "sources");
@@ -167,7 +162,7 @@ class OverriddenKeys {
              " is not a target of the group ", group.name, ", but ", counted_faces(members),
              " of the group are built on it");
       }
-      if (group.sampling.age != Range{0, 0} && value_at(node, {"age"}) == nullptr) {
+      if (group.sampling.age != Range{0, 0} && value_at(node, "age") == nullptr) {
         tell(node.path, ": the age of the group ", group.name, " does not apply to its members (",
              counted_faces(members), "), whose age is 0; write age");
       }

@@ -117,8 +117,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   return review;
 }
 
-/// Returns a review's text with another key: in a new line, or as the first key of a mapping in
-/// braces.
+/// Adds a key to a review's text: as a new line, or, if the review is written in braces, as the
+/// first key in them.
 std::string with_key(std::string text, const std::string& key) {
   std::size_t first = 0;
   while (first < text.size() &&

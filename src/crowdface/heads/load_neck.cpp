@@ -107,7 +107,7 @@ struct Poses {
     return sum / static_cast<double>(turns.size());
   }
 
-  /// The rotation from the common pose into that of a mesh with the heads' vertices.
+  /// Rotates heads in the common pose into the pose of `mesh`, which has the heads' vertices.
   Matrix3d rotation_to(const HeadSet& faces, const Rim& rim, const Positions& mesh) const {
     return pose_part(head_rotation(mean(faces, rim, skin), mesh(skin, kAllColumns)), across);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "crowdface/core/error.h"
@@ -44,7 +45,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   }
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  std::vector<double> above(faces, 0.0);  // the first polygon of each part: its side of the loop
+  // At the root of a part: the sum of the heights of its polygons above their edges of the loop.
+  std::vector<double> above(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);
   DisjointSets parts(faces);
@@ -54,13 +56,13 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
     }
   }
   std::size_t along = 0;
-  std::map<std::uint32_t, int> sides;  // of the parts along the loop
+  std::set<std::uint32_t> sides;  // the parts along the loop
   for (const auto& [edge, f] : edges) {
     const auto at = loop.find(edge);
     if (at == loop.end()) continue;
     ++along;
     above[parts.root(f)] += height(topology, positions, f, up) - at->second;
-    ++sides[parts.root(f)];
+    sides.insert(parts.root(f));
   }
   if (along == loop.size()) return std::vector<bool>(faces, true);
   if (sides.size() < 2) {
