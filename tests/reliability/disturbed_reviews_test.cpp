@@ -23,6 +23,7 @@ class ReviewedCrowd {
       folder_.folder().write(concat("wear/", name, ".obj"),
                              "v 0 0 1\nv 1 0 1\nv 0 1 1.5\nf 1 2 3\n");
     }
+    folder_.folder().write("points.yaml", "template: {nose_wing_left: 53, nose_wing_right: 56}\n");
     std::string config = read_text(folder_.config());
     config.replace(config.find("align: none"), 11,
                    "align: none, tags: {ann: [young], bob: [old], cyd: [young], dan: [old]}");
@@ -88,7 +89,8 @@ class ReviewedCrowd {
     crowd.count = 3;
     crowd.contact_sheet = "{columns: 2, rows: 2, cell: 32}";
     crowd.more =
-        "\nattachments:\n"
+        "\nlandmarks: points.yaml\n"
+        "attachments:\n"
         "  fitted_to: ann\n"
         "  items: [{name: bob, kind: hair, file: wear/bob.obj, tint: hair},\n"
         "          {name: braid, kind: hair, file: wear/braid.obj, tint: hair},\n"
@@ -174,6 +176,9 @@ class ReviewedCrowd {
                                               "{colours: {ann: 1, cyd: 3}}",
                                               "{group: elderly}",
                                               "{lock: [region_1]}",
+                                              "{traits: {nose_width: {at_most: 60 %}}}",
+                                              "{traits: {nose_width: [40 %, 90 %]}, hair: red}",
+                                              "{traits: {nose_width: {at_least: 30 %}}, age: older}",
                                               "{lock: [region_2], group: elderly, age: older}"};
     return concat(id_of(face), ": ", changes[random_() % changes.size()]);
   }
