@@ -241,7 +241,7 @@ class FaceStages::Output {
         EncodedFile bytes = file.make(finished);
         bytes.keep(finished.textures);
         result.files.push_back({bytes.size(), bytes.digest()});
-        ready.push_back({std::move(file.path), std::move(bytes)});
+        ready.push_back({std::move(file.path), std::move(bytes), result.files.back()});
       }
     }
     result.crossing = std::move(finished.crossing);

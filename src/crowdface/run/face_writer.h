@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "crowdface/core/file.h"
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/run/face_ledger.h"
 
@@ -19,10 +20,12 @@ namespace crowdface {
 struct ReadyFile {
   std::filesystem::path path;
   EncodedFile bytes;
+  FileDigest content;  ///< of `bytes`
 };
 
 /// Writes faces on a thread of its own, so that computing threads need not wait for the disk. Faces
-/// that become ready during a write are then written together, synced once, and recorded.
+/// that become ready during a write are then written together, synced once, and recorded. Files
+/// that have their content already are not touched.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.
