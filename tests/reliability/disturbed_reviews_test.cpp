@@ -166,20 +166,21 @@ class ReviewedCrowd {
     const int other = 1 + static_cast<int>(random_() % static_cast<unsigned>(count_ - 1));
     const std::string variant =
         concat("{variant_of: ", id_of(other < face ? other : other + 1), ", distance: 0.5 mm}");
-    const std::vector<std::string> changes = {variant,
-                                              variant,
-                                              "{age: older}",
-                                              "{age: -0.4, hair: red}",
-                                              "{wears: [braid, round]}",
-                                              "{wears: []}",
-                                              "{hair: white, age: younger}",
-                                              "{colours: {ann: 1, cyd: 3}}",
-                                              "{group: elderly}",
-                                              "{lock: [region_1]}",
-                                              "{traits: {nose_width: {at_most: 60 %}}}",
-                                              "{traits: {nose_width: [40 %, 90 %]}, hair: red}",
-                                              "{traits: {nose_width: {at_least: 30 %}}, age: older}",
-                                              "{lock: [region_2], group: elderly, age: older}"};
+    const std::vector<std::string> changes = {
+        variant,
+        variant,
+        "{age: older}",
+        "{age: -0.4, hair: red}",
+        "{wears: [braid, round]}",
+        "{wears: []}",
+        "{hair: white, age: younger}",
+        "{colours: {ann: 1, cyd: 3}}",
+        "{group: elderly}",
+        "{lock: [region_1]}",
+        "{traits: {nose_width: {at_most: 60 %}}}",
+        "{traits: {nose_width: [40 %, 90 %]}, hair: red}",
+        "{traits: {nose_width: {at_least: 30 %}}, age: older}",
+        "{lock: [region_2], group: elderly, age: older}"};
     return concat(id_of(face), ": ", changes[random_() % changes.size()]);
   }
 
