@@ -224,6 +224,17 @@ TEST(FaceTraits, ALimitOnOneFaceChangesItAsLittleAsNecessary) {
   EXPECT_GE(faces[2].traits.at(0), most - 0.2);
 }
 
+// The face was mixed with one part in twenty of another.
+TEST(FaceTraits, ALimitThatAFaceMeetsLeavesItAsItIs) {
+  TraitFolder folder;
+  const std::vector<FacePlan> plain = folder.plan_of(6, "traits: {nose_width: {}}\n");
+  const double most = plain[2].traits.at(0) + 0.8;
+  const std::vector<FacePlan> faces = folder.plan_of(
+      6, concat("changes: {t_0003: {traits: {nose_width: {at_most: ", most, " mm}}}}\n"));
+  EXPECT_EQ(faces[2].traits, plain[2].traits);
+  EXPECT_THAT(faces[2].notes.changes, ::testing::ElementsAre("config: traits"));
+}
+
 TEST(FaceTraits, SpreadCrowdsMeetTheLimitsToo) {
   TraitFolder folder;
   const std::vector<FacePlan> faces =

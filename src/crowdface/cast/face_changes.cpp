@@ -67,6 +67,11 @@ double least_share(const Holds& holds) {
   return share;
 }
 
+/// Whether a change that draws a face again asks for measurements only.
+bool limits_only(const FaceChange& change) {
+  return !change.group && change.locked.empty();
+}
+
 class Changing {
  public:
   Changing(const CastingOptions& casting, const FaceJudge& judge, std::size_t at,
@@ -96,7 +101,7 @@ class Changing {
     if (applied.variant_of) {
       changed_.variant_of = applied.variant_of;
       change_into(search(vary(change), CrowdSoFar(judge_.space().dimensions())));
-    } else if (change.draws_again()) {
+    } else if (change.draws_again() && !(limits_only(change) && meets_limits(changed_.face))) {
       changed_.variant_of.reset();
       change_into(search(draw_again(change), faces_before()));
     }
@@ -167,7 +172,7 @@ class Changing {
     open.id = now.id;
     if (!change.locked.empty()) open.target = now.recipe.target;
     if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
-    const bool only_traits = !change.group && change.locked.empty();
+    const bool only_traits = limits_only(change);
     return [=, this](std::uint32_t attempt) {
       FacePlan drawn = draw_recipe(casting_, open, key(attempt), kind);
       drawn.index = now.index;

@@ -22,7 +22,8 @@ namespace crowdface {
 /// - A variant is a mixture of the other face, as it is before these changes, and a drawn face on
 ///   the same target, at the asked distance from the other face.
 /// - With limits on measurements only, the face is a mixture of itself and a drawn face that meets
-///   the limits. The share of the drawn face is as small as the limits allow.
+///   the limits. The share of the drawn face is as small as the limits allow: none if the face meets
+///   them.
 ///
 /// \param by  the origin of the changes, such as "review 2".
 /// \throws InvalidInput if a face is not in the crowd.
