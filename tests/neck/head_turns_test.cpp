@@ -45,20 +45,20 @@ Positions egg(unsigned seed, double spread_mm) {
   return points;
 }
 
-TEST(HeadRotation, IsExactForAHeadThatIsOnlyTurned) {
+TEST(HeadMotion, IsExactForAHeadThatIsOnlyTurned) {
   const Eigen::AngleAxisd turn(25 * kDegree, Eigen::Vector3d(0.6, 0, 0.8));
   const Positions head = egg(1, 5);
-  EXPECT_LT(degrees_of(head_rotation(head, rotated(turn, head)) * turn.inverse()), 1e-6);
+  EXPECT_LT(degrees_of(head_motion(head, rotated(turn, head)).rotation * turn.inverse()), 1e-6);
 }
 
 // A long chin moves a tenth of the points far; the least squares tilt the head for it.
-TEST(HeadRotation, HardlyFollowsASingleFeature) {
+TEST(HeadMotion, HardlyFollowsASingleFeature) {
   const Positions head = egg(1, 0);
   Positions other = egg(2, 2);
   for (Index i = 0; i < 40; ++i) other.row(i) += Eigen::RowVector3d(0, 0, 60);
   const double squares = fit_similarity(head, other, ScaleFit::kRigid).angle_degrees();
   EXPECT_GT(squares, 2);
-  EXPECT_LT(degrees_of(head_rotation(head, other)), 0.2 * squares);
+  EXPECT_LT(degrees_of(head_motion(head, other).rotation), 0.2 * squares);
 }
 
 TEST(RotationsToMedian, TurnBackTheHeadsThatAreTurned) {

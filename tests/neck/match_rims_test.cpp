@@ -152,6 +152,25 @@ TEST_F(MatchingRim, TurnedIsRefused) {
   }
 }
 
+// A rim with equal left and right sides fits upside down, too.
+TEST_F(MatchingRim, IsNotTakenForOneUpsideDown) {
+  tube_.skew = 0;
+  head_ = tube_.positions()(tube_.rim(), kAllColumns);
+  for (const double degrees : {9.0, 15.0}) {
+    body_ = tube_.positions();
+    for (Index v = 0; v < body_.rows(); ++v) body_(v, 1) = -body_(v, 1);
+    // Of the directions, the wrong one fits a little better.
+    for (Index v = 0; v < body_.rows(); ++v) body_(v, 0) += 0.002 * body_(v, 2);
+    const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitY());
+    move([&](const Eigen::Vector3d& p) { return turn * p; });
+    if (degrees < 12) {
+      EXPECT_EQ(find(), tube_.rim());
+    } else {
+      expect_refused({"turned by 15 degrees"});
+    }
+  }
+}
+
 // A rotation by more than half the distance of two vertices: the nearest vertices are others.
 TEST_F(MatchingRim, KeepsItsOrderIfItIsTurnedALittle) {
   const Eigen::AngleAxisd turn(10 * std::numbers::pi / 180, Eigen::Vector3d(0.28, 0.96, 0));
@@ -180,7 +199,20 @@ TEST_F(MatchingRim, OfAnotherLengthIsRefused) {
   coarse.around = 22;
   topology_ = coarse.topology();
   body_ = coarse.positions();
-  expect_refused({"rims of 22 vertices, ", " mm off"});
+  expect_refused({"rims of 22 vertices, 0.0 mm off; 22 vertices, 120.0 mm off"});
+  // The lower end has the wanted number of vertices, but is elsewhere and larger.
+  const Tube wide{.radius = 150, .height = 40, .bottom = -400};
+  const auto first = static_cast<std::uint32_t>(body_.rows());
+  body_.conservativeResize(first + wide.positions().rows(), 3);
+  body_.bottomRows(wide.positions().rows()) = wide.positions();
+  const Topology lower = wide.topology();
+  for (Index f = 0; f < lower.face_count(); ++f) {
+    std::vector<std::uint32_t> face(lower.face(f).begin(), lower.face(f).end());
+    for (std::uint32_t& v : face) v += first;
+    topology_.add_face(face);
+  }
+  topology_.vertex_count = body_.rows();
+  expect_refused({"rims of 22 vertices, 0.0 mm off; 22 vertices, 120.0 mm off; 24 vertices, 360"});
 }
 
 TEST_F(MatchingRim, OpenTwiceIsRefused) {

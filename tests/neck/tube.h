@@ -19,6 +19,7 @@ namespace crowdface::testing {
 struct Tube {
   std::uint32_t around = 24, rows = 12;
   double radius = 60, height = 120, bottom = 0;
+  double skew = 0.05;  ///< by how much the section lacks left-right symmetry
 
   Topology topology() const {
     std::vector<std::vector<std::uint32_t>> faces;
@@ -34,7 +35,7 @@ struct Tube {
     Positions points(static_cast<Index>(around) * (rows + 1), 3);
     for (Index v = 0; v < points.rows(); ++v) {
       const double angle = 2 * std::numbers::pi * static_cast<double>(v % around) / around;
-      const double egg = radius * (1 + 0.12 * std::cos(angle) + 0.05 * std::sin(2 * angle));
+      const double egg = radius * (1 + 0.12 * std::cos(angle) + skew * std::sin(2 * angle));
       points.row(v) << egg * std::cos(angle),
           bottom + height * static_cast<double>(v / around) / rows, egg * std::sin(angle);
     }

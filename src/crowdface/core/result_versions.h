@@ -29,7 +29,7 @@ inline constexpr int kPointsVersion = 1;
 /// Joints that follow the face, and the skin weights bound to them.
 inline constexpr int kRigVersion = 1;
 /// Placement of heads and faces on a body, and bending of necks to its ring.
-inline constexpr int kNeckVersion = 3;
+inline constexpr int kNeckVersion = 4;
 /// Attachments of a face of unchanged positions.
 inline constexpr int kAttachmentsVersion = 6;
 /// Levels of detail of unchanged heads.

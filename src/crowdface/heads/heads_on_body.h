@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "crowdface/blend/recipe.h"
 #include "crowdface/core/hash.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/neck/seam.h"
@@ -20,8 +19,8 @@ struct HeadsOnBody {
   /// How a head was placed.
   struct Head {
     RigidMotion placed;  ///< from the head's file to its place on the body; scale 1
-    /// The rotation of faces of this target into the common pose of all heads, see turn_vector;
-    /// zero if the head has that pose.
+    /// The rotation of the placed head into the common pose of all heads, see turn_vector; zero if
+    /// the head has that pose.
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();
     double moved_mm = 0;        ///< rms distance by which placement and turn move the ring
     double turned_degrees = 0;  ///< angle of placement and turn together
@@ -37,13 +36,17 @@ struct HeadsOnBody {
   Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
   bool is_body(const Attachment& item) const { return body.get() == &item; }
 
-  /// The rotation about the middle of the ring that brings a face of this recipe, before it is
-  /// mirrored, into the common pose; none if its target has that pose.
-  /// \param plane  in which an asymmetric face is mirrored; not read for other faces
-  std::optional<RigidMotion> turning(const Recipe& recipe, const MirrorPlane* plane) const;
+  bool any_turned() const {
+    return std::ranges::any_of(heads, [](const Head& head) { return !head.turn.isZero(0); });
+  }
 
   Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
 };
+
+/// A rotation about a point. \param turn  see turn_vector
+inline RigidMotion turn_about(const Eigen::Vector3d& middle, const Eigen::Vector3d& turn) {
+  return nudged({}, middle, Eigen::Vector3d::Zero(), turn, 0);
+}
 
 /// Returns the mean of the heads as they are without a body.
 inline const Positions& unplaced_mean(const Inputs& inputs) {

@@ -109,7 +109,8 @@ struct Poses {
 
   /// Rotates heads in the common pose into the pose of `mesh`, which has the heads' vertices.
   Matrix3d rotation_to(const HeadSet& faces, const Rim& rim, const Positions& mesh) const {
-    return pose_part(head_rotation(mean(faces, rim, skin), mesh(skin, kAllColumns)), across);
+    return pose_part(head_motion(mean(faces, rim, skin), mesh(skin, kAllColumns)).rotation,
+                     across);
   }
 };
 
@@ -172,8 +173,7 @@ HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, 
     move_rows(placed.placed, head);
   }
   Positions after = head(rim, kAllColumns);
-  if (!placed.turn.isZero(0))
-    move_rows(nudged({}, middle, Vector3d::Zero(), placed.turn, 0), after);
+  if (!placed.turn.isZero(0)) move_rows(turn_about(middle, placed.turn), after);
   placed.moved_mm = mm * rms_length(after - before);
   placed.bent_mm = mm * (goal.body.rim - after).rowwise().norm().maxCoeff();
   return placed;
@@ -186,7 +186,7 @@ Positions turned_mean(const HeadSet& faces, const std::vector<HeadsOnBody::Head>
   for (std::size_t h = 0; h < heads.size(); ++h) {
     if (heads[h].turn.isZero(0)) continue;
     Positions turned = faces.heads[h].positions;
-    move_rows(nudged({}, middle, Vector3d::Zero(), heads[h].turn, 0), turned);
+    move_rows(turn_about(middle, heads[h].turn), turned);
     mean += (turned - faces.heads[h].positions) / static_cast<double>(heads.size());
   }
   return mean;

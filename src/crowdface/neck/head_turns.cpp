@@ -6,7 +6,6 @@
 
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/parts/rigid_motion.h"
 
 namespace crowdface {
 namespace {
@@ -36,7 +35,7 @@ Positions median(const std::vector<Positions>& heads) {
 
 }  // namespace
 
-Eigen::Matrix3d head_rotation(const Positions& from, const Positions& to) {
+RigidMotion head_motion(const Positions& from, const Positions& to) {
   constexpr int kRounds = 10;
   constexpr double kLeast = 0.1;  // of the mean distance; limits the weight of close points
   std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
@@ -55,7 +54,7 @@ Eigen::Matrix3d head_rotation(const Positions& from, const Positions& to) {
     if (!(least > 0)) break;
     for (double& weight : weights) weight = 1 / std::max(weight, least);
   }
-  return motion.rotation;
+  return motion;
 }
 
 Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across) {
@@ -84,7 +83,7 @@ std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& h
     const Positions middle = median(placed);
     const std::vector<Eigen::Matrix3d> before = rotations;
     for (std::size_t h = 0; h < heads.size(); ++h) {
-      rotations[h] = pose_part(head_rotation(heads[h], middle), across);
+      rotations[h] = pose_part(head_motion(heads[h], middle).rotation, across);
     }
     if (rotations == before) break;
   }

@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
+#include "crowdface/parts/rigid_motion.h"
 
 namespace crowdface {
 
-/// The rotation that brings points of a head closest to the same points of another head. It
+/// The motion, of scale 1, that brings points of a head closest to the same points of another head. It
 /// minimises the sum of the distances, not of their squares, so that a long chin or a large nose
 /// hardly rotates a head (iteratively reweighted least squares).
 /// \param from, to  #points by 3; at least three points that are not collinear
-Eigen::Matrix3d head_rotation(const Positions& from, const Positions& to);
+RigidMotion head_motion(const Positions& from, const Positions& to);
 
 /// The part of a rotation that is a difference in pose. Heads in one pose differ by less: by up to 6
 /// degrees about the axis through the ears, because faces are more or less inclined, and by up to 2

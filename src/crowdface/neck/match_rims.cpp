@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "crowdface/core/error.h"
@@ -101,12 +102,12 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
                      double reach_mm) {
   const Positions from = centred(head), to = centred(body);
   const double radius = root_mean_square(from), found = root_mean_square(to);
-  if (!(found < kMaxScale * radius && radius < kMaxScale * found)) {
-    return concat("is ", format_fixed(found / radius, 2), " times as large: its radius is ",
-                  mm_text(found), ", that of the heads' rim ", mm_text(radius),
-                  " (scaled, or in another unit?)");
-  }
   const double off = (centroid(body) - centroid(head)).norm();
+  if (!(found < kMaxScale * radius && radius < kMaxScale * found)) {
+    return concat("is ", format_fixed(found / radius, 2), " times as large and ", mm_text(off),
+                  " off: its radius is ", mm_text(found), ", that of the heads' rim ",
+                  mm_text(radius), " (scaled, in another unit, or at another end of the body?)");
+  }
   if (off > reach_mm) return concat("lies elsewhere, ", mm_text(off), " off the heads' rim");
   if (fit.degrees > kMaxTurnDegrees) {
     return concat("is turned by ", format_fixed(fit.degrees, 0), " degrees, ",
@@ -120,6 +121,33 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
   }
   return concat("has another form: its vertices lie ", mm_text(fit.left),
                 " (rms) off those of the heads' rim");
+}
+
+/// The order that fits best after a rotation.
+/// \param orders  of both directions, one direction after the other
+const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
+  // A rim with equal left and right sides also fits upside down, in the other direction.
+  constexpr double kAlike = 1.2;
+  const std::span all(orders);
+  const auto left = [](const OrderedRim& one) { return one.fit.left; };
+  const OrderedRim* best = &*std::ranges::min_element(all.first(of_one_direction), {}, left);
+  if (all.size() == of_one_direction) return *best;
+  const OrderedRim* other = &*std::ranges::min_element(all.subspan(of_one_direction), {}, left);
+  if (other->fit.left < best->fit.left) std::swap(best, other);
+  const bool alike = other->fit.left <= kAlike * best->fit.left + kRoundingMm;
+  return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
+}
+
+/// The lengths and distances of the nearest rims. \param rims  nearest first
+std::string list_of(const std::vector<RimMatch>& rims) {
+  constexpr std::size_t kNamed = 6;
+  std::vector<std::string> named;
+  for (const RimMatch& one : rims) {
+    if (named.size() == kNamed) break;
+    named.push_back(concat(one.rim.size(), " vertices, ", mm_text(one.off_mm), " off"));
+  }
+  const std::size_t more = rims.size() - named.size();
+  return join(named, "; ") + (more > 0 ? concat("; and ", more, " more") : "");
 }
 
 }  // namespace
@@ -164,8 +192,7 @@ RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body
     }
   }
   const OrderedRim* best = &*std::ranges::min_element(orders, {}, &OrderedRim::square_sum);
-  const OrderedRim& turned =
-      *std::ranges::min_element(orders, {}, [](const OrderedRim& one) { return one.fit.left; });
+  const OrderedRim& turned = best_turned(orders, is_free ? rim.size() : 1);
   if (turned.fit.left < kMuchBetter * best->fit.left - kRoundingMm) best = &turned;
   RimMatch match;
   match.rim = best->order;
@@ -178,40 +205,29 @@ RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body
 Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
                  double reach_mm, RimOrder order) {
   const auto count = static_cast<std::size_t>(head.rows());
-  std::vector<RimMatch> matches;
-  std::vector<std::string> others;
+  std::vector<RimMatch> found, fitting;
   for (const Rim& rim : rims) {
     if (rim.size() == count) {
-      matches.push_back(match_rims(head, rim, body, reach_mm, order));
-      continue;
+      found.push_back(match_rims(head, rim, body, reach_mm, order));
+      if (found.back().fault.empty()) fitting.push_back(found.back());
+    } else {
+      const Positions points = body(rim, kAllColumns);
+      found.push_back({rim, (centroid(points) - centroid(head)).norm(), {}});
     }
-    const Positions points = body(rim, kAllColumns);
-    others.push_back(concat(rim.size(), " vertices, ",
-                            mm_text((centroid(points) - centroid(head)).norm()), " off"));
   }
+  if (fitting.size() == 1) return fitting.front().rim;
   const std::string expected =
       concat("expected an open rim of ", count, " vertices where the heads' neck ends, found ");
-  if (matches.empty()) {
-    constexpr std::size_t kNamed = 6;
-    const std::size_t more = others.size() - std::min(others.size(), kNamed);
-    others.resize(others.size() - more);
-    throw InvalidInput(
-        concat(expected, others.empty() ? "none"
-                                        : concat("rims of ", join(others, "; "),
-                                                 more > 0 ? concat("; and ", more, " more") : "")));
+  if (found.empty()) throw InvalidInput(expected + "none");
+  for (auto* matches : {&found, &fitting}) std::ranges::sort(*matches, {}, &RimMatch::off_mm);
+  if (fitting.size() > 1) {
+    throw InvalidInput(concat(expected, fitting.size(), " that fit, ", mm_text(fitting[0].off_mm),
+                              " and ", mm_text(fitting[1].off_mm), " off"));
   }
-  std::ranges::sort(matches, {}, &RimMatch::off_mm);
-  const auto fitting =
-      std::ranges::count_if(matches, [](const RimMatch& match) { return match.fault.empty(); });
-  if (fitting == 0) {
-    throw InvalidInput(concat(expected, "one that ", matches.front().fault));
+  if (!found.front().fault.empty()) {
+    throw InvalidInput(concat(expected, "one that ", found.front().fault));
   }
-  std::erase_if(matches, [](const RimMatch& match) { return !match.fault.empty(); });
-  if (fitting > 1) {
-    throw InvalidInput(concat(expected, fitting, " that fit, ", mm_text(matches[0].off_mm), " and ",
-                              mm_text(matches[1].off_mm), " off"));
-  }
-  return matches.front().rim;
+  throw InvalidInput(concat(expected, "rims of ", list_of(found)));
 }
 
 }  // namespace crowdface

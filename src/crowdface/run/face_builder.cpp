@@ -61,6 +61,8 @@ void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) 
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
     }
   }
+  turns_.reset();
+  if (inputs_.neck && inputs_.neck->any_turned()) turns_.emplace(inputs_, prepared_, regions);
   if (config.smoothing.levels != Levels::kExact) {
     blender_.emplace(inputs_.faces, head_levels(config, prepared_), prepared_.patches.patches,
                      regions_);
@@ -112,8 +114,8 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
 }
 
 std::optional<RigidMotion> FaceBuilder::turning(const Recipe& recipe) const {
-  if (!inputs_.neck) return std::nullopt;
-  return inputs_.neck->turning(recipe, recipe.asymmetry == 1 ? nullptr : &mirror().plane);
+  if (!turns_) return std::nullopt;
+  return turns_->of(recipe, is_unmirrored(recipe) ? nullptr : &mirror().plane);
 }
 
 std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {

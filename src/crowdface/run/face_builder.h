@@ -8,6 +8,7 @@
 
 #include "crowdface/blend/crowd_blender.h"
 #include "crowdface/config/config.h"
+#include "crowdface/heads/face_turns.h"
 #include "crowdface/heads/prepare.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/rigid_motion.h"
@@ -53,8 +54,8 @@ class FaceBuilder {
   /// is mirrored. \param face  #V by 3; only contact_vertices() need positions
   void correct_contacts(const Recipe& recipe, Positions& face) const;
 
-  /// The rotation of a finished face, before it is mirrored, onto a body (config section `neck`);
-  /// none if it needs none.
+  /// The motion of a finished face, before it is mirrored, onto a body (config section `neck`); none
+  /// if it needs none.
   std::optional<RigidMotion> turning(const Recipe& recipe) const;
 
   /// Defects in the skin of a face built from this recipe, compared with its target head.
@@ -85,6 +86,7 @@ class FaceBuilder {
   /// The masks for blending; see regions().
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;             ///< empty with `levels: exact`
+  std::optional<FaceTurns> turns_;                  ///< empty if all heads have one pose
   std::optional<SkinContacts> contacts_;            ///< always set after construction
   std::vector<std::vector<double>> contact_masks_;  ///< #contacts by #regions; rows sum to one
   bool keeps_contacts_;

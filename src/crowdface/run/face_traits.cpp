@@ -142,7 +142,7 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
     face.row(samples_[s]) = at.row(static_cast<Index>(s));
   }
   builder_.correct_contacts(plain, face);
-  if (const auto turn = neck == Neck::kBent ? builder_.turning(plain) : std::nullopt) {
+  if (const auto turn = neck == Neck::kBent ? builder_.turning(recipe) : std::nullopt) {
     for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
   }
   if (recipe.mirrored) mirror_wanted(face);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/heads/face_turns.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "crowdface/core/contains.h"
+#include "crowdface/core/selection.h"
+#include "crowdface/mesh/mirror_map.h"
+#include "crowdface/mesh/vector3.h"
+#include "crowdface/neck/head_turns.h"
+
+namespace crowdface {
+namespace {
+
+/// The columns of samples that the bend does not move, or of all samples if it moves most.
+std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
+  constexpr std::size_t kPoints = 500, kFewest = 100;
+  std::vector<Index> all(samples.size()), above;
+  std::iota(all.begin(), all.end(), Index{0});
+  for (const Index s : all) {
+    const std::uint32_t v = samples[static_cast<std::size_t>(s)];
+    if (!std::ranges::binary_search(seam.neck.vertices(), v) && !contains(seam.rim, v)) {
+      above.push_back(s);
+    }
+  }
+  return evenly_spaced_items(above.size() < kFewest ? all : above, kPoints);
+}
+
+SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
+                         const RegionWeights& regions) {
+  const std::vector<Index> columns = columns_above(inputs.neck->seam, prepared.samples);
+  FaceSamples samples;
+  for (const Index s : columns) samples.push_back(prepared.samples[static_cast<std::size_t>(s)]);
+  std::vector<Trajectory> own;
+  for (const Trajectory& from : prepared.trajectories) {
+    Trajectory& to = own.emplace_back(from.rows(), 3 * static_cast<Index>(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      to.middleCols<3>(3 * static_cast<Index>(i)) = from.middleCols<3>(3 * columns[i]);
+    }
+  }
+  SampledHeads heads = sample_heads(inputs.faces, regions, samples, own, inputs.max_level, 1);
+  heads.own = std::move(own);
+  heads.trajectories = heads.own;
+  return heads;
+}
+
+/// Turns heads about the middle of the ring into the common pose. Smoothing commutes with rotations.
+void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
+  for (std::size_t h = 0; h < heads.heads.size(); ++h) {
+    if (neck.heads[h].turn.isZero(0)) continue;
+    const Positions before = heads.heads[h];
+    const RigidMotion motion = turn_about(neck.middle, neck.heads[h].turn);
+    move_rows(motion, heads.heads[h]);
+    heads.mean += (heads.heads[h] - before) / static_cast<double>(heads.heads.size());
+    Trajectory& moves = heads.own[h];
+    for (Index l = 0; l < moves.rows(); ++l) {
+      for (Index i = 0; i < moves.cols(); i += 3) {
+        const Eigen::Vector3d by = moves.block<1, 3>(l, i).transpose().cast<double>();
+        moves.block<1, 3>(l, i) = motion.turn(by).transpose().cast<float>();
+      }
+    }
+  }
+}
+
+Eigen::Matrix3d product(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  Eigen::Matrix3d result;
+  for (Index c = 0; c < 3; ++c) result.col(c) = apply3(a, b.col(c));
+  return result;
+}
+
+/// x ↦ a(b(x)). Scales are 1 here and below.
+RigidMotion after(const RigidMotion& a, const RigidMotion& b) {
+  return {.rotation = product(a.rotation, b.rotation), .from = b.from, .to = a.apply(b.to)};
+}
+
+/// The motion of mirrored things that mirrors how a motion moves the things.
+RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
+  const MirrorPlane directions{plane.normal, 0};
+  Eigen::Matrix3d rotation;
+  for (Index c = 0; c < 3; ++c) {
+    const Eigen::Vector3d moved = apply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
+    rotation.col(c) = directions.image(moved);
+  }
+  return {.rotation = rotation, .from = plane.image(motion.from), .to = plane.image(motion.to)};
+}
+
+/// The motion between two others.
+RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
+                    const Eigen::Vector3d& pivot) {
+  const auto mixed = [&](const Eigen::Vector3d& of_a, const Eigen::Vector3d& of_b) {
+    return Eigen::Vector3d(of_a + w * (of_b - of_a));
+  };
+  return nudged({}, pivot, mixed(a.apply(pivot), b.apply(pivot)) - pivot,
+                mixed(turn_vector(a.rotation), turn_vector(b.rotation)), 0);
+}
+
+}  // namespace
+
+FaceTurns::FaceTurns(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions)
+    : neck_(*inputs.neck), placed_(heads_above(inputs, prepared, regions)), turned_(placed_) {
+  turned_.trajectories = turned_.own;
+  turn_heads(neck_, turned_);
+}
+
+std::optional<RigidMotion> FaceTurns::of(const Recipe& recipe, const MirrorPlane* plane) const {
+  const bool is_turned = has_turned_head(recipe);
+  if (!is_turned && is_unmirrored(recipe)) return std::nullopt;
+  Recipe plain = recipe;
+  plain.asymmetry = 1;
+  plain.mirrored = false;
+  RigidMotion motion;
+  if (is_turned) motion = head_motion(sample_face(placed_, plain), sample_face(turned_, plain));
+  if (is_unmirrored(recipe)) return motion;
+  // `plane` is that of the mean of all heads, which has their mean pose. Mirror images have to be
+  // those in the plane of the common pose.
+  const RigidMotion mean = head_motion(placed_.mean, turned_.mean), back = inverse(mean);
+  if (recipe.asymmetry != 1) {
+    const RigidMotion of_image = after(mean, image_of(after(back, motion), *plane));
+    motion = between(motion, of_image, mirror_share(recipe.asymmetry, false), neck_.middle);
+  }
+  return recipe.mirrored ? after(image_of(mean, *plane), after(back, motion)) : motion;
+}
+
+bool FaceTurns::has_turned_head(const Recipe& recipe) const {
+  const auto is_turned = [&](const SourceWeight& part) {
+    return !neck_.heads[static_cast<std::size_t>(part.head)].turn.isZero(0);
+  };
+  if (std::ranges::any_of(target_shares(recipe), is_turned)) return true;
+  for (const RegionRecipe& region : recipe.regions) {
+    for (std::size_t b = 0; b < band_count(region); ++b) {
+      if (std::ranges::any_of(band_of(region, b).weights, is_turned)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace crowdface

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/heads/heads_on_body.h"
+#include "crowdface/heads/prepare.h"
+
+namespace crowdface {
+
+/// The poses of faces on a body (config section `neck`), if some heads have another pose than the
+/// others. A face has its target's pose only in part: the detail of its sources keeps their poses,
+/// and more so the more the target is smoothed.
+class FaceTurns {
+ public:
+  /// \param inputs  must outlive this object; its heads are placed on a body
+  FaceTurns(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions);
+  FaceTurns(const FaceTurns&) = delete;
+  FaceTurns& operator=(const FaceTurns&) = delete;
+
+  /// The motion that brings a face of this recipe, before it is mirrored, closest to the face that
+  /// its heads would give in the common pose of all heads; none if nothing moves it.
+  /// \param plane  in which faces are mirrored; read only for a mirrored or asymmetric face
+  std::optional<RigidMotion> of(const Recipe& recipe, const MirrorPlane* plane) const;
+
+ private:
+  bool has_turned_head(const Recipe& recipe) const;
+
+  const HeadsOnBody& neck_;
+  SampledHeads placed_, turned_;  ///< above the bend, in file units: as placed, in the common pose
+};
+
+}  // namespace crowdface
