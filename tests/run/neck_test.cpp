@@ -160,8 +160,8 @@ TEST_F(Neck, TheBendIsSmootherThanTheHeads) {
     smooth += change_at_end(inputs, head.positions, bent) / kHeads;
     for (const std::uint32_t v : distances.reached()) {
       const std::uint32_t from = rim_[distances.source(v)];
-      creased.row(v) += (1 - distances.distance(v) / kFalloff) *
-                        (bent.row(from) - head.positions.row(from));
+      creased.row(v) +=
+          (1 - distances.distance(v) / kFalloff) * (bent.row(from) - head.positions.row(from));
     }
     linear += change_at_end(inputs, head.positions, creased) / kHeads;
   }

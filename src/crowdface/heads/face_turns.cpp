@@ -80,7 +80,8 @@ RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
   const MirrorPlane directions{plane.normal, 0};
   Eigen::Matrix3d rotation;
   for (Index c = 0; c < 3; ++c) {
-    const Eigen::Vector3d moved = apply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
+    const Eigen::Vector3d moved =
+        apply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
     rotation.col(c) = directions.image(moved);
   }
   return {.rotation = rotation, .from = plane.image(motion.from), .to = plane.image(motion.to)};

@@ -109,8 +109,7 @@ struct Poses {
 
   /// Rotates heads in the common pose into the pose of `mesh`, which has the heads' vertices.
   Matrix3d rotation_to(const HeadSet& faces, const Rim& rim, const Positions& mesh) const {
-    return pose_part(head_motion(mean(faces, rim, skin), mesh(skin, kAllColumns)).rotation,
-                     across);
+    return pose_part(head_motion(mean(faces, rim, skin), mesh(skin, kAllColumns)).rotation, across);
   }
 };
 
