@@ -19,17 +19,17 @@ using Eigen::Vector3d;
 constexpr std::size_t kPoints = 9;
 using Section = std::array<Vector2d, kPoints>;
 
-const Section kSide = {{{5.5, 0},
-                        {5.9, -1.0},
-                        {7.4, -2.6},
+const Section kSide = {{{6.0, 0},
+                        {6.6, -1.0},
+                        {8.1, -2.6},
                         {12.4, -4.0},
                         {17.6, -5.0},
                         {20.6, -7.6},
                         {21.3, -12.5},
                         {20.9, -19.5},
                         {19.8, -28.0}}};
-const Section kFront = {{{5.5, 0},
-                         {5.6, -1.2},
+const Section kFront = {{{5.7, 0},
+                         {5.8, -1.2},
                          {6.1, -2.6},
                          {8.4, -5.0},
                          {11.0, -8.5},

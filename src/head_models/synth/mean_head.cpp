@@ -22,7 +22,7 @@ GuideRay eye_edge(const Vector2d& c) {
   // slightly above the inner one.
   const double s = c.y() * (0.72 + 0.28 * c.y() * c.y());
   const double x = 1.52 * c.x() - 0.1 * s;
-  const double y = (c.y() > 0 ? 0.62 : 0.48) * s + 0.07 * c.x() - 0.03;
+  const double y = (c.y() > 0 ? 0.53 : 0.47) * s + 0.07 * c.x() - 0.03;
   const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
   // The ray is almost parallel to z, because at the corners the skin lies in front of the eyeball.
   return {eye_centre() + 0.95 * Vector3d(x, y, 0), eye_centre() + Vector3d(x, y, z + 0.12)};

@@ -83,9 +83,13 @@ double neck(const Vector3d& p) {
   // vertical, its front slopes down and back from the chin.
   const double down = std::max(0.0, -10 - p.y());
   const double z = p.z() + 2.3 + 0.1 * (-10 - p.y());
-  const double wide = 4.9 + 0.03 * down * down, deep = 5.15 + 0.014 * down * down;
+  const double wide = 4.9 + 0.04 * down * down, deep = 5.15 + 0.014 * down * down;
   const double r = std::sqrt(p.x() * p.x() / (wide * wide) + z * z / (deep * deep));
-  return -melt((1 - r) * std::min(wide, deep), -(p.y() + 2.5), 3.5);
+  double d = -melt((1 - r) * std::min(wide, deep), -(p.y() + 2.5), 3.5);
+  // The sternocleidomastoid, from behind the ear to the breastbone below the end of the neck.
+  d = melt(d, rod(p, {4.7, -6.5, -1.6}, {1.6, -18.0, 2.0}, 0.8, 0.7), 1.6);
+  // The larynx.
+  return melt(d, rod(p, {0, -12.4, 2.9}, {0, -14.2, 2.6}, 0.5, 0.6), 1.2);
 }
 
 }  // namespace
