@@ -16,6 +16,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/editor/recipe_json.h"
 #include "crowdface/editor/region_painting.h"
+#include "crowdface/heads/named_parts.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
 #include "head_models/synth/synthetic_head.h"
@@ -250,6 +251,35 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   const FaceMeasures without_mesh = editor.session->measure(wild);
   EXPECT_EQ(without_mesh.head_mm, whole.head_mm);
   EXPECT_THAT(without_mesh.warnings, ::testing::Contains(::testing::HasSubstr("than the limit, ")));
+}
+
+TEST(EditSession, TellsFaultsOfTheWholeMesh) {
+  const Editor editor("basis");
+  Json json = some_recipe();
+  for (auto& [name, region] : json["regions"].items()) {
+    region = {{"weights", {{"head_1", 1}}}, {"smoothness", 0.5}, {"extrapolation", 1}};
+  }
+  const Recipe head = editor.face(json).recipe;
+  const Positions plain = editor.session->build(head);
+  EXPECT_THAT(editor.session->mesh_faults(head, plain), ::testing::IsEmpty());
+
+  // Teeth that come forward through the lips.
+  const Inputs& inputs = editor.session->job().inputs;
+  Positions pushed = plain;
+  for (const Part& part : inputs.parts.parts) {
+    if (part.eyeball) continue;
+    for (const std::uint32_t v : part.vertices) pushed(v, 2) += 1.5;
+  }
+  EXPECT_THAT(editor.session->mesh_faults(head, pushed),
+              ::testing::ElementsAre("gums, teeth or other parts stand out of the skin"));
+
+  // Skin whose upper half is turned inside out.
+  Positions crossed = plain;
+  for (const std::uint32_t v : skin_vertices(inputs)) {
+    if (plain(v, 1) > 0) crossed(v, 2) = -plain(v, 2);
+  }
+  EXPECT_THAT(editor.session->mesh_faults(head, crossed),
+              ::testing::Contains(::testing::HasSubstr("turned over")));
 }
 
 TEST(EditSession, DrawsAnewButForWhatIsLocked) {

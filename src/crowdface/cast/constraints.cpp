@@ -43,7 +43,7 @@ constexpr std::array<Constraint, kReasonCount> kConstraints = {{
     {Reason::kGap, "believability", "max_gap", nullptr, &Believability::max_gap_mm, " mm",
      "lips, or other skin that nearly touches, part by more than", kShape},
     {Reason::kExposed, "believability", "max_exposed", nullptr, &Believability::max_exposed_mm2,
-     " mm²", "skin that passes through other skin shows more of its back than", kShape},
+     " mm²", "the lining of nose, lips or lids shows through the skin by more than", kShape},
     {.reason = Reason::kFamily, .section = "", .key = "family", .advice = kFamilies},
     {.reason = Reason::kRejected,
      .section = "diversity",

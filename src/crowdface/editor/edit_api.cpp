@@ -47,6 +47,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/face", &EditApi::face},
                                             {"POST", "api/skin", &EditApi::skin},
                                             {"POST", "api/measures", &EditApi::measures},
+                                            {"POST", "api/faults", &EditApi::faults},
                                             {"POST", "api/draw", &EditApi::draw},
                                             {"POST", "api/steer", &EditApi::steer},
                                             {"GET", "api/faces/", &EditApi::face_picture},
@@ -234,6 +235,18 @@ std::string EditApi::opened_in(const Json& body) {
 HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
   const Json body = body_of(request);
   return json_answer(told(session_.measure(face_of(body), opened_in(body))));
+}
+
+/// What is wrong with the whole mesh of a face: {"faults": sentences}.
+HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
+  const FacePlan face = face_of(body_of(request));
+  Positions positions;
+  {
+    const std::lock_guard lock(building_);
+    painting_.apply();
+    positions = session_.build(face.recipe);
+  }
+  return json_answer({{"faults", session_.mesh_faults(face.recipe, positions)}});
 }
 
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {

@@ -106,6 +106,7 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       crowd_(crowd_of_job(job_)),
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
       builder_(job_.config, job_.inputs, prepared_),
+      faults_(job_, builder_),
       judging_(std::async(std::launch::async, [this] { return judging(); }).share()),
       casting_(casting_options(job_.config, job_.inputs,
                                job_.config.plane.layout == Layout::kSimilarity

@@ -14,6 +14,7 @@
 #include "crowdface/cast/face_judge.h"
 #include "crowdface/cast/face_point_index.h"
 #include "crowdface/editor/draw_faces.h"
+#include "crowdface/editor/mesh_faults.h"
 #include "crowdface/editor/texture_atlas.h"
 #include "crowdface/heads/cache_folder.h"
 #include "crowdface/mesh/normals.h"
@@ -92,6 +93,10 @@ class EditSession {
   /// \param face  result of `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened = "") const;
+  /// See MeshFaults. \param face  result of `build`
+  std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
+    return faults_.of(recipe, face);
+  }
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
   /// The face with weights at which a measurement comes as near to a value as the heads allow; see steer_trait.
@@ -133,6 +138,7 @@ class EditSession {
   Prepared prepared_;
   std::optional<Prepared> fitted_;  ///< set for `levels: exact`: fields for the preview only
   FaceBuilder builder_;
+  MeshFaults faults_;
   mutable std::mutex kept_mutex_;
   mutable FaceBuilder::Kept kept_;
   std::shared_future<Judging> judging_;

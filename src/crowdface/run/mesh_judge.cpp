@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/run/mesh_judge.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
 #include "crowdface/heads/named_parts.h"
+#include "crowdface/pictures/surfaces.h"
 
 namespace crowdface {
 namespace {
@@ -35,6 +38,23 @@ bool skin_is_judged(const Config& config, const Inputs& inputs) {
 
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets) {
   return {inputs.faces.topology, inputs.skin, inputs.faces.heads, targets, viewing_of(config)};
+}
+
+PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) {
+  const std::vector<SurfaceKind> kinds = surfaces_of(config, inputs).kinds;
+  std::set<std::uint32_t> seen;  // components with a polygon that pictures show
+  for (std::size_t f = 0; f < kinds.size(); ++f) {
+    if (kinds[f] == SurfaceKind::kHidden) continue;
+    seen.insert(inputs.skin.of_vertex[inputs.faces.topology.face(static_cast<Index>(f))[0]]);
+  }
+  std::vector<std::uint32_t> components;
+  for (const Part& part : inputs.parts.parts) {
+    if (part.eyeball) continue;
+    std::ranges::copy_if(part.components, std::back_inserter(components),
+                         [&](std::uint32_t of) { return kinds.empty() || seen.contains(of); });
+  }
+  return {inputs.faces.topology, inputs.skin, components, mean_head(inputs.faces),
+          viewing_of(config)};
 }
 
 bool candidates_are_built(const Config& config) {

@@ -9,6 +9,7 @@
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_files.h"
+#include "crowdface/validity/parts_through_skin.h"
 
 namespace crowdface {
 
@@ -17,6 +18,9 @@ bool skin_is_judged(const Config& config, const Inputs& inputs);
 
 /// Compares whole meshes with their target heads.
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
+
+/// Measures how much of gums, teeth and other parts stands out of the skin; eyeballs are left out.
+PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs);
 
 /// Whether casting builds candidates and judges their whole meshes.
 bool candidates_are_built(const Config& config);

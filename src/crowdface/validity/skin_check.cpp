@@ -11,6 +11,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/validity/visible_share.h"
 
 namespace crowdface {
 namespace {
@@ -20,10 +21,9 @@ const Head& first_of(const std::vector<Head>& heads) {
   return heads.front();
 }
 
-/// Margin of the bounding boxes, so that no ray misses a box through rounding.
-double margin_of(const Positions& positions) {
-  return 1e-5 * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
-}
+/// A view of a back side counts only if the cosine between the direction to the viewer and the
+/// normal of the back side exceeds this; at smaller cosines little is visible.
+constexpr double kFlattestCosine = 0.2;
 
 /// Orients the skin's triangles so that their normals point outwards: flips all if the enclosed
 /// volume is negative.
@@ -40,26 +40,8 @@ std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& 
   return triangles;
 }
 
-/// A view of a back side counts only if the cosine between the direction to the viewer and the
-/// normal of the back side exceeds this; at smaller cosines little is visible.
-constexpr double kFlattestCosine = 0.2;
-/// kSpacingMm: spacing of the visibility samples on a triangle. kMaxAlongEdge: largest
-/// number of samples along an edge.
-constexpr double kSpacingMm = 1;
-constexpr int kMaxAlongEdge = 8;
-
-int points_along_edge(const Corners& at, double mm_per_unit) {
-  const double longest =
-      std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
-  return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMaxAlongEdge);
-}
-
-/// The fraction of a triangle whose back side is visible to any viewer, sampled at the centroids of
-/// n² equal subtriangles.
-/// \param in_the_way  #directions: the last occluder found for each viewer, tested first for the
-///                    next ray.
-double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
-                     const ViewSetup& view_setup, std::span<std::uint32_t> in_the_way) {
+/// The viewers who see the back of a triangle at an angle that is not too flat.
+std::vector<std::size_t> viewers_behind(const Corners& at, const ViewSetup& view_setup) {
   const Eigen::Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
   std::vector<std::size_t> behind;
   for (std::size_t i = 0; i < view_setup.directions.size(); ++i) {
@@ -68,25 +50,7 @@ double exposed_share(const TriangleScene& scene, const Corners& at, std::uint32_
       behind.push_back(i);
     }
   }
-  if (behind.empty()) return 0;
-  const int n = points_along_edge(at, view_setup.mm_per_unit);
-  int shown = 0;
-  const auto look_at = [&](int thirds_b, int thirds_c) {
-    const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
-    const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
-    shown += std::ranges::any_of(behind, [&](std::size_t viewer) {
-      std::uint32_t& other = in_the_way[viewer];
-      other = scene.intersected_by(point, view_setup.directions[viewer], triangle, other);
-      return other == kNoIndex;
-    });
-  };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; i + j < n; ++j) {
-      look_at(3 * i + 1, 3 * j + 1);
-      if (i + j < n - 1) look_at(3 * i + 2, 3 * j + 2);
-    }
-  }
-  return static_cast<double>(shown) / (n * n);
+  return behind;
 }
 
 /// Returns the area of a skin's back side that is visible, in the positions' unit squared. The back
@@ -118,8 +82,9 @@ double exposed_back(const TriangleScene& scene, const std::vector<Triangle>& tri
   while (!waiting.empty()) {
     const std::uint32_t t = waiting.back();
     waiting.pop_back();
-    const double share =
-        exposed_share(scene, corners_of(positions, triangles[t]), t, view_setup, in_the_way);
+    const Corners at = corners_of(positions, triangles[t]);
+    const double share = visible_share(scene, at, t, view_setup.mm_per_unit, view_setup.directions,
+                                       viewers_behind(at, view_setup), in_the_way);
     if (share == 0) continue;
     exposed += 0.5 * share * area_vector(positions, triangles[t]).norm();
     look_around(t);
@@ -136,7 +101,7 @@ struct Crossing {
 Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree& tree,
                      const Positions& positions, const VertexFaces& around,
                      const ViewSetup& view_setup) {
-  const TriangleScene scene(triangles, tree, positions, margin_of(positions));
+  const TriangleScene scene(triangles, tree, positions, ray_margin(positions));
   std::vector<TrianglePair> pairs = scene.crossing_pairs();
   const double exposed = exposed_back(scene, triangles, positions, around, pairs, view_setup);
   return {std::move(pairs), exposed};

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/editor/mesh_faults.h"
+
+#include "crowdface/cast/face_judge.h"
+#include "crowdface/run/mesh_judge.h"
+
+namespace crowdface {
+
+std::shared_ptr<const MeshFaults::Target> MeshFaults::target(Index head) const {
+  const std::lock_guard lock(mutex_);
+  if (!parts_) parts_.emplace(parts_through_skin(job_.config, job_.inputs));
+  std::shared_ptr<const Target>& target = targets_[head];
+  if (!target) {
+    const Positions& positions = job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions;
+    target = std::make_shared<const Target>(
+        Target{skin_check(job_.config, job_.inputs, {head}), parts_->exposed_mm2(positions)});
+  }
+  return target;
+}
+
+std::vector<std::string> MeshFaults::of(const Recipe& recipe, const Positions& face) const {
+  if (!skin_is_judged(job_.config, job_.inputs)) return {};
+  const BelievabilityOptions& limits = job_.config.believability;
+  const std::shared_ptr<const Target> target = this->target(recipe.target);
+  const SkinDefects defects = builder_.defects(target->skin, recipe, face);
+  std::vector<std::string> faults;
+  if (parts_->exposed_mm2(face) - target->parts_mm2 > limits.max_exposed_mm2) {
+    faults.emplace_back("gums, teeth or other parts stand out of the skin");
+  }
+  if (defects.exposed_mm2 > limits.max_exposed_mm2) {
+    faults.push_back(describe_broken(Reason::kExposed, job_.config.diversity, limits));
+  }
+  const auto why = limit_passed(limits, defects);
+  if (why && *why != Reason::kExposed) {
+    faults.push_back(describe_broken(*why, job_.config.diversity, limits));
+  }
+  return faults;
+}
+
+}  // namespace crowdface

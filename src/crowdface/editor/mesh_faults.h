@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowdface/run/face_builder.h"
+#include "crowdface/run/pipeline.h"
+#include "crowdface/validity/parts_through_skin.h"
+
+namespace crowdface {
+
+/// Judges whole meshes of faces, as `generate` does after it has built them. Thread-safe.
+class MeshFaults {
+ public:
+  /// \param job, builder  must outlive this object.
+  MeshFaults(const Job& job, const FaceBuilder& builder) : job_(job), builder_(builder) {}
+
+  /// One sentence for each fault that is visible on the mesh: gums or lining that stand out of the
+  /// skin, and limits of believability. Nothing if the config, or the size of the meshes, excludes
+  /// judging. Takes some tenths of a second.
+  /// \param face  built from this recipe, #V by 3.
+  std::vector<std::string> of(const Recipe& recipe, const Positions& face) const;
+
+ private:
+  /// What faces on one target are compared with.
+  struct Target {
+    SkinCheck skin;
+    double parts_mm2;  ///< area of its parts that stands out of the skin
+  };
+  std::shared_ptr<const Target> target(Index head) const;
+
+  const Job& job_;
+  const FaceBuilder& builder_;
+  mutable std::mutex mutex_;
+  mutable std::optional<const PartsThroughSkin> parts_;
+  mutable std::map<Index, std::shared_ptr<const Target>> targets_;
+};
+
+}  // namespace crowdface

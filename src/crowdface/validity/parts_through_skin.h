@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowdface/validity/skin_check.h"
+#include "crowdface/validity/triangle_tree.h"
+
+namespace crowdface {
+
+/// Measures how much of the parts behind the skin, such as gums and teeth, stands out of it. Const
+/// methods are thread-safe.
+class PartsThroughSkin {
+ public:
+  /// \param parts  components that are behind the skin
+  /// \param mean   a typical head, #V by 3
+  PartsThroughSkin(const Topology& topology, const Components& components,
+                   std::span<const std::uint32_t> parts, const Positions& mean,
+                   ViewSetup view_setup);
+
+  /// Returns the area of the parts' triangles that pass through the skin and are visible, in mm².
+  double exposed_mm2(const Positions& positions) const;
+
+ private:
+  std::vector<Triangle> triangles_;  ///< the skin's, then the parts'
+  std::uint32_t skin_count_ = 0;     ///< triangles of the skin
+  TriangleTree tree_;
+  ViewSetup view_setup_;
+};
+
+}  // namespace crowdface

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/validity/visible_share.h"
+
+#include <algorithm>
+
+namespace crowdface {
+namespace {
+
+/// kSpacingMm: spacing of the visibility samples on a triangle. kMaxAlongEdge: largest
+/// number of samples along an edge.
+constexpr double kSpacingMm = 1;
+constexpr int kMaxAlongEdge = 8;
+
+int points_along_edge(const Corners& at, double mm_per_unit) {
+  const double longest =
+      std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
+  return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMaxAlongEdge);
+}
+
+}  // namespace
+
+double ray_margin(const Positions& positions) {
+  return 1e-5 * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
+}
+
+double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
+                     double mm_per_unit, std::span<const Eigen::Vector3d> directions,
+                     std::span<const std::size_t> viewers, std::span<std::uint32_t> in_the_way) {
+  if (viewers.empty()) return 0;
+  const int n = points_along_edge(at, mm_per_unit);
+  int shown = 0;
+  const auto look_at = [&](int thirds_b, int thirds_c) {
+    const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
+    const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
+    shown += std::ranges::any_of(viewers, [&](std::size_t viewer) {
+      std::uint32_t& other = in_the_way[viewer];
+      other = scene.intersected_by(point, directions[viewer], triangle, other);
+      return other == kNoIndex;
+    });
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      look_at(3 * i + 1, 3 * j + 1);
+      if (i + j < n - 1) look_at(3 * i + 2, 3 * j + 2);
+    }
+  }
+  return static_cast<double>(shown) / (n * n);
+}
+
+}  // namespace crowdface
