@@ -3,7 +3,7 @@
 // is computed once a vertex in typed arrays, and a pixel takes one texel and one product, both in the tones of the
 // screen.
 import {
-  BackSide, BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FrontSide, Group, LinearFilter, Mesh, MeshBasicMaterial,
+  BackSide, BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FrontSide, Group, LinearFilter, LinearMipmapNearestFilter, Mesh, MeshBasicMaterial,
   NoColorSpace, ShaderMaterial, Sphere, Vector3,
 } from 'three';
 import { keyShare, lightIn, shoulder, surfaces, withBounces } from './studio.js';
@@ -43,9 +43,13 @@ function smallPicture(map, alphaMap) {
   return pixels;
 }
 
-function textureOf({ data, width, height }, { flipY, wrapS, wrapT }) {
+/// \param isSeenSmall  whether texels are averaged where they are smaller than pixels, as thin hair needs
+function textureOf({ data, width, height }, { flipY, wrapS, wrapT }, isSeenSmall) {
   const texture = new DataTexture(data, width, height);
-  Object.assign(texture, { flipY, wrapS, wrapT, minFilter: LinearFilter, magFilter: LinearFilter, colorSpace: NoColorSpace, needsUpdate: true });
+  Object.assign(texture, {
+    flipY, wrapS, wrapT, minFilter: isSeenSmall ? LinearMipmapNearestFilter : LinearFilter, magFilter: LinearFilter,
+    generateMipmaps: isSeenSmall, colorSpace: NoColorSpace, needsUpdate: true,
+  });
   return texture;
 }
 
@@ -82,9 +86,11 @@ function materialOf(side, eyes) {
       void main() {
         vec3 tone = 2.0 * vShade.rgb;
         #ifdef WITH_PICTURE
-          vec4 texel = texture2D(picture, vPlace);
           #ifdef WITH_HOLES
+            vec4 texel = texture2D(picture, vPlace, -1.0);  // strands stay apart where cards are seen at a slant
             if (texel.a < least) discard;
+          #else
+            vec4 texel = texture2D(picture, vPlace);
           #endif
           tone *= mix(vec3(1.0), texel.rgb, vShade.a);
         #endif
@@ -206,7 +212,7 @@ export class Draft {
     material.defines = { ...defines, ...(picture && { WITH_PICTURE: '' }), ...(alphaMap && { WITH_HOLES: '' }) };
     material.needsUpdate = true;
     const pixels = picture ? smallPicture(map, alphaMap) : null;
-    material.uniforms.picture.value = pixels && textureOf(pixels, picture);
+    material.uniforms.picture.value = pixels && textureOf(pixels, picture, alphaMap !== null);
     const mean = pixels && alphaMap ? this.meanOf(pixels) : null;
     const uvs = this.geometry.getAttribute('uv')?.array;
     this.vertices.forEach((v, i) => {

@@ -126,6 +126,7 @@ async function compareAll(where, show) {
 await compareAll('gallery', async (id) => {
   await page.evaluate((name) => { location.hash = `#/face/${name}`; }, id);
   await page.waitForFunction((name) => window.crowdface.page.face.turntable?.shown === name, id);
+  await rested();
 });
 if (address) {
   await page.goto(address);

@@ -19,6 +19,14 @@ const count = (selector) => page.locator(selector).count();
 const ids = () => page.$$eval('.cell', (cells) => cells.map((cell) => cell.dataset.id));
 const marks = () => page.evaluate(() => Object.fromEntries(window.crowdface.page.review.marks));
 
+/// Exports the review. \return  its text
+const exported = async () => {
+  const download = page.waitForEvent('download');
+  await page.keyboard.press('e');
+  await (await download).saveAs(reviewFile);
+  return readFileSync(reviewFile, 'utf8');
+};
+
 /// How many different shades the 3D view shows: none is blank.
 const shades = () => page.evaluate(() => {
   const { turntable } = window.crowdface.page.face;
@@ -209,6 +217,7 @@ if (crowd.regions.length > 1) {
   assert.equal((await marks())[drawn[2]].verdict, 'reject');
   await lock.click();
   assert.equal((await marks())[drawn[2]], undefined, 'neither locked nor rejected');
+  assert.doesNotMatch(await exported(), new RegExp(`^  ${drawn[2]}:`, 'm'), 'nor named in the exported review');
   await page.keyboard.press('k');
   await lock.click();
   await lock.click();
@@ -280,11 +289,7 @@ for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [853, 600]
 await page.setViewportSize({ width: 1440, height: 900 });
 await page.evaluate(() => { location.hash = '#/faces'; });
 
-// Export.
-const download = page.waitForEvent('download');
-await page.click('.export');
-await (await download).saveAs(reviewFile);
-const review = readFileSync(reviewFile, 'utf8');
+const review = await exported();
 assert.match(review, /^schema: 1$/m);
 assert.match(review, new RegExp(`^  ${drawn[0]}: keep$`, 'm'));
 assert.match(review, new RegExp(`^  ${drawn[1]}: reject$`, 'm'));

@@ -29,6 +29,7 @@ import { toolbar, viewBar } from './toolbar.js';
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
 const patient = 250; // ms that a draft waits for the program's face before it is drawn in full
+const judging = 400; // ms that a face rests before its whole mesh is judged
 const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us
 const exaggerated = 0.5; // mm that strengths other than 1 add to a distance; from here on the page says so
@@ -90,6 +91,14 @@ class Editor extends ProgramPage {
     this.measures = new Newest({
       ask: (asked) => post('measures', asked),
       show: (measures) => { if (this.exactOf !== this.document) this.tell(measures); },
+      fail: (error) => this.say(error.message, true),
+    });
+    this.faults = new Newest({
+      ask: async (document) => ({ document, ...await post('faults', { recipe: wire(this.job, document) }) }),
+      show: ({ document, faults }) => {
+        this.faulty = { document, masksTurn: this.masksTurn, faults };
+        if (this.exactOf === document) this.tell(this.told);
+      },
       fail: (error) => this.say(error.message, true),
     });
     this.skin = new Newest({
@@ -302,7 +311,10 @@ class Editor extends ProgramPage {
     this.exactFaceOf = document;
     if (this.ready) this.view.blend(...this.coefficientsOf(document), face);
     else this.view.standAs(face);
-    if (face.nearest_head) this.tell(face);
+    if (face.nearest_head) {
+      this.tell(face);
+      setTimeout(() => { if (this.exactOf === document && !this.hasJudged(document)) this.faults.ask(document); }, judging);
+    }
     this.attempt(() => this.showWorn(face));
     if (face.bare) {
       setTimeout(() => {
@@ -349,7 +361,16 @@ class Editor extends ProgramPage {
     this.remember();
   }
 
+  /// Whether the faults of the whole mesh are known.
+  hasJudged(document) {
+    return this.faulty?.document === document && this.faulty.masksTurn === this.masksTurn;
+  }
+
   tell(face) {
+    this.told = face;
+    const warnings = face.warnings ?? [];
+    const faults = this.hasJudged(this.document) ? this.faulty.faults.filter((text) => !warnings.includes(text)) : [];
+    const warning = (title, texts) => (texts.length > 0 ? el('p', { class: 'warning' }, `${title} ${texts.join('; ')}.`) : null);
     const limits = this.job.limits ?? {};
     const distance = (title, near, name, limit) => (near ? el('span', { class: near.mm < limit ? 'bad' : null },
       `${title} `, el('b', {}, `${short(near.mm)} mm`), ` ${name}`,
@@ -362,8 +383,8 @@ class Editor extends ProgramPage {
       distance('nearest head', face.nearest_head, face.nearest_head?.name, limits.head_mm),
       distance('nearest face', face.nearest_face, face.nearest_face?.id, limits.face_mm),
       face.ms === undefined ? null : el('span', { class: 'muted' }, `${Math.round(face.ms)} ms`),
-      face.warnings?.length > 0 ? el('p', { class: 'warning' }, 'generate would reject this face:',
-        face.warnings.map((text) => el('span', {}, ` ${text}.`))) : null,
+      warning('generate would reject this face:', warnings),
+      warning('the whole mesh has faults:', faults),
     ].filter(Boolean));
   }
 
