@@ -46,7 +46,8 @@ class EditApi {
   using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
   // Requests about the job and its faces.
-  Handler job, mesh, light, head, attachment, face, skin, measures, faults, draw, steer, face_picture;
+  Handler job, mesh, light, head, attachment, face, skin, measures, faults, draw, steer,
+      face_picture;
   // Requests that save or write files.
   Handler state, take_over, keep_state, save, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
