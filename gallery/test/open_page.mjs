@@ -2,6 +2,8 @@
 // A page in a headless Chromium that draws without a graphics card.
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
+import { isDeepStrictEqual } from 'node:util';
+
 import { chromium } from 'playwright-core';
 
 /// What is wrong with no page: text below 12 pixels, things to take below 28, controls that scrolling does not bring into
@@ -77,5 +79,14 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
       before = now;
     }
   };
-  return { browser, context, rested, stillPicture, page, problems, take, colourAt, audit: () => page.evaluate(auditPage) };
+  /// A page that changed its size needs a moment until everything has its place.
+  const audit = async () => {
+    let found = await page.evaluate(auditPage);
+    for (let tries = 0; tries < 40 && !isDeepStrictEqual(found, fine); tries += 1) {
+      await page.waitForTimeout(250);
+      found = await page.evaluate(auditPage);
+    }
+    return found;
+  };
+  return { browser, context, rested, stillPicture, page, problems, take, colourAt, audit };
 }

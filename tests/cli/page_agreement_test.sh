@@ -16,4 +16,4 @@ output: {directory: out, meshes: [glb], contact_sheet: {cell: 256}}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
 serve edit "$folder/config.yaml" --cache "$folder/cache" --no-browser
-browse agreement.mjs "$folder/out/gallery" 4 1.2 "${PICTURES-}" "$address"
+browse agreement.mjs "$folder/out/gallery" 4 1.6 "${PICTURES-}" "$address"
