@@ -3,7 +3,6 @@
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { isDeepStrictEqual } from 'node:util';
-
 import { chromium } from 'playwright-core';
 
 /// What is wrong with no page: text below 12 pixels, things to take below 28, controls that scrolling does not bring into
