@@ -181,7 +181,7 @@ TEST_F(MatchingRim, KeepsItsOrderIfItIsTurnedALittle) {
 TEST_F(MatchingRim, MayHaveAGivenOrder) {
   Rim rim = tube_.rim();
   EXPECT_EQ(matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven), rim);
-  std::ranges::rotate(rim, rim.begin() + 1);
+  std::rotate(rim.begin(), rim.begin() + 1, rim.end());
   expect_error(ExitCode::kBadData, {"turned by"},
                [&] { matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven); });
 }

@@ -150,7 +150,7 @@ double change_at_end(const Inputs& inputs, const Positions& head, const Position
 TEST_F(Neck, TheBendIsSmootherThanTheHeads) {
   const Job job = load_job(configure("{body: body.obj}", ""), {});
   const Inputs& inputs = job.inputs;
-  constexpr double kFalloff = 6, kVisible = 0.2;
+  constexpr double kFalloff = 6, kVisible = 0.16;
   EdgeDistances distances(inputs.adjacency, inputs.mean);
   distances.search(rim_, kFalloff);
   double smooth = 0, linear = 0;
