@@ -133,6 +133,10 @@ await page.getByLabel('Face beside', { exact: true }).selectOption(another);
 await isStill();
 const front = await stillPicture(other);
 await take('beside');
+for (const [x, y] of [[0.46, 0.45], [0.5, 0.4], [0.54, 0.45], [0.47, 0.5], [0.53, 0.5]]) {
+  const seen = await colourAt(beside.x + x * beside.width, beside.y + y * beside.height);
+  assert.ok(Math.min(...seen) > 30, `skin without holes beside: ${seen}`);
+}
 await page.mouse.move(own.x + 0.1 * own.width, own.y + own.height / 2);
 await page.mouse.down();
 await page.mouse.move(own.x + 0.1 * own.width + 90, own.y + own.height / 2, { steps: 5 });
