@@ -114,7 +114,7 @@ export class HeadView extends Stage {
     this.material.polygonOffsetUnits = 1;
     this.lines = new Mesh(this.geometry, lines);
     this.lines.frustumCulled = false;
-    this.lines.visible = false;
+    this.lines.visible = this.wireframe = false;
     this.worn = new Worn(this.software);
     this.group.add(this.object, this.lines, this.worn.node);
     if (this.software) this.prepareDraft();
