@@ -244,8 +244,7 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
       band.heads.push_back(lent.head);
     }
     std::ranges::sort(band.heads);
-    const auto doubles = std::ranges::unique(band.heads);
-    band.heads.erase(doubles.begin(), doubles.end());
+    band.heads.erase(std::unique(band.heads.begin(), band.heads.end()), band.heads.end());
     bands.push_back(std::move(band));
   }
   const auto number = static_cast<std::size_t>(at - measured.begin());
