@@ -12,8 +12,9 @@ import { studioMaterial } from './studio.js';
 
 const smallest = 6000; // corners of triangles; what has more is drawn in two steps
 const mostPairs = 4e6; // of vertices that are looked at to find which skin is near
-const solid = 0.5; // from here on a texel hides what is behind it, as long as softer ones are not drawn
-const whole = 0.85; // and this much once they are
+// The opacity from which a texel is drawn as opaque: alone, and below a second pass that draws softer texels.
+const opaqueAlone = 0.5;
+const opaqueBelowSoft = 0.85;
 
 export async function pictureAt(address, { colours, repeated }) {
   const texture = await new TextureLoader().loadAsync(address);
@@ -33,7 +34,7 @@ function materialsOf(look) {
   }
   const holes = { ...plain, alphaMap: look.alphaMap, opacity: look.share };
   return [
-    studioMaterial('attachment', { ...holes, alphaTest: whole * look.share, alphaToCoverage: true }),
+    studioMaterial('attachment', { ...holes, alphaTest: opaqueBelowSoft * look.share, alphaToCoverage: true }),
     studioMaterial('attachment', { ...holes, alphaTest: 0.02, transparent: true, depthWrite: false }),
   ];
 }
@@ -78,7 +79,7 @@ async function preparePart(data, software) {
 /// \param coarse  triangles of what moves
 function formsOf({ object, geometry, triangles }, coarse, look) {
   const plain = (look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour)).toArray();
-  const [full, draft] = [triangles, coarse].map((all) => {
+  const [whole, draft] = [triangles, coarse].map((all) => {
     const form = new Draft({ triangles: all, uvs: geometry.getAttribute('uv')?.array, kind: 'attachment', isDouble: [true] });
     form.setPicture(0, look.map ?? null, { alphaMap: look.alphaMap ?? null, factor: plain });
     const [material] = form.materials;
@@ -91,16 +92,16 @@ function formsOf({ object, geometry, triangles }, coarse, look) {
   });
   draft.node.name = 'draft';
   if (look.alphaMap) {
-    const [solidly] = full.materials;
+    const [solidly] = whole.materials;
     const soft = solidly.clone();
     Object.assign(soft, { transparent: true, depthWrite: false });
     soft.defines.SOFT = '';
     soft.uniforms = { ...solidly.uniforms, least: { value: 0.02 }, share: { value: look.share } };
-    const tips = new Mesh(full.geometry, soft);
+    const tips = new Mesh(whole.geometry, soft);
     tips.name = geometry.index.count > smallest ? 'soft' : '';
     object.add(tips);
   }
-  return { whole: full, draft, colourAt: (_, colour) => plain.forEach((value, c) => { colour[c] = value; }) };
+  return { whole, draft, colourAt: (_, colour) => plain.forEach((value, c) => { colour[c] = value; }) };
 }
 
 /// \param packed  steps from the frame's low corner: three numbers of 16 bits a vertex.
@@ -147,9 +148,9 @@ export class Worn {
   /// \param form  draft, solid (without what is hardly there) or whole
   setForm(form) {
     this.form = form;
-    for (const { object, whole: full } of this.parts) {
+    for (const { object, whole } of this.parts) {
       for (const mesh of object.children) mesh.visible = (mesh.name === 'draft') === (form === 'draft') && !(mesh.name === 'soft' && form === 'solid');
-      if (full) full.materials[0].uniforms.least.value = object.children.at(-1).visible ? whole : solid;
+      if (whole) whole.materials[0].uniforms.least.value = object.children.at(-1).visible ? opaqueBelowSoft : opaqueAlone;
     }
   }
 

@@ -224,7 +224,7 @@ TEST(FaceTraits, ALimitOnOneFaceChangesItAsLittleAsNecessary) {
   EXPECT_GE(faces[2].traits.at(0), most - 0.2);
 }
 
-// The face was mixed with one part in twenty of another.
+// A face that meets its new limit needs no mixture with another face.
 TEST(FaceTraits, ALimitThatAFaceMeetsLeavesItAsItIs) {
   TraitFolder folder;
   const std::vector<FacePlan> plain = folder.plan_of(6, "traits: {nose_width: {}}\n");

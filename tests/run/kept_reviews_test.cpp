@@ -224,7 +224,7 @@ TEST_F(KeptReviews, WithoutAGalleryItsFilesGoAndOthersInItsFolderStay) {
   EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
 }
 
-// All files of a face were written again, with the same bytes.
+// A new format adds files to each face; the face's other files keep their bytes and their times.
 TEST_F(KeptReviews, AnotherFormatLeavesEveryOtherFile) {
   const auto before = crowd_files(folder_.out());
   for (const auto& [name, bytes] : before) {

@@ -134,8 +134,8 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
   const auto left = [&](const std::string& crowd, const std::string& id) {
     return degrees_between(job, mesh_of(crowd, id), mesh_of("straight", id));
   };
-  // With little smoothing, a face has its target's pose. With much, the detail has the poses of the
-  // sources (e), and mirror images lie in the plane of the mean pose (c, g).
+  // A slightly smoothed face has its target's pose (d). In a strongly smoothed face, the sources'
+  // detail adds their poses (e). One turned head tilts the plane that mirrors all faces (c, g).
   EXPECT_GT(left("plain", "d"), 8);
   EXPECT_GT(left("plain", "e"), 0.8);
   EXPECT_GT(left("plain", "g"), 1.5);

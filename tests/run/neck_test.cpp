@@ -124,8 +124,8 @@ Positions curvature(const Inputs& inputs, const Positions& positions) {
   return result;
 }
 
-/// The rms change of a head's curvature in the last bent row and the first fixed row, as a share of
-/// the rms curvature that the head has in and around the bend.
+/// Returns how much a bend changes the curvature at its upper end: the rms change in the last moved
+/// and the first fixed row of vertices, divided by the head's own rms curvature in the bend.
 double change_at_end(const Inputs& inputs, const Positions& head, const Positions& bent) {
   const Positions before = curvature(inputs, head), after = curvature(inputs, bent);
   std::vector<bool> moves(static_cast<std::size_t>(head.rows()), false);

@@ -6,9 +6,6 @@ import { asWeights } from './recipe.js';
 
 const piece = 2 ** 21; // bytes of a request
 
-const isOtherMesh = /it is another mesh/;
-const worn = 'Hair, glasses and the like do not join as heads: name them under "attachments" in the config, and they stand in the library';
-
 /// Whether all are pictures, which may be a photo of somebody.
 export const arePictures = (files) => files.every(({ type }) => type.startsWith('image/'));
 
@@ -49,21 +46,12 @@ export class AddedHeads {
       }
     }
     editor.say('Checking and preparing the heads …', false, true);
-    await this.join(({ faces, heads }) => {
+    await editor.openAgain('heads', {}, ({ faces, heads }) => {
       // Places on the plane mean other weights once there are more heads: the faces stay as they are.
       const { history, job } = editor;
       editor.kept = editor.kept.map((entry) => ({ ...entry, document: asWeights(job, entry.document) }));
       history.commit({ ...asWeights(job, history.now), config_faces: faces }, `${heads.join(', ')} joined`);
       editor.tellLater(`${heads.join(', ')} ${heads.length > 1 ? 'have' : 'has'} joined. The crowd’s faces were made without: Generate makes them anew.`);
     });
-  }
-
-  /// \param step  see openAgain
-  async join(step) {
-    try {
-      await this.editor.openAgain('heads', {}, step);
-    } catch (error) {
-      throw isOtherMesh.test(error.message) ? new Error(`${error.message}. ${worn}`) : error;
-    }
   }
 }

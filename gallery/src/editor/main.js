@@ -361,7 +361,7 @@ class Editor extends ProgramPage {
     this.remember();
   }
 
-  /// Whether the faults of the whole mesh are known.
+  /// Whether the faults of this face's whole mesh are known, with the masks as they are now.
   hasJudged(document) {
     return this.faulty?.document === document && this.faulty.masksTurn === this.masksTurn;
   }

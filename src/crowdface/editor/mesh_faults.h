@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// Judges whole meshes of faces, as `generate` does after it has built them. Thread-safe.
+/// Finds visible faults in the whole mesh of a face, with the checks of `generate`. Thread-safe.
 class MeshFaults {
  public:
   /// \param job, builder  must outlive this object.
@@ -27,7 +27,7 @@ class MeshFaults {
   std::vector<std::string> of(const Recipe& recipe, const Positions& face) const;
 
  private:
-  /// What faces on one target are compared with.
+  /// The faults of a target head itself, which its faces may have too.
   struct Target {
     SkinCheck skin;
     double parts_mm2;  ///< area of its parts that stands out of the skin

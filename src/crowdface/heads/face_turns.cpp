@@ -75,7 +75,7 @@ RigidMotion after(const RigidMotion& a, const RigidMotion& b) {
   return {.rotation = product(a.rotation, b.rotation), .from = b.from, .to = a.apply(b.to)};
 }
 
-/// The motion of mirrored things that mirrors how a motion moves the things.
+/// Returns the motion m′ of mirror images: mirror, then m′, is `motion`, then mirror.
 RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
   const MirrorPlane directions{plane.normal, 0};
   Eigen::Matrix3d rotation;
@@ -87,7 +87,8 @@ RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
   return {.rotation = rotation, .from = plane.image(motion.from), .to = plane.image(motion.to)};
 }
 
-/// The motion between two others.
+/// Interpolates two motions: translation at `pivot` and turn vector are linear in w.
+/// \param w  0 … 1: 0 gives a
 RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
                     const Eigen::Vector3d& pivot) {
   const auto mixed = [&](const Eigen::Vector3d& of_a, const Eigen::Vector3d& of_b) {
@@ -103,6 +104,7 @@ FaceTurns::FaceTurns(const Inputs& inputs, const Prepared& prepared, const Regio
     : neck_(*inputs.neck), placed_(heads_above(inputs, prepared, regions)), turned_(placed_) {
   turned_.trajectories = turned_.own;
   turn_heads(neck_, turned_);
+  mean_ = head_motion(placed_.mean, turned_.mean);
 }
 
 std::optional<RigidMotion> FaceTurns::of(const Recipe& recipe, const MirrorPlane* plane) const {
@@ -114,14 +116,14 @@ std::optional<RigidMotion> FaceTurns::of(const Recipe& recipe, const MirrorPlane
   RigidMotion motion;
   if (is_turned) motion = head_motion(sample_face(placed_, plain), sample_face(turned_, plain));
   if (is_unmirrored(recipe)) return motion;
-  // `plane` is that of the mean of all heads, which has their mean pose. Mirror images have to be
-  // those in the plane of the common pose.
-  const RigidMotion mean = head_motion(placed_.mean, turned_.mean), back = inverse(mean);
+  // `plane` mirrors the mean head as placed. A face has to be mirrored in the plane of the common
+  // pose, which is the image of `plane` under `mean_`.
+  const RigidMotion back = inverse(mean_);
   if (recipe.asymmetry != 1) {
-    const RigidMotion of_image = after(mean, image_of(after(back, motion), *plane));
+    const RigidMotion of_image = after(mean_, image_of(after(back, motion), *plane));
     motion = between(motion, of_image, mirror_share(recipe.asymmetry, false), neck_.middle);
   }
-  return recipe.mirrored ? after(image_of(mean, *plane), after(back, motion)) : motion;
+  return recipe.mirrored ? after(image_of(mean_, *plane), after(back, motion)) : motion;
 }
 
 bool FaceTurns::has_turned_head(const Recipe& recipe) const {

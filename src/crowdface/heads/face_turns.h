@@ -19,8 +19,9 @@ class FaceTurns {
   FaceTurns(const FaceTurns&) = delete;
   FaceTurns& operator=(const FaceTurns&) = delete;
 
-  /// The motion that brings a face of this recipe, before it is mirrored, closest to the face that
-  /// its heads would give in the common pose of all heads; none if nothing moves it.
+  /// Returns the rigid motion that aligns a blended face, before it is mirrored, with the face that
+  /// the same recipe gives for heads in the common pose. Returns nothing if the recipe uses no head
+  /// of another pose and no mirror image.
   /// \param plane  in which faces are mirrored; read only for a mirrored or asymmetric face
   std::optional<RigidMotion> of(const Recipe& recipe, const MirrorPlane* plane) const;
 
@@ -29,6 +30,7 @@ class FaceTurns {
 
   const HeadsOnBody& neck_;
   SampledHeads placed_, turned_;  ///< above the bend, in file units: as placed, in the common pose
+  RigidMotion mean_;              ///< of the mean head, from its placed to its common pose
 };
 
 }  // namespace crowdface

@@ -110,7 +110,8 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
   return concat("; it has ", found.vertex_count, " vertices and ", found.face_count(),
                 " faces, the first ", first.vertex_count, " and ", first.face_count(),
                 part_of_head(first_head.file.positions, head.file.positions),
-                ": it is another mesh; to fit the first head's mesh to it, use crowdface wrap");
+                ": it is another mesh; to fit the first head's mesh to a scan, use crowdface wrap; "
+                "hair, glasses and the like belong in the config's section attachments");
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ struct ReadyFile {
   FileDigest content;  ///< of `bytes`
 };
 
-/// Writes faces on a thread of its own, so that computing threads need not wait for the disk. Faces
-/// that become ready during a write are then written together, synced once, and recorded. Files
-/// that have their content already are not touched.
+/// Writes faces on a thread of its own, so that computing threads need not wait for the disk. While
+/// one batch of faces is written, finished faces wait; they are the next batch. A batch is synced
+/// and recorded once. A file that already has the right content is not written again.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.

@@ -40,7 +40,8 @@ std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& 
   return triangles;
 }
 
-/// The viewers who see the back of a triangle at an angle that is not too flat.
+/// Returns the indices of the view directions from which the back of a triangle is seen, with a
+/// cosine above kFlattestCosine.
 std::vector<std::size_t> viewers_behind(const Corners& at, const ViewSetup& view_setup) {
   const Eigen::Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
   std::vector<std::size_t> behind;

@@ -6,10 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// kSpacingMm: spacing of the visibility samples on a triangle. kMaxAlongEdge: largest
-/// number of samples along an edge.
-constexpr double kSpacingMm = 1;
-constexpr int kMaxAlongEdge = 8;
+constexpr double kSpacingMm = 1;  ///< distance of the samples on a triangle
+constexpr int kMaxAlongEdge = 8;  ///< largest number of samples along an edge
 
 int points_along_edge(const Corners& at, double mm_per_unit) {
   const double longest =
