@@ -57,7 +57,7 @@ function textureOf({ data, width, height }, { flipY, wrapS, wrapT }, isSeenSmall
 function materialOf(side, eyes) {
   return new ShaderMaterial({
     side,
-    uniforms: { picture: { value: null }, paintsEyes: { value: true }, least: { value: 0.5 }, behind: { value: depth }, share: { value: 1 }, ...eyes?.uniforms },
+    uniforms: { picture: { value: null }, paintsEyes: { value: true }, least: { value: 0.5 }, behind: { value: 0 }, share: { value: 1 }, ...eyes?.uniforms },
     vertexShader: `
       attribute vec4 shade;
       varying vec4 vShade;

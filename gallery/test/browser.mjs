@@ -13,7 +13,7 @@ const [folder, reviewFile, pictures] = process.argv.slice(2);
 if (!reviewFile) throw new Error('usage: node browser.mjs GALLERY_FOLDER REVIEW_FILE [PICTURES]');
 const address = pathToFileURL(join(resolve(folder), 'index.html')).href;
 
-const { browser, page, problems, take, audit, rested, stillPicture } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
+const { browser, page, problems, take, audit, rested, stillPicture, alike } = await openPage({ width: 1440, height: 900, pictures, own: 'file:' });
 
 const count = (selector) => page.locator(selector).count();
 const ids = () => page.$$eval('.cell', (cells) => cells.map((cell) => cell.dataset.id));
@@ -200,13 +200,13 @@ assert.ok(leftBox.x + leftBox.width <= rightBox.x + 1 && Math.abs(leftBox.width 
 const [ownFront, targetFront] = [await stillPicture(ownView), await stillPicture(otherView)];
 await take('side_by_side');
 await page.keyboard.press('.');
-assert.ok(!(await stillPicture(ownView)).equals(ownFront) && !(await stillPicture(otherView)).equals(targetFront), 'both turn');
+assert.ok(!(await alike(await stillPicture(ownView), ownFront)) && !(await alike(await stillPicture(otherView), targetFront)), 'both turn');
 await page.keyboard.press('f');
-assert.ok((await stillPicture(otherView)).equals(targetFront) && (await stillPicture(ownView)).equals(ownFront), 'and back');
+assert.ok(await alike(await stillPicture(otherView), targetFront) && await alike(await stillPicture(ownView), ownFront), 'and back');
 await page.keyboard.press('c');
 await page.waitForFunction(() => !window.crowdface.page.face.otherTable.shown.startsWith('head '));
-assert.ok(!(await stillPicture(otherView)).equals(targetFront), 'another face is another picture');
-assert.ok((await stillPicture(ownView)).equals(ownFront), 'the face itself stays');
+assert.ok(!(await alike(await stillPicture(otherView), targetFront)), 'another face is another picture');
+assert.ok(await alike(await stillPicture(ownView), ownFront), 'the face itself stays');
 await page.keyboard.press('s');
 assert.ok(await otherView.isHidden());
 

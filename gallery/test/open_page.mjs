@@ -35,7 +35,7 @@ function auditPage() {
 /// \param own       what begins a request that the page may make.
 /// \return          problems: what went wrong on the page so far, a sentence each; colourAt(x, y): [red, green, blue]
 ///                  that is seen there;
-///                  rested(): waits until all 3D views are drawn in full; stillPicture(locator), audit().
+///                  rested(): waits until all 3D views are drawn in full; stillPicture(locator), alike(one, other), audit().
 export async function openPage({ width = 1280, height = 720, pictures, own = null } = {}) {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
@@ -78,6 +78,17 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
       before = now;
     }
   };
+  /// Whether two pictures (PNG) are the same but for the last step of a colour, which the browser rounds by chance.
+  const alike = (one, other) => page.evaluate(async (texts) => {
+    const [a, b] = await Promise.all(texts.map(async (text) => {
+      const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+      const picture = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+      const context = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
+      context.drawImage(picture, 0, 0);
+      return context.getImageData(0, 0, picture.width, picture.height);
+    }));
+    return a.width === b.width && a.height === b.height && a.data.every((value, i) => Math.abs(value - b.data[i]) <= 1);
+  }, [one, other].map((picture) => picture.toString('base64')));
   /// A page that changed its size needs a moment until everything has its place.
   const audit = async () => {
     let found = await page.evaluate(auditPage);
@@ -87,5 +98,5 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
     }
     return found;
   };
-  return { browser, context, rested, stillPicture, page, problems, take, colourAt, audit };
+  return { browser, context, rested, stillPicture, alike, page, problems, take, colourAt, audit };
 }
