@@ -290,31 +290,39 @@ TEST(CastingOptions, GroupsHaveTheirSharesAndTheirOwnHeads) {
   EXPECT_THAT(testing::read_text(folder / "large/crowd.csv"), ::testing::HasSubstr(",rest,"));
 }
 
+/// What a run that cannot be done says.
+std::string refusal(const SmallCrowdFolder& folder, const std::vector<std::string>& set = {}) {
+  try {
+    run(folder, set);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUnsatisfiable);
+    return error.what();
+  }
+  ADD_FAILURE() << "expected to be refused";
+  return {};
+}
+
 TEST(CastingOptions, WhatCannotBeDoneIsToldAndLeavesNothing) {
   SmallCrowd crowd = six_bowls();
-  crowd.count = 60;
-  crowd.more = "diversity: {min_distance: 4 mm}\n";
-  const SmallCrowdFolder folder(crowd);
-  std::string message;
-  try {
-    run(folder);
-    FAIL() << "expected to be refused";
-  } catch (const Error& error) {
-    message = error.what();
-    EXPECT_EQ(error.code(), ExitCode::kUnsatisfiable);
+  for (const int count : {24, 60}) {
+    crowd.count = count;
+    crowd.more = "diversity: {min_distance: 4 mm}\n";
+    const SmallCrowdFolder folder(crowd);
+    const std::string message = refusal(folder);
+    EXPECT_THAT(message, ::testing::HasSubstr("min_distance, 4 mm"));
+    EXPECT_THAT(message, ::testing::HasSubstr(concat("of ", count, " faces")));
+    EXPECT_FALSE(fs::exists(folder.out()));
+    // The distance that the message names is possible, a tenth more is not.
+    const std::string start = "were cast in a trial: ";
+    const std::size_t at = message.find(start);
+    ASSERT_NE(at, std::string::npos) << message;
+    const double mm = *parse_double(
+        message.substr(at + start.size(), message.find(" mm", at) - at - start.size()));
+    refusal(folder, {concat("diversity.min_distance=", 1.1 * mm, " mm")});
+    run(folder, {concat("diversity.min_distance=", mm, " mm")});
+    EXPECT_EQ(plan_lines(folder.out()).size(), static_cast<std::size_t>(count));
+    EXPECT_GE(closest_pair(Measured(folder)), mm - kTolerance);
   }
-  EXPECT_THAT(message, ::testing::HasSubstr("min_distance, 4 mm"));
-  EXPECT_THAT(message, ::testing::HasSubstr("of 60 faces"));
-  EXPECT_FALSE(fs::exists(folder.out()));
-  // The distance that it says is possible is.
-  const std::string start = "were cast in a trial: ";
-  const std::size_t at = message.find(start);
-  ASSERT_NE(at, std::string::npos) << message;
-  const std::string mm =
-      message.substr(at + start.size(), message.find(" mm", at) - at - start.size());
-  run(folder, {concat("diversity.min_distance=", mm, " mm")});
-  EXPECT_EQ(plan_lines(folder.out()).size(), 60U);
-  EXPECT_GE(closest_pair(Measured(folder)), *parse_double(mm) - kTolerance);
 }
 
 TEST(CastingOptions, ExtrapolationThatGoesTooFarIsThrownAway) {

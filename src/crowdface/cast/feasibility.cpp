@@ -8,14 +8,21 @@ namespace crowdface {
 namespace {
 
 /// Largest number of draws in all trials together; a trial that has begun is finished.
-constexpr std::uint64_t kMaxDraws = 20'000;
+constexpr std::uint64_t kMaxDraws = 200'000;
 /// Largest number of faces in a trial.
 constexpr std::uint64_t kMaxTried = 400;
 /// Stop when the smallest value that fails is at most this factor times the largest that works.
-constexpr double kNearEnough = 1.12;
+constexpr double kNearEnough = 1.08;
 
 double whole_hundredths(double mm) {
   return std::floor(mm * 100) / 100;
+}
+
+/// A smaller distance to try after one that only some of the faces kept. The number of faces that
+/// fit grows with a power of the distance between -2.5 and -5.
+double smaller(double fails, std::uint64_t reached, std::uint64_t count) {
+  const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
+  return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);
 }
 
 }  // namespace
@@ -23,7 +30,7 @@ double whole_hundredths(double mm) {
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried,
-                   const TraitRules* traits) {
+                   const TraitRules* traits, const MeshDefects& meshes) {
   Remedy remedy;
   remedy.binding = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
@@ -38,31 +45,33 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   const Constraint& constraint = constraint_of(remedy.binding);
   if (!constraint.is_distance()) return remedy;
   double& distance = easier.diversity.*constraint.diversity;
-  // Faces fill a space of about five dimensions, so a slightly smaller distance fits many more.
-  double works = 0, fails = distance;
-  double next = fails * std::pow((static_cast<double>(shortfall.reached) + 0.5) /
-                                     (static_cast<double>(easier.count) + 1),
-                                 0.2);
-  next = std::min(next, fails);
-  for (std::uint64_t draws = 0; draws < kMaxDraws || works == 0;) {
-    distance = whole_hundredths(next);
-    if (distance <= works) break;
-    FaceJudge judge(space, easier.diversity, believability, skin);
+  std::uint64_t draws = 0;
+  const auto shortfall_at = [&](double mm, const MeshDefects& defects) {
+    distance = mm;
+    FaceJudge judge(space, easier.diversity, believability, skin, defects);
     judge.limit_traits(traits);
     const CastingResult cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() +
              cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidates_for(1));
     if (tried) tried();
-    if (cast.shortfall) {
-      fails = distance;
-      next = works > 0 ? std::sqrt(works * fails) : 0.7 * fails;
+    return cast.shortfall;
+  };
+  double works = 0, fails = distance;
+  double next = smaller(fails, std::min(shortfall.reached, easier.count), easier.count);
+  while ((draws < kMaxDraws || works == 0) && fails >= kNearEnough * works) {
+    const double mm = whole_hundredths(next);
+    if (mm <= works) break;
+    if (const auto missing = shortfall_at(mm, {})) {
+      fails = mm;
+      next = works > 0 ? std::sqrt(works * fails) : smaller(fails, missing->reached, easier.count);
     } else {
-      works = distance;
-      remedy.largest_mm = works;
+      works = mm;
       next = std::sqrt(works * fails);
     }
-    if (works > 0 && fails < kNearEnough * works) break;
   }
+  // The trials above check only coarse meshes, because whole ones take a hundred times as long.
+  while (meshes && works > 0 && shortfall_at(works, meshes)) works = whole_hundredths(0.93 * works);
+  if (works > 0) remedy.largest_mm = works;
   return remedy;
 }
 

@@ -15,15 +15,16 @@ struct Remedy {
 };
 
 /// Searches for a remedy: casts again with smaller distances, and bisects until the smallest
-/// distance that fails is at most an eighth above the largest that works, or until 20,000
-/// candidates were drawn. The time of a trial grows with the square of its faces, so the trials of
-/// a large crowd cast only its beginning.
+/// distance that fails is at most 8 % above the largest that works, or until 200,000 candidates
+/// were drawn. The time of a trial grows with the square of its faces, so the trials of a large
+/// crowd cast only its beginning.
 ///
-/// \param tried  Called after each trial.
+/// \param tried   Called after each trial.
+/// \param meshes  If given, the remedy also works if the meshes of candidates are judged.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {},
-                   const TraitRules* traits = nullptr);
+                   const TraitRules* traits = nullptr, const MeshDefects& meshes = {});
 
 /// Checks in seconds whether a crowd of more than 3200 faces in spread mode is impossible: places
 /// up to 400 faces by first fit. Spread finds at most twice as many faces as first fit, so if first

@@ -240,7 +240,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     Progress progress("searching for values that work", kMaxTrials);
     const Remedy remedy = find_remedy(
         with_existing_faces(config, casting), space, believability, &judged_in.skin,
-        *crowd.shortfall, [&] { progress.step(); }, judge.traits());
+        *crowd.shortfall, [&] { progress.step(); }, judge.traits(), defects);
     std::vector<std::string> about_traits;
     if (remedy.binding == Reason::kTraits) {
       about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
