@@ -17,6 +17,26 @@ export function el(tag, properties = {}, ...children) {
   return node;
 }
 
+/// A slider. Letting go ends a move even where the browser tells no change: of a slider that comes back to where it was
+/// taken, or whose value the page has set meanwhile.
+/// \param moved  (number) while it is held; \param done  (number) once it is let go
+export function sliderNode(properties, moved, done) {
+  let isHeld = false;
+  const end = () => {
+    if (!isHeld) return;
+    isHeld = false;
+    done(Number(node.value));
+  };
+  const node = el('input', {
+    ...properties, type: 'range', onchange: end, onpointerup: end, onpointercancel: end,
+    oninput: () => {
+      isHeld = true;
+      moved(Number(node.value));
+    },
+  });
+  return node;
+}
+
 /// A short number: at most `digits` behind the point, no zeros at the end.
 export function short(value, digits = 2) {
   return String(Number(value.toFixed(digits)));

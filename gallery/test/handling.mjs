@@ -76,6 +76,32 @@ await dragOnHead(0.75, 60, 0);
 assert.notEqual(await facing(), 0, 'without a selection the head turns');
 assert.deepEqual(await place(regions[2]), placeBefore);
 
+// A slider that is held still before it is let go, and one that comes back to where it was taken, is let go.
+const smooth = page.getByLabel(`Smoothness of ${regions[0]}`, { exact: true });
+const slideBy = async (ways) => {
+  const { x, y, width, height } = await smooth.boundingBox();
+  const at = x + 8 + (width - 16) * Number(await smooth.inputValue());
+  await page.mouse.move(at, y + height / 2);
+  await page.mouse.down();
+  for (const way of ways) {
+    await page.mouse.move(at + way, y + height / 2, { steps: 3 });
+    await page.waitForTimeout(300);
+    await shown();
+  }
+  await page.mouse.up();
+  await settled();
+  await rested(); // never, if the page still took it for held
+};
+const smoothness = () => page.getByLabel(`Smoothness of ${regions[0]}, typed`).inputValue();
+const smoothBefore = await smoothness();
+await slideBy([30]);
+assert.notEqual(await smoothness(), smoothBefore);
+assert.match(await undoTitle(), /Smoothness/, 'a step');
+await page.keyboard.press('Control+z');
+await settled();
+assert.equal(await smoothness(), smoothBefore, 'one step');
+await slideBy([30, 0]);
+
 // A measurement's slider moves the face to the wanted value, by weights of the regions that it is about; a locked region
 // stays; what the heads do not reach is told.
 const measurement = (name) => page.getByRole('row', { name: new RegExp(`^${name} `) });

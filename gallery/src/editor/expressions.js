@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The config's expressions, as sliders. They are shown, and stay from face to face; meshes are saved at rest.
-import { el } from '../dom.js';
+import { el, sliderNode } from '../dom.js';
 
 export class Expressions {
   /// \param editor  job.shapes, look.expression: shares above zero by name; express(shares, isMoving), remember
   constructor(editor) {
     this.editor = editor;
     const { shapes = [] } = editor.job;
-    this.sliders = new Map(shapes.map((name) => [name, el('input', {
-      type: 'range', min: 0, max: 1, step: 0.01, value: editor.look.expression[name] ?? 0, 'aria-label': name, title: `Expression ${name}`,
-      oninput: () => this.changed(true), onchange: () => this.changed(false),
-    })]));
+    this.sliders = new Map(shapes.map((name) => [name, sliderNode({
+      min: 0, max: 1, step: 0.01, value: editor.look.expression[name] ?? 0, 'aria-label': name, title: `Expression ${name}`,
+    }, () => this.changed(true), () => this.changed(false))]));
     this.rest = el('button', { title: 'All expressions to zero', onclick: () => {
-      for (const slider of this.sliders.values()) slider.value = 0;
+      for (const node of this.sliders.values()) node.value = 0;
       this.changed(false);
     } }, 'At rest');
     this.node = el('div', { class: 'expressions' }, shapes.length === 0 ? [] : el('details', {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measurements of the face, as sliders: the program finds the weights at which the face has the wanted one.
 import { post } from '../api.js';
-import { el } from '../dom.js';
+import { el, sliderNode } from '../dom.js';
 import { wordsOf } from '../traits.js';
 import { Newest } from './newest.js';
 import { wire, withWeights } from './recipe.js';
@@ -48,16 +48,14 @@ export class Measurements {
   build(all) {
     const { editor } = this;
     this.rows = new Map(all.map((trait) => {
-      const slider = el('input', {
-        type: 'range', 'aria-label': wordsOf(trait.name),
+      const node = sliderNode({
+        'aria-label': wordsOf(trait.name),
         title: `Changes what heads lend to regions that are not locked; from ${textOf(trait, trait.low)} to ${textOf(trait, trait.high)}, as on the heads`,
-        oninput: () => {
-          this.held = slider;
-          this.steer(trait, Number(slider.value), false);
-        },
-        onchange: () => this.steer(trait, Number(slider.value), true),
-      });
-      return [trait.name, { slider, value: el('td', {}), more: el('td', {}) }];
+      }, (value) => {
+        this.held = node;
+        this.steer(trait, value, false);
+      }, (value) => this.steer(trait, value, true));
+      return [trait.name, { slider: node, value: el('td', {}), more: el('td', {}) }];
     }));
     this.node.replaceChildren(...(all.length === 0 ? [] : [el('details', {
       open: editor.look.measurements ?? true,

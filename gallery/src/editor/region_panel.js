@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers of each region: sliders, and the same values typed.
-import { el, short } from '../dom.js';
+import { el, short, sliderNode } from '../dom.js';
 import { amountAt, amountOf, bandNames, levelOf, unitOf, withAmount } from './recipe.js';
 
 const digits = { '%': 1, mm: 2, iterations: 0 };
@@ -22,12 +22,8 @@ export class RegionPanel {
 
   /// A slider that previews while it is moved and is a step when it is let go.
   slider(label, options, change) {
-    const node = el('input', {
-      type: 'range', 'aria-label': label, ...options,
-      oninput: () => this.editor.preview(change(Number(node.value))),
-      onchange: () => this.editor.commit(change(Number(node.value)), label, { joins: true }),
-    });
-    return node;
+    return sliderNode({ 'aria-label': label, ...options }, (value) => this.editor.preview(change(value)),
+      (value) => this.editor.commit(change(value), label, { joins: true }));
   }
 
   /// A number to type. What cannot be read is put back, and what is limited says so.
