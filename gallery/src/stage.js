@@ -118,8 +118,8 @@ const rest = 80; // ms without a move, after which all is drawn in full
 const calm = 400; // ms more, after which hair has its softest tips
 const slow = 18; // ms to draw a frame while something moves; as long again takes the page
 const fast = 12;
-const fewest = 0.4; // of the pixels across, and this many at least as the next move begins
-const atFirst = 0.7;
+const fewest = 0.35; // of the pixels across, and this many at least as the next move begins
+const atFirst = 0.5;
 
 /// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
 export class Stage {
@@ -332,7 +332,13 @@ export class Stage {
     this.frameMs = performance.now() - began;
     this.onframe?.(this.frameMs);
     if (!this.moving) return;
-    if (this.frameMs > slow && this.movingRatio > fewest * this.fullRatio) this.movingRatio *= 0.85;
-    else if (this.frameMs < fast && this.movingRatio < this.fullRatio) this.movingRatio = Math.min(this.fullRatio, 1.1 * this.movingRatio);
+    this.adaptRatio();
+  }
+
+  /// In few steps: each makes a canvas of another size, which takes about as long as a frame.
+  adaptRatio() {
+    const { frameMs, movingRatio, fullRatio } = this;
+    if (frameMs > slow) this.movingRatio = Math.max(Math.min(0.85, Math.max(0.6, Math.sqrt(slow / frameMs))) * movingRatio, fewest * fullRatio);
+    else if (frameMs < fast) this.movingRatio = Math.min(fullRatio, 1.2 * movingRatio);
   }
 }

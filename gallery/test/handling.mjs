@@ -102,6 +102,24 @@ await settled();
 assert.equal(await smoothness(), smoothBefore, 'one step');
 await slideBy([30, 0]);
 
+// Of heads that stand close together on the plane only those show their names that have room for them.
+const namesSeen = () => page.locator('.head text').evaluateAll((texts) => texts.map((node) => node.getBoundingClientRect()).filter(({ width }) => width > 0));
+const areApart = (boxes) => boxes.every((a, i) => boxes.every((b, k) => i <= k || a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top));
+const headBox = async (name) => page.locator(`.head[data-head="${name}"] .anchor > circle`).first().boundingBox();
+const [near, moved] = [await headBox(heads[1]), await headBox(heads[2])];
+await page.mouse.move(moved.x + moved.width / 2, moved.y + moved.height / 2);
+await page.mouse.down();
+await page.mouse.move(near.x + near.width / 2 + 20, near.y + near.height / 2, { steps: 5 });
+await page.mouse.up();
+await page.mouse.move(2, 2);
+await page.locator('.head:focus').evaluateAll(([node]) => node?.blur());
+await settled();
+await take('heads_close');
+assert.ok(areApart(await namesSeen()), 'names lie over each other');
+assert.ok((await namesSeen()).length > 1, 'the others are named');
+await page.keyboard.press('Control+z');
+await settled();
+
 // A measurement's slider moves the face to the wanted value, by weights of the regions that it is about; a locked region
 // stays; what the heads do not reach is told.
 const measurement = (name) => page.getByRole('row', { name: new RegExp(`^${name} `) });

@@ -29,6 +29,7 @@ import { toolbar, viewBar } from './toolbar.js';
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
 const patient = 250; // ms that a draft waits for the program's face before it is drawn in full
+const telling = 200; // ms between distances that are told while something moves
 const judging = 400; // ms that a face rests before its whole mesh is judged
 const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us
@@ -90,7 +91,10 @@ class Editor extends ProgramPage {
     });
     this.measures = new Newest({
       ask: (asked) => post('measures', asked),
-      show: (measures) => { if (this.exactOf !== this.document) this.tell(measures); },
+      show: async (measures) => {
+        if (this.exactOf !== this.document) this.tell(measures);
+        await new Promise((done) => { setTimeout(done, telling); }); // the processor draws meanwhile
+      },
       fail: (error) => this.say(error.message, true),
     });
     this.faults = new Newest({

@@ -2,9 +2,10 @@
 // The plane of Fig. 8: heads at their anchors, one controller a region, all to be dragged.
 import { el, short } from '../dom.js';
 import { anchorMark, planeFrame, side } from '../plane.js';
-import { anchorsOf, weightsOf } from './recipe.js';
+import { anchorsOf, headIndex, weightsOf } from './recipe.js';
 
 const finger = 14.5; // pixels: radius of what is to be taken, on a board of any size
+const letterWidth = 7.2; // pixels, of a name
 export const still = 4; // pixels: below, a press is a click
 const reach = 2; // beyond so many half-widths of the heads' place from its middle no controller stands
 
@@ -223,21 +224,47 @@ export class PlaneBoard {
 
   show() {
     if (!this.drag) this.frameAnew();
+    this.showHeads();
+    this.showHandles();
+  }
+
+  /// Nothing, if they stand there already: pictures in the plane are dear to draw.
+  showHeads() {
     const { job, document } = this.editor;
     const places = anchorsOf(job, document.anchors).map((anchor) => this.frame.at(anchor));
-    const covers = ([x, y], [ox, oy]) => Math.abs(ox - x) < 2 * this.headRadius && oy > y && oy - y < 2.6 * this.headRadius;
+    const key = JSON.stringify([places, document.recipe.target, document.anchors, this.unit]);
+    if (key === this.headsKey) return;
+    this.headsKey = key;
+    const named = this.headsWithRoom(places);
     places.forEach((place, h) => {
       const node = this.headNodes[h];
       const { name } = job.heads[h];
       const target = document.recipe.target === name;
       node.setAttribute('transform', `translate(${place})`);
       node.classList.toggle('target', target);
-      node.classList.toggle('crowded', places.some((other) => covers(place, other)));
+      node.classList.toggle('crowded', !named.has(h));
       node.classList.toggle('away', Boolean(document.anchors?.[name]));
       node.setAttribute('aria-pressed', String(target));
       node.setAttribute('aria-label', target ? `${name}, the target` : `${name}: make it the target`);
     });
-    this.showHandles();
+  }
+
+  /// The heads whose names touch no other name and no picture; the target's name comes first. Others show theirs when
+  /// they are pointed at.
+  headsWithRoom(places) {
+    const { headRadius, unit } = this;
+    const { job, document } = this.editor;
+    const touch = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    const around = ([x, y], half, top, bottom) => ({ left: x - half, right: x + half, top: y + top, bottom: y + bottom });
+    const pictures = places.map((place) => around(place, 0.8 * headRadius, -0.8 * headRadius, 0.8 * headRadius));
+    const target = headIndex(job, document.recipe.target);
+    const named = new Map();
+    for (const h of [target, ...places.keys()].filter((number) => number >= 0)) {
+      const name = around(places[h], 0.5 * letterWidth * unit * job.heads[h].name.length, headRadius + 11 - 5 * unit, headRadius + 11 + 8 * unit);
+      const isFree = !pictures.some((picture, other) => other !== h && touch(name, picture)) && ![...named.values()].some((other) => touch(name, other));
+      if (isFree && !named.has(h)) named.set(h, name);
+    }
+    return named;
   }
 
   showHandles() {
