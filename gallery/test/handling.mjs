@@ -105,8 +105,8 @@ await slideBy([30, 0]);
 // Of heads that stand close together on the plane only those show their names that have room for them.
 const namesSeen = () => page.locator('.head text').evaluateAll((texts) => texts.map((node) => node.getBoundingClientRect()).filter(({ width }) => width > 0));
 const areApart = (boxes) => boxes.every((a, i) => boxes.every((b, k) => i <= k || a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top));
-const headBox = async (name) => page.locator(`.head[data-head="${name}"] .anchor > circle`).first().boundingBox();
-const [near, moved] = [await headBox(heads[1]), await headBox(heads[2])];
+const circleOf = async (name) => page.locator(`.head[data-head="${name}"] .anchor > circle`).first().boundingBox();
+const [near, moved] = [await circleOf(heads[1]), await circleOf(heads[2])];
 await page.mouse.move(moved.x + moved.width / 2, moved.y + moved.height / 2);
 await page.mouse.down();
 await page.mouse.move(near.x + near.width / 2 + 20, near.y + near.height / 2, { steps: 5 });
