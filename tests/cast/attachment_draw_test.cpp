@@ -458,12 +458,57 @@ TEST(HairColour, FollowsSharesExactlyInEachGroup) {
     } else {
       const bool is_blond = face.hair->eumelanin < 0.35;  // the others are brown
       blond += is_blond ? 1 : 0;
-      if (is_blond) EXPECT_EQ(face.hair->grey, 0) << face.id;
       grey += face.hair->grey > 0.3 ? 1 : 0;
     }
   }
   EXPECT_NEAR(blond, 15, 1);
-  EXPECT_GT(grey, 10);  // age changes only colours that nobody asked for
+  EXPECT_GT(grey, 10);
+}
+
+// Each group rounded down its part: of forty faces, four were red-haired where eight were asked.
+TEST(HairColour, FollowsSharesOverAllGroupsAndAllWhoHaveNoParents) {
+  AttachmentDraw draw = hair_draw();
+  draw.tags = {{"young"}, {"young"}};
+  draw.hair_colours = {{"", {{"red", 0.2}, {"brown", 0.4}, {"black", 0.4}}}};
+  for (draw.seed = 1; draw.seed <= 20; ++draw.seed) {
+    std::vector<FacePlan> crowd;
+    std::vector<int> groups;
+    for (int p = 0; p < 6; ++p) {
+      FacePlan& parent = crowd.emplace_back();
+      parent.id = "parent_" + std::to_string(p);
+    }
+    for (std::uint64_t i = 1; i <= 34; ++i) {
+      FacePlan& face = crowd.emplace_back(face_of(i, 0));
+      groups.push_back(i <= 14 ? 0 : i <= 28 ? 1 : 2);
+      face.group = std::to_string(groups.back());
+    }
+    draw_attachments(draw, groups, crowd);
+    const auto red = [](const FacePlan& face) { return face.hair->pheomelanin > 0.5; };
+    EXPECT_EQ(std::ranges::count_if(crowd, red), 8) << draw.seed;
+    const std::vector<FacePlan> before = crowd;
+    for (std::uint64_t i = 35; i <= 60; ++i) {
+      crowd.push_back(face_of(i, 0));
+      groups.push_back(-1);
+    }
+    draw_attachments(draw, groups, crowd);
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(crowd[i].hair, before[i].hair);
+  }
+}
+
+// Two of thirteen old people were grey in a crowd with hair_colours.
+TEST(HairColour, ThatIsAskedForGreysWithAge) {
+  AttachmentDraw draw = hair_draw();
+  draw.hair_colours = {{"", {{"red", 1}}}};
+  std::vector<FacePlan> crowd = hair_crowd(40);
+  draw_attachments(draw, {}, crowd);
+  int grey = 0;
+  for (const FacePlan& face : crowd) {
+    EXPECT_NEAR(face.hair->pheomelanin, 0.8, 0.11);
+    const bool is_old = face.recipe.target >= 2;
+    if (!is_old) EXPECT_EQ(face.hair->grey, 0);
+    grey += is_old && face.hair->grey > 0.5 ? 1 : 0;
+  }
+  EXPECT_GT(grey, 10) << "of twenty";
 }
 
 TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {

@@ -65,8 +65,8 @@ TEST(Ageing, CanBeTakenBack) {
   casting.sampling.old_heads = {1, 4};
   const FacePlan young = draw_face(casting, 7, 0, kind_of_group(casting));
   FacePlan face = young;
-  apply_age(face, 0.4, casting.sampling);
-  take_back_age(face, casting.sampling);
+  apply_age(face, 0.4, casting, casting.sampling);
+  take_back_age(face, casting, casting.sampling);
   EXPECT_FALSE(face.age);
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     const auto &back = face.recipe.regions[k].weights, &before = young.recipe.regions[k].weights;
@@ -76,6 +76,29 @@ TEST(Ageing, CanBeTakenBack) {
       EXPECT_NEAR(back[i].weight, before[i].weight, 1e-9);
     }
   }
+}
+
+// The weights went to all old heads in equal parts: ten old people had the same wrinkles, and women
+// those of men.
+TEST(Ageing, DetailComesFromTheNearestOldHead) {
+  CastingOptions casting = example();
+  casting.sampling.old_heads = {1, 2, 3};  // 1 is nearest to 0 on the circle
+  const auto aged = [&](Index source, double age) {
+    FacePlan face = draw_any_face(casting, 7);
+    for (RegionRecipe& region : face.recipe.regions) region.weights = {{source, 1}};
+    apply_age(face, age, casting, casting.sampling);
+    return face.recipe.regions[0].weights;
+  };
+  EXPECT_EQ(aged(0, 0.25), (std::vector<SourceWeight>{{0, 0.75}, {1, 0.25}}));
+  EXPECT_EQ(aged(4, 0.25), (std::vector<SourceWeight>{{3, 0.25}, {4, 0.75}}));
+  EXPECT_EQ(aged(2, 0.25), (std::vector<SourceWeight>{{2, 1}})) << "is old";
+  casting.tags = {{"female", "pale", "curly"},
+                  {"male", "old", "pale", "curly"},
+                  {"female", "old"},
+                  {"female", "old", "pale"},
+                  {"male"}};
+  EXPECT_EQ(aged(0, 1), (std::vector<SourceWeight>{{3, 1}})) << "sex, then tags, then place";
+  EXPECT_EQ(aged(4, 1), (std::vector<SourceWeight>{{1, 1}}));
 }
 
 /// Three bands; the skin comes from two heads only and ages, the build does not.
@@ -158,7 +181,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
   casting.sampling.old_heads = {1};
   const FacePlan young = draw_any_face(casting, 7);
   FacePlan old = young;
-  apply_age(old, 0.8, casting.sampling);
+  apply_age(old, 0.8, casting, casting.sampling);
   const auto share_of_old = [](const BandRecipe& band) {
     double share = 0;
     for (const SourceWeight& source : band.weights) share += source.head == 1 ? source.weight : 0;
@@ -175,7 +198,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
       EXPECT_FALSE(band_of(after, b).position);
     }
   }
-  take_back_age(old, casting.sampling);
+  take_back_age(old, casting, casting.sampling);
   EXPECT_FALSE(old.age);
   for (std::size_t k = 0; k < 2; ++k) {
     for (std::size_t b = 0; b < 3; ++b) {

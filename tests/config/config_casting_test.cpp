@@ -114,6 +114,23 @@ TEST_F(ConfigTest, GroupsLeaveOutHeadsWithATag) {
   EXPECT_EQ(effective_config(*again, folder_), written);
 }
 
+// Women got a third of their wrinkles from men.
+TEST_F(ConfigTest, TagsOfAGroupBindItsAges) {
+  const auto config = read(
+      "schema: 1\ncrowd: {name: mob, count: 10}\n"
+      "faces: {directory: heads, units: cm, tags: {ann: [old, female], bob: [old, male], "
+      "cyd: [young, female]}}\n"
+      "groups:\n"
+      "  - {name: girls, tags: [female, young], age: 0.5}\n"
+      "  - {name: others, without: [male, young]}\n"
+      "  - {name: men, tags: [male]}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_THAT(config->groups[0].sampling.old_heads, ElementsAre(0));
+  EXPECT_THAT(config->groups[1].sampling.old_heads, ElementsAre(0));
+  EXPECT_THAT(config->groups[1].sampling.young_heads, ElementsAre(2)) << "an age is no bond";
+  EXPECT_THAT(config->groups[2].sampling.young_heads, ElementsAre(2)) << "no man is young";
+}
+
 // Eleven of thirty-three faces stood on heads of the other sex without a word.
 TEST_F(ConfigTest, TagsOfAGroupBindTargetsThatHaveWeights) {
   const auto config = read(kTagged +
@@ -139,8 +156,9 @@ TEST_F(ConfigTest, KeysThatOtherKeysOverrideAreTold) {
     EXPECT_TRUE(reading.complete) << told();
     return reading.warnings;
   };
-  const auto tells = [&](const std::string& more, const std::string& warning) {
-    EXPECT_THAT(warnings(more), ElementsAre(HasSubstr(warning))) << more;
+  const auto tells = [&](const std::string& more, const std::string& warning,
+                         const std::string& config = kTagged) {
+    EXPECT_THAT(warnings(more, config), ElementsAre(HasSubstr(warning))) << more;
   };
   const auto of_women = [](const std::string& group) {
     return "groups: [{name: women, count: 5, " + group + "}]\n";
@@ -150,8 +168,10 @@ TEST_F(ConfigTest, KeysThatOtherKeysOverrideAreTold) {
         "groups #1.sources: 1 of the 3 sources do not have the group's tags, female; 5 faces take "
         "detail from them");
   tells(of_women("tags: [female], sources: all") + kin, "7 faces take detail from them");
-  tells(of_women("tags: [female], age: 0.5"),
-        "groups #1.age: 1 of the 2 heads tagged old do not have the group's tags, female; 5 faces");
+  tells("faces: {directory: heads, units: cm, tags: {cyd: [female], bob: [old]}}\n" +
+            of_women("tags: [female], age: 0.5"),
+        "groups #1.age: 1 of the 1 heads tagged old do not have the group's tags, female; 5 faces",
+        "schema: 1\ncrowd: {name: mob, count: 10}\n");
   const std::string bands =
       "sampling: {bands: {build: 240 mm, skin: {smoothness: 8 mm, sources: "
       "[bob, cyd]}}}\n";

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
+#include "crowdface/cast/substitute_heads.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/require.h"
 
 namespace crowdface {
@@ -14,6 +17,53 @@ namespace {
 double share_of(double age, const SamplingOptions& sampling, std::size_t band) {
   return std::abs(age) * (sampling.bands.empty() ? 1 : sampling.bands[band].ageing);
 }
+
+bool same_sex(const std::vector<std::string>& one, const std::vector<std::string>& other) {
+  return contains(one, "female") == contains(other, "female") &&
+         contains(one, "male") == contains(other, "male");
+}
+
+/// The heads of an age class, from which the detail of all other heads ages.
+class Examples {
+ public:
+  Examples(double age, const CastingOptions& casting, const SamplingOptions& sampling)
+      : heads_(age > 0 ? sampling.old_heads : sampling.young_heads), casting_(casting) {
+    require(!heads_.empty(), "an age of ", age, " without heads of that age");
+  }
+
+  bool has(Index head) const { return std::ranges::binary_search(heads_, head); }
+  /// Returns the nearest head of the class. A mean of several would have no wrinkles.
+  Index nearest_to(Index head) const {
+    return *std::ranges::min_element(heads_, {}, [&](Index other) { return rank(head, other); });
+  }
+  /// Moves a fraction of the weight of each head outside the class to the nearest head in it.
+  std::vector<SourceWeight> with_moved(const std::vector<SourceWeight>& weights,
+                                       double fraction) const {
+    std::map<Index, double> sums;
+    for (const SourceWeight& source : weights) {
+      const double moved = has(source.head) ? 0 : fraction * source.weight;
+      sums[source.head] += source.weight - moved;
+      if (moved != 0) sums[nearest_to(source.head)] += moved;
+    }
+    std::vector<SourceWeight> result;
+    for (const auto& [head, weight] : sums) {
+      if (weight > 0) result.push_back({head, weight});
+    }
+    return result;
+  }
+
+ private:
+  std::tuple<bool, std::ptrdiff_t, double> rank(Index head, Index other) const {
+    const auto a = static_cast<std::size_t>(head), b = static_cast<std::size_t>(other);
+    const double apart = (casting_.anchors[a] - casting_.anchors[b]).norm();
+    if (casting_.tags.empty()) return {false, 0, apart};
+    const auto &own = casting_.tags[a], &tags = casting_.tags[b];
+    return {!same_sex(own, tags), -static_cast<std::ptrdiff_t>(common_tags(own, tags)), apart};
+  }
+
+  const std::vector<Index>& heads_;
+  const CastingOptions& casting_;
+};
 
 }  // namespace
 
@@ -29,40 +79,35 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
   return mixed;
 }
 
-void apply_age(FacePlan& face, double age, const SamplingOptions& sampling) {
+void apply_age(FacePlan& face, double age, const CastingOptions& casting,
+               const SamplingOptions& sampling) {
   if (age == 0) return;
-  const std::vector<Index>& heads = age > 0 ? sampling.old_heads : sampling.young_heads;
-  require(!heads.empty(), "an age of ", age, " without heads of that age");
-  std::vector<SourceWeight> along;
-  for (const Index head : heads) along.push_back({head, 1 / static_cast<double>(heads.size())});
+  const Examples examples(age, casting, sampling);
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       const double share = share_of(age, sampling, b);
       if (share == 0) continue;
       BandRecipe& band = band_of(region, b);
-      band.weights = mixed_weights(band.weights, along, share);
+      band.weights = examples.with_moved(band.weights, share);
       band.position.reset();
     }
   }
   face.age = age;
 }
 
-void take_back_age(FacePlan& face, const SamplingOptions& sampling) {
+void take_back_age(FacePlan& face, const CastingOptions& casting, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
-  const std::vector<Index>& heads = *face.age > 0 ? sampling.old_heads : sampling.young_heads;
+  const Examples examples(*face.age, casting, sampling);
   bool known = true;
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       const double share = share_of(*face.age, sampling, b);
       known = known && share <= 1 - kRounding;
       if (share == 0 || share > 1 - kRounding) continue;
-      const double each = share / static_cast<double>(heads.size());
+      // The weights outside the class were scaled by 1 − share.
       std::vector<SourceWeight>& weights = band_of(region, b).weights;
-      for (SourceWeight& source : weights) {
-        const bool aged = std::binary_search(heads.begin(), heads.end(), source.head);
-        source.weight = (source.weight - (aged ? each : 0)) / (1 - share);
-      }
+      weights = examples.with_moved(weights, -share / (1 - share));
       std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });
     }
   }

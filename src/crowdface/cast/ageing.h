@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/sampling.h"
 
 namespace crowdface {
 
-/// Ages a face: in every region, the fraction |age| of the weights moves to the heads tagged old
-/// (age above 0) or young (below 0), in equal parts; the remaining weights are scaled by 1 − |age|.
-/// The paper does the same when it transfers an older person's detail to a younger one (Fig. 2). A
-/// band multiplies this fraction by its `ageing`. The weights no longer correspond to a position,
-/// so the positions are removed.
+/// Ages a face: in every region, the fraction |age| of the weight of each head moves to the nearest
+/// head tagged old (age above 0) or young (below 0); weights of heads with this tag stay. The paper
+/// does the same when it transfers an older person's detail to a younger one (Fig. 2). Nearest is a
+/// head of the same sex, then with the most tags in common, then nearest on the plane: different
+/// people take the detail of different heads, so they remain different people. A band multiplies
+/// the fraction by its `ageing`. The weights no longer correspond to a position, so the positions
+/// are removed.
 ///
+/// \param sampling  of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.
-void apply_age(FacePlan& face, double age, const SamplingOptions& sampling);
+void apply_age(FacePlan& face, double age, const CastingOptions& casting,
+               const SamplingOptions& sampling);
 
 /// Undoes apply_age, so that children do not inherit the age of this face. If age −1 or 1 moved the
 /// whole weight of a band, the band cannot be restored; the band and the face's age then stay as
 /// they are.
-void take_back_age(FacePlan& face, const SamplingOptions& sampling);
+void take_back_age(FacePlan& face, const CastingOptions& casting, const SamplingOptions& sampling);
 
 /// Returns (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

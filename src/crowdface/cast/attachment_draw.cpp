@@ -90,9 +90,10 @@ struct KindQuotas {
 
 class AttachmentDrawing {
  public:
-  /// \param crowd  all faces, in the order of the plan.
+  /// \param crowd   all faces, in the order of the plan.
+  /// \param beside  faces that must not look like the face before or after them.
   AttachmentDrawing(const AttachmentDraw& draw, const std::vector<int>& groups,
-                    const std::vector<FacePlan>& crowd)
+                    const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& beside)
       : draw_(draw) {
     for (const AttachmentItem& item : draw.items) {
       if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
@@ -109,11 +110,11 @@ class AttachmentDrawing {
     if (std::ranges::any_of(draw.items,
                             [](const auto& item) { return item.tint != Tint::kNone; })) {
       hair_.emplace(HairOptions{draw.seed, draw.tags, draw.heads, draw.hair_colours, draw.twins},
-                    groups);
-      for (std::size_t i = 1; i < crowd.size(); ++i) {
-        if (is_beside(crowd[i - 1], crowd[i])) {
-          neighbours_[crowd[i].id].push_back(crowd[i - 1].id);
-          neighbours_[crowd[i - 1].id].push_back(crowd[i].id);
+                    crowd);
+      for (std::size_t i = 1; i < beside.size(); ++i) {
+        if (is_beside(beside[i - 1], beside[i])) {
+          neighbours_[beside[i].id].push_back(beside[i - 1].id);
+          neighbours_[beside[i - 1].id].push_back(beside[i].id);
         }
       }
     }
@@ -369,7 +370,7 @@ class AttachmentDrawing {
 void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
                       std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
                       const std::vector<std::size_t>& rejected_from) {
-  AttachmentDrawing drawing(draw, groups, crowd);
+  AttachmentDrawing drawing(draw, groups, crowd, crowd);
   const auto dress = [](FacePlan& face, Drawn drawn) {
     face.attachments = std::move(drawn.names);
     face.hair = drawn.hair;
@@ -413,7 +414,7 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
 
 void draw_attachments_alone(const AttachmentDraw& draw, const std::vector<int>& groups,
                             const std::vector<FacePlan>& crowd, FacePlan& face) {
-  AttachmentDrawing drawing(draw, groups, {});
+  AttachmentDrawing drawing(draw, groups, crowd, {});
   for (const FacePlan& earlier : crowd) {
     if (earlier.index || earlier.id == face.id) break;
     drawing.of(earlier);

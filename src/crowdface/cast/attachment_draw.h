@@ -24,8 +24,9 @@ struct AttachmentDraw {
   /// has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
-  /// By group: fractions of the faces with a named hair colour; "" is for groups without an entry
-  /// and faces without a group. All other faces have the colour of their heads.
+  /// By group: fractions of the faces with a named hair colour, before age makes it grey; "" is for
+  /// groups without an entry and faces without a group. Children have a colour of their parents,
+  /// all other faces that of their heads.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twins = {};  ///< families whose members are twins
 };

@@ -31,9 +31,16 @@ int share_at(const std::vector<double>& shares, double drawn) {
 
 }  // namespace
 
-HairDraw::HairDraw(HairOptions options, const std::vector<int>& groups)
+HairDraw::HairDraw(HairOptions options, const std::vector<FacePlan>& crowd)
     : draw_(std::move(options)) {
-  for (const int group : groups) places_.emplace_back(group, sizes_[group]++);
+  const auto is_empty = [](const auto& entry) { return entry.second.empty(); };
+  if (std::ranges::all_of(draw_.hair_colours, is_empty)) return;
+  std::set<std::string> families;
+  for (const FacePlan& face : crowd) {
+    if (!face.parents.empty() || (face.family && !families.insert(*face.family).second)) continue;
+    const std::string entry = entry_of(face);
+    places_[face.id] = {entry, sizes_[entry]++};
+  }
 }
 
 HairColour HairDraw::of(const FacePlan& face, Index head) {
@@ -43,11 +50,7 @@ HairColour HairDraw::of(const FacePlan& face, Index head) {
     return person.empty() ? std::string(what) : concat(what, '/', person);
   };
   std::optional<HairColour> colour = inherited(face, person);
-  bool is_asked = false;
-  if (!colour) {
-    colour = asked(face);
-    is_asked = colour.has_value();
-  }
+  if (!colour) colour = asked(face);
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) families_.try_emplace(*face.family, *colour);
   // A little scatter, so that not all brown hair is the same brown.
@@ -58,39 +61,37 @@ HairColour HairDraw::of(const FacePlan& face, Index head) {
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
   own.pheomelanin += kScatter * (scatter[1] - 0.5);
   known_[face.id] = own;
-  // A colour that the config asks for does not turn grey, so that its share of the faces is visible.
-  if (!is_asked) own.grey = std::max(own.grey, grey_of(face, head, key("hair/grey")));
+  own.grey = std::max(own.grey, grey_of(face, head, key("hair/grey")));
   return rounded_colour(own);
 }
 
-/// Returns the fractions of hair colours for the face's group.
-const std::map<std::string, double>& HairDraw::shares_of(const FacePlan& face) const {
-  static const std::map<std::string, double> none;
-  auto found = draw_.hair_colours.find(face.group.value_or(""));
-  if (found == draw_.hair_colours.end()) found = draw_.hair_colours.find("");
-  return found == draw_.hair_colours.end() ? none : found->second;
+/// Returns the key of `hair_colours` that applies to a face.
+std::string HairDraw::entry_of(const FacePlan& face) const {
+  const std::string group = face.group.value_or("");
+  return draw_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among the sampled faces of a group, the
+/// Returns the colour that `hair_colours` gives the face. Among the faces with a place, the
 /// fractions are exact.
 std::optional<HairColour> HairDraw::asked(const FacePlan& face) {
-  const std::map<std::string, double>& shares = shares_of(face);
-  if (shares.empty()) return std::nullopt;
+  const std::string entry = entry_of(face);
+  const auto shares = draw_.hair_colours.find(entry);
+  if (shares == draw_.hair_colours.end() || shares->second.empty()) return std::nullopt;
   std::vector<double> parts;
   std::vector<HairColour> colours;
-  for (const auto& [name, share] : shares) {
+  for (const auto& [name, share] : shares->second) {
     parts.push_back(share);
     colours.push_back(*hair_colour_named(name));
   }
   int chosen = -1;
-  if (face.index && *face.index <= places_.size()) {
-    const auto& [group, place] = places_[*face.index - 1];
-    const auto [schedule, is_new] = schedules_.try_emplace(group);
+  const auto place = places_.find(face.id);
+  if (place != places_.end() && place->second.first == entry) {
+    const auto [schedule, is_new] = schedules_.try_emplace(entry);
     if (is_new) {
       schedule->second =
-          scatter_shares(parts, sizes_[group], draw_.seed, concat("hair colours/", group));
+          scatter_shares(parts, sizes_[entry], draw_.seed, concat("hair colours/", entry));
     }
-    chosen = schedule->second[place];
+    chosen = schedule->second[place->second.second];
   } else {
     const std::string purpose = concat("hair/colour/", face.id);
     chosen = share_at(parts, random_unit({draw_.seed, face.index.value_or(0), purpose}));

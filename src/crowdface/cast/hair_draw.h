@@ -28,14 +28,15 @@ struct HairOptions {
 /// face does not depend on later faces.
 class HairDraw {
  public:
-  /// \param groups  group of each sampled face, see draw_attachments.
-  HairDraw(HairOptions options, const std::vector<int>& groups);
+  /// \param crowd  all faces, in the order of the plan. Faces that do not have the colour of a
+  ///               parent or of their family share the fractions of `hair_colours`.
+  HairDraw(HairOptions options, const std::vector<FacePlan>& crowd);
 
   /// \param head  the head whose tags the face has.
   HairColour of(const FacePlan& face, Index head);
 
  private:
-  const std::map<std::string, double>& shares_of(const FacePlan& face) const;
+  std::string entry_of(const FacePlan& face) const;
   std::optional<HairColour> asked(const FacePlan& face);
   std::optional<HairColour> inherited(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
@@ -43,11 +44,11 @@ class HairDraw {
   double grey_of(const FacePlan& face, Index head, const std::string& purpose) const;
 
   HairOptions draw_;
-  /// for each sampled face: its group, and its index within the group
-  std::vector<std::pair<int, std::uint64_t>> places_;
-  std::map<int, std::uint64_t> sizes_;  ///< number of sampled faces in each group
-  /// by group: index of the named colour of each of the group's sampled faces, or −1
-  std::map<int, std::vector<int>> schedules_;
+  /// by face: its entry in `hair_colours`, and its index among the faces of this entry
+  std::map<std::string, std::pair<std::string, std::uint64_t>> places_;
+  std::map<std::string, std::uint64_t> sizes_;  ///< number of places of each entry
+  /// by entry: index of the named colour of each place, or −1
+  std::map<std::string, std::vector<int>> schedules_;
   std::map<std::string, HairColour> known_;     ///< colours without the grey of age, by face
   std::map<std::string, HairColour> families_;  ///< of families without parents
 };

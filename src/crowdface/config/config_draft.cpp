@@ -51,6 +51,12 @@ std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
   return heads;
 }
 
+std::vector<std::string> without_ages(std::vector<std::string> tags) {
+  std::erase_if(tags,
+                [](const auto& tag) { return tag == "young" || tag == "adult" || tag == "old"; });
+  return tags;
+}
+
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config) {
   const std::vector<std::string> regions = config.region_names();
   const std::vector<std::string> bands = config.plan_names().bands;

@@ -41,6 +41,8 @@ bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::st
 /// Returns the heads that have all of these tags, ascending.
 std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
                                      const Config::Faces& faces);
+/// Removes the tags that name an age: young, adult, old.
+std::vector<std::string> without_ages(std::vector<std::string> tags);
 
 /// Resolves a path against the folder and removes "a/../" lexically, without reading links.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);

@@ -15,6 +15,16 @@ constexpr double kRounding = 1e-9;
 /// Marks a group that gives neither share nor count; such groups divide the remainder equally.
 constexpr double kOpenShare = -1;
 
+/// Keeps the old and young heads that are wanted, unless no such head is wanted.
+template <class Wanted>
+void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
+  for (auto* heads : {&sampling.old_heads, &sampling.young_heads}) {
+    std::vector<Eigen::Index> left = *heads;
+    std::erase_if(left, [&](Eigen::Index head) { return !wanted(head); });
+    if (!left.empty()) *heads = left;
+  }
+}
+
 /// Sets targets and sources to the heads that have all of these tags.
 void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
@@ -26,6 +36,8 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   if (group.sampling.targets.empty() && draft.heads_known && draft.tags_known) {
     draft.complaints.add_at(node, "no head has all of these tags");
   }
+  const auto of_any_age = heads_with(without_ages(*tags), draft.config.faces);
+  bind_ages(group.sampling, [&](Eigen::Index head) { return contains(of_any_age, head); });
 }
 
 /// Keeps the targets that have all tags of the group's key `tags`, also if the key `targets` gives
@@ -67,6 +79,10 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const bool known = draft.heads_known && draft.tags_known;
   SamplingOptions& sampling = group.sampling;
   const bool had_some = !sampling.targets.empty() && !sampling.sources.empty();
+  for (const std::string& tag : without_ages(*tags)) {
+    const auto tagged = heads_with({tag}, draft.config.faces);
+    bind_ages(sampling, [&](Eigen::Index head) { return !contains(tagged, head); });
+  }
   std::vector<std::string> emptied;  // names of bands without a remaining head
   for (const std::string& tag : *tags) {
     const std::vector<Eigen::Index> tagged = heads_with({tag}, draft.config.faces);

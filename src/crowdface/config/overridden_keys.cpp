@@ -104,22 +104,26 @@ class OverriddenKeys {
   /// Finds what a group with tags takes from heads without them, and keys that its tags replace.
   void find_beside_tags(const YamlNode& node, std::size_t g, const std::vector<std::string>& tags) {
     const SamplingOptions &own = config_.groups[g].sampling, &all = config_.sampling;
-    const Heads tagged = heads_with(tags, config_.faces);
-    const auto take = [&](const std::string& key, const Heads& heads, const char* what) {
+    const auto take = [&](const std::string& key, const Heads& heads, const char* what,
+                          const std::vector<std::string>& wanted) {
+      const Heads tagged = heads_with(wanted, config_.faces);
       const auto others =
           std::ranges::count_if(heads, [&](auto head) { return !contains(tagged, head); });
       if (others == 0) return;
       tell(key, ": ", others, " of the ", heads.size(), " ", what,
-           " do not have the group's tags, ", join(tags), "; ", counted_faces(faces_of_[g]),
+           " do not have the group's tags, ", join(wanted), "; ", counted_faces(faces_of_[g]),
            " take detail from them");
     };
     const YamlNode *targets = value_at(node, "targets"), *sources = value_at(node, "sources");
-    if (sources != nullptr) take(sources->path, own.sources, "sources");
+    if (sources != nullptr) take(sources->path, own.sources, "sources", tags);
     for (const BandSampling& band : own.bands) {
-      if (band.sources) take(concat(node.path, ".bands.", band.name), *band.sources, "sources");
+      if (band.sources)
+        take(concat(node.path, ".bands.", band.name), *band.sources, "sources", tags);
     }
-    if (own.age.high > 0) take(node.path + ".age", own.old_heads, "heads tagged old");
-    if (own.age.low < 0) take(node.path + ".age", own.young_heads, "heads tagged young");
+    if (own.age.high > 0)
+      take(node.path + ".age", own.old_heads, "heads tagged old", without_ages(tags));
+    if (own.age.low < 0)
+      take(node.path + ".age", own.young_heads, "heads tagged young", without_ages(tags));
     const auto replaced = [&](const char* key) {
       tell("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
            ", whose tags select its heads (", counted_faces(faces_of_[g]), ")");

@@ -266,7 +266,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
                      crowd.rejected_from);
   }
   draw_skin(config, inputs, result.crowd);
-  replace_changed_faces(config, attachment_draw(config), colour_draw(config), crowd.kinds,
+  replace_changed_faces(config, casting, attachment_draw(config), colour_draw(config), crowd.kinds,
                         crowd.changed, result.crowd);
   if (traits) {
     measure_faces(*traits, result.crowd);

@@ -35,9 +35,11 @@ void put_on(const Config& config, const std::vector<std::string>& names, FacePla
 class ChangedLooks {
  public:
   /// \param crowd  the faces as they were cast.
-  ChangedLooks(const Config& config, const AttachmentDraw& attachments, const ColourDraw& colours,
+  ChangedLooks(const Config& config, const CastingOptions& casting,
+               const AttachmentDraw& attachments, const ColourDraw& colours,
                const std::vector<int>& kinds, const std::vector<FacePlan>& crowd)
       : config_(config),
+        casting_(casting),
         attachments_(attachments),
         colours_(colours),
         kinds_(kinds),
@@ -82,11 +84,11 @@ class ChangedLooks {
       band_of(region, band_count(region) - 1).weights = std::exchange(region.colours, {});
     }
     if (other.age != face.age) {
-      const auto group = std::ranges::find(config_.groups, face.group.value_or(""), &Group::name);
+      const auto group = std::ranges::find(casting_.groups, face.group.value_or(""), &Group::name);
       const SamplingOptions& sampling =
-          group == config_.groups.end() ? config_.sampling : group->sampling;
-      take_back_age(other, sampling);
-      apply_age(other, face.age.value_or(0), sampling);
+          group == casting_.groups.end() ? casting_.sampling : group->sampling;
+      take_back_age(other, casting_, sampling);
+      apply_age(other, face.age.value_or(0), casting_, sampling);
     }
     const auto weights = colour_weights(other.recipe, config_.faces.names.size());
     for (std::size_t k = 0; k < weights.size(); ++k) {
@@ -121,6 +123,7 @@ class ChangedLooks {
   }
 
   const Config& config_;
+  const CastingOptions& casting_;
   const AttachmentDraw& attachments_;
   const ColourDraw& colours_;
   const std::vector<int>& kinds_;
@@ -129,13 +132,14 @@ class ChangedLooks {
 
 }  // namespace
 
-void replace_changed_faces(const Config& config, const AttachmentDraw& attachments,
-                           const ColourDraw& colours, const std::vector<int>& kinds,
+void replace_changed_faces(const Config& config, const CastingOptions& casting,
+                           const AttachmentDraw& attachments, const ColourDraw& colours,
+                           const std::vector<int>& kinds,
                            const std::map<std::size_t, ChangedFace>& changed,
                            std::vector<FacePlan>& crowd) {
   if (changed.empty()) return;
   const std::vector<FacePlan> cast = crowd;
-  const ChangedLooks looks(config, attachments, colours, kinds, cast);
+  const ChangedLooks looks(config, casting, attachments, colours, kinds, cast);
   for (const auto& [face, change] : changed) crowd[face] = looks.of(change, cast[face]);
 }
 

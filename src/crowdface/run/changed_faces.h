@@ -8,6 +8,7 @@
 #include "crowdface/cast/attachment_draw.h"
 #include "crowdface/cast/casting_result.h"
 #include "crowdface/cast/colour_draw.h"
+#include "crowdface/cast/draw_recipe.h"
 #include "crowdface/config/config.h"
 
 namespace crowdface {
@@ -19,11 +20,12 @@ namespace crowdface {
 /// - A face that was drawn again gets colours and attachments of its own, see
 ///   draw_attachments_alone. A variant has the colours of the face that it is a variant of.
 ///
-/// \param attachments, colours  the options with which the crowd was drawn.
+/// \param casting, attachments, colours  the options with which the crowd was drawn.
 /// \param kinds  group of each sampled face, or −1.
 /// \param crowd  the faces as they were cast, with colours and attachments.
-void replace_changed_faces(const Config& config, const AttachmentDraw& attachments,
-                           const ColourDraw& colours, const std::vector<int>& kinds,
+void replace_changed_faces(const Config& config, const CastingOptions& casting,
+                           const AttachmentDraw& attachments, const ColourDraw& colours,
+                           const std::vector<int>& kinds,
                            const std::map<std::size_t, ChangedFace>& changed,
                            std::vector<FacePlan>& crowd);
 

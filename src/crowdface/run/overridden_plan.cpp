@@ -50,6 +50,7 @@ class OverriddenPlan {
 
   std::vector<std::string> find() {
     find_missed_quotas();
+    find_missed_hair();
     for (const FaceChange& change : config_.changes) find_in(change);
     for (const Review& review : config_.review.reviews) {
       for (const FaceChange& change : review.changes) {
@@ -100,6 +101,52 @@ class OverriddenPlan {
                                  " sampled faces should wear it, ", reached,
                                  " do: tags, without and excludes take precedence"));
     }
+  }
+
+  /// Compares the asked hair colours with those of the faces. Changed faces do not count.
+  void find_missed_hair() {
+    std::map<std::string, std::vector<const FacePlan*>> groups;  // "": all without own colours
+    const auto own = [&](const std::string& name) {
+      return std::ranges::find_if(config_.groups, [&](const Group& group) {
+        return group.name == name && !group.hair_colours.empty();
+      });
+    };
+    for (const FacePlan& face : crowd_) {
+      if (!face.hair || !face.notes.changes.empty()) continue;
+      const std::string name = face.group.value_or("");
+      groups[own(name) == config_.groups.end() ? "" : name].push_back(&face);
+    }
+    for (const auto& [name, faces] : groups) {
+      const auto group = own(name);
+      const bool is_own = group != config_.groups.end();
+      for (const auto& [colour, share] :
+           is_own ? group->hair_colours : config_.attachments.hair_colours) {
+        tell_missed_hair(is_own ? concat("groups.", name) : "attachments", colour, share, faces);
+      }
+    }
+  }
+
+  void tell_missed_hair(const std::string& section, const std::string& name, double share,
+                        const std::vector<const FacePlan*>& faces) {
+    const HairColour colour = *hair_colour_named(name);
+    const auto has_it = [&](const FacePlan* face) {
+      constexpr double kScatter = 0.101;  // of HairDraw, rounded
+      return std::abs(face->hair->eumelanin - colour.eumelanin) < kScatter / 2 &&
+             std::abs(face->hair->pheomelanin - colour.pheomelanin) < kScatter;
+    };
+    const auto is_grey = [&](const FacePlan* face) {
+      return has_it(face) && face->hair->grey > 0.5 && colour.grey == 0;
+    };
+    constexpr double kRounding = 1e-9;
+    const double asked = std::floor(share * static_cast<double>(faces.size()) + kRounding);
+    const auto have = std::ranges::count_if(faces, has_it);
+    const auto grey = std::ranges::count_if(faces, is_grey);
+    if (static_cast<double>(have - grey) >= asked) return;
+    std::string why;
+    if (grey > 0) why = concat(", ", grey, " of them grey with age");
+    if (static_cast<double>(have) < asked) why += ": children have a colour of their parents";
+    warnings_.push_back(concat(section, ".hair_colours.", name, ": ", asked, " of ", faces.size(),
+                               " faces should have it, ", have, " do", why));
   }
 
   void find_in(const FaceChange& change) {

@@ -19,10 +19,16 @@
 namespace crowdface {
 namespace {
 
+/// Raised when the same config gives another plan: plans of an older version are cast again.
+constexpr int kCastVersion = 1;
+
 /// Hash of everything that a plan depends on.
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
-  hasher.add(kVersion).add(plan_settings(job.config, directory.root)).add(job.settings);
+  hasher.add(kVersion)
+      .add(kCastVersion)
+      .add(plan_settings(job.config, directory.root))
+      .add(job.settings);
   if (job.inputs.neck) hasher.add(kNeckVersion).add(job.inputs.neck->digest);  // for measurements
   hasher.add_array(std::span(job.inputs.distance_mask));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
