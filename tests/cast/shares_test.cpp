@@ -40,6 +40,36 @@ TEST(Shares, SeveralAreNeverLateAndHardlyEarly) {
   }
 }
 
+// Shares that sum to 1 were scattered late: of forty faces, one in five had seven.
+TEST(Shares, AreScatteredExactly) {
+  for (const std::vector<double>& shares : {std::vector<double>{0.3, 0.3, 0.4},
+                                            {0.2},
+                                            {0.2, 0.4, 0.4},
+                                            {0.25, 0.25, 0.2},
+                                            {1. / 3, 1. / 3, 1. / 3},
+                                            {0.05, 0.05, 0.05, 0.05, 0.7},
+                                            {0.0, 1.0}}) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const auto schedule = scatter_exactly(shares, 300, seed, "test");
+      std::vector<double> got(shares.size(), 0);
+      for (std::size_t n = 1; n <= schedule.size(); ++n) {
+        if (schedule[n - 1] >= 0) ++got[static_cast<std::size_t>(schedule[n - 1])];
+        for (std::size_t j = 0; j < shares.size(); ++j) {
+          const double due = shares[j] * static_cast<double>(n);
+          EXPECT_GE(got[j], std::floor(due + 1e-9)) << j << " of " << n;
+          EXPECT_LE(got[j], std::ceil(due - 1e-9)) << j << " of " << n;
+        }
+      }
+      const auto few = scatter_exactly(shares, 77, seed, "test");
+      EXPECT_TRUE(std::equal(few.begin(), few.end(), schedule.begin()));
+    }
+  }
+  const auto fifth = scatter_exactly({0.2}, 300, 1, "test");
+  int periodic = 0;
+  for (std::size_t n = 5; n < 300; ++n) periodic += fifth[n] == 0 && fifth[n - 5] == 0 ? 1 : 0;
+  EXPECT_LT(periodic, 30) << "of sixty: no row of a sheet is all red";
+}
+
 TEST(Shares, GrowingTheCrowdMovesNobody) {
   const std::vector<double> shares = {0.3, 0.21, 0.4};
   const auto many = schedule_shares(shares, 500);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "crowdface/core/random.h"
 #include "crowdface/core/text.h"
@@ -30,6 +31,20 @@ bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::ui
     if (due > served + (m - n)) return true;
   }
   return false;
+}
+
+/// Returns whether each share can still get ⌊q·m⌋ of the first m faces, for all m from n + 1 on.
+bool can_serve(const std::vector<double>& shares, const std::vector<std::uint64_t>& served,
+               std::uint64_t n, std::uint64_t horizon) {
+  for (std::uint64_t m = n; m <= n + horizon; ++m) {
+    std::uint64_t due = 0;
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      const std::uint64_t least = floor_share(shares[j], m);
+      due += least > served[j] ? least - served[j] : 0;
+    }
+    if (due > m - n) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -92,6 +107,39 @@ std::vector<int> scatter_shares(const std::vector<double>& shares, std::uint64_t
     if (first == shares.size()) continue;
     schedule[n - 1] = static_cast<int>(first);
     next[first] = next_after(first, next[first].served + 1);
+  }
+  return schedule;
+}
+
+std::vector<int> scatter_exactly(std::vector<double> shares, std::uint64_t count,
+                                 std::uint64_t seed, const std::string& purpose) {
+  struct Lack {
+    std::size_t share = 0;
+    double faces = 0;
+  };
+  const std::size_t none = shares.size();
+  shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
+  // Beyond this number of faces, no share has more than it needs.
+  double smallest = 1;
+  for (const double share : shares)
+    smallest = share > kRounding ? std::min(smallest, share) : smallest;
+  const auto horizon = static_cast<std::uint64_t>(std::ceil(std::min(2 / smallest, 1e3)));
+  std::vector<std::uint64_t> served(shares.size(), 0);
+  std::vector<int> schedule(count, -1);
+  for (std::uint64_t n = 1; n <= count; ++n) {
+    std::vector<Lack> possible;
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      const double lack = shares[j] * static_cast<double>(n) - static_cast<double>(served[j]);
+      if (shares[j] <= kRounding || lack <= kRounding) continue;
+      ++served[j];
+      if (can_serve(shares, served, n, horizon)) possible.push_back({j, lack});
+      --served[j];
+    }
+    if (possible.empty()) continue;
+    const double drawn = random_unit({seed, n, purpose});
+    const std::size_t next = weighted_choice(possible, drawn, &Lack::faces).share;
+    ++served[next];
+    if (next != none) schedule[n - 1] = static_cast<int>(next);
   }
   return schedule;
 }

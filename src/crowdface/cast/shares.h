@@ -29,6 +29,11 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
 std::vector<int> scatter_shares(const std::vector<double>& shares, std::uint64_t count,
                                 std::uint64_t seed, const std::string& purpose);
 
+/// Like scatter_shares, but a share gets ⌊q·n⌋ of the first n faces or one more, also if the shares
+/// sum to 1. Each face is drawn among the shares, and none, after which all can still get theirs.
+std::vector<int> scatter_exactly(std::vector<double> shares, std::uint64_t count,
+                                 std::uint64_t seed, const std::string& purpose);
+
 /// Returns the group of each sampled face 1 … count, or −1. The groups with a count come first, in
 /// their order; then the groups with a share. A larger count changes no entry.
 ///
