@@ -329,23 +329,13 @@ TEST_F(Changes, OfReviewsMadeAtTheSameTimeAreMerged) {
 
 // Four of forty faces were red-haired where eight were asked, without a word.
 TEST_F(Changes, AreNotNeededToTellOfMissedHairColours) {
-  const auto warnings = [&](const std::string& family) {
-    testing::run(folder_,
-                 {"attachments.hair_colours={red: 1}",
-                  concat("families=[{name: kin, members: 4, max_distance: 10 mm", family, "}]")},
-                 Replace::kForce);
-    std::string texts;
-    const json report = testing::read_json(folder_.out() / "report.json");
-    for (const json& text : report.at("warnings")) texts += text.get<std::string>() + '\n';
-    return texts;
-  };
-  const std::string alone = warnings("");
-  EXPECT_THAT(alone, ::testing::HasSubstr(
-                         "attachments.hair_colours.red: 13 of 13 faces should have it, 13 do, "));
-  EXPECT_THAT(alone, ::testing::HasSubstr(" of them grey with age\n"));
-  EXPECT_THAT(warnings(", parents: {mother: ann, father: cyd}"),  // both black or brown
-              ::testing::ContainsRegex("hair_colours.red: 13 of 13 faces should have it, 9 do.*: "
-                                       "children have a colour of their parents"));
+  testing::run(folder_, {"attachments.hair_colours={red: 1}"}, Replace::kForce);
+  const json report = testing::read_json(folder_.out() / "report.json");
+  std::vector<std::string> warnings;
+  for (const json& text : report.at("warnings")) warnings.push_back(text);
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::MatchesRegex(
+                            "attachments.hair_colours.red: 11 of 11 faces should have it, 11 do, "
+                            ".* of them grey with age")));
 }
 
 // What tags, quotas, groups and later reviews take precedence over is told, with the faces.
