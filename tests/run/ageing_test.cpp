@@ -45,7 +45,7 @@ class TenPeople {
   /// Returns the vertices of each person at an age, cm.
   std::vector<reference::Points> at(double age) const {
     const std::string out = concat("age_", age);
-    std::string changes = concat("changes:\n");
+    std::string changes = "changes:\n";
     for (int p = 1; p <= kPeople; ++p) {
       changes += concat("  ", name(p), ": {age: ", age, "}\n");
     }
