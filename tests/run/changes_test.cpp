@@ -327,18 +327,6 @@ TEST_F(Changes, OfReviewsMadeAtTheSameTimeAreMerged) {
   EXPECT_NE(line("mob_0002").at("regions"), second.at("regions"));
 }
 
-// Four of forty faces were red-haired where eight were asked, without a word.
-TEST_F(Changes, AreNotNeededToTellOfMissedHairColours) {
-  testing::run(folder_, {"attachments.hair_colours={red: 1}", "sampling.targets=[bob]"},
-               Replace::kForce);
-  const json report = testing::read_json(folder_.out() / "report.json");
-  std::vector<std::string> warnings;
-  for (const json& text : report.at("warnings")) warnings.push_back(text);
-  EXPECT_THAT(warnings, ::testing::Contains(::testing::MatchesRegex(
-                            "attachments.hair_colours.red: 11 of 11 faces should have it, 11 do, "
-                            ".* of them grey with age")));
-}
-
 // What tags, quotas, groups and later reviews take precedence over is told, with the faces.
 TEST_F(Changes, ThatOverrideOtherKeysAreTold) {
   std::string config = testing::read_text(folder_.config());
