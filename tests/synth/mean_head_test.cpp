@@ -40,10 +40,10 @@ TEST(MeanHead, SkinIsOnTheSculpture) {
 
 TEST(MeanHead, RingsBeginWhereTheStripEnds) {
   for (const Sheet sheet : {Sheet::kEye, Sheet::kNostril, Sheet::kMouth, Sheet::kEar}) {
-    const Window& window = window_of(sheet);
-    // The middle of the window's upper side: the strip at the same place.
-    const double middle = (column_unit(window.column0) + column_unit(window.column1)) / 2;
-    const Vector3d strip = mean_skin({Sheet::kStrip, 1, middle, row_unit(window.row0)}).position;
+    const Opening& opening = opening_of(sheet);
+    // The middle of the opening's upper side: the strip at the same place.
+    const double middle = (column_unit(opening.column0) + column_unit(opening.column1)) / 2;
+    const Vector3d strip = mean_skin({Sheet::kStrip, 1, middle, row_unit(opening.row0)}).position;
     const Vector3d ring = mean_skin({sheet, 1, 3.5, 1e-9}).position;
     EXPECT_LT((strip - ring).norm(), 1e-5);
   }

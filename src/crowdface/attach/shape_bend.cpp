@@ -50,7 +50,7 @@ class Roots {
       nearest[p] = {false, found.distance, static_cast<std::uint32_t>(p), found.vertex};
     });
     EdgeDistances along(adjacency, skin.mesh());
-    for (Open& at : nearest) at.is_between = is_between(at, along);
+    for (Open& at : nearest) at.is_ambiguous = is_ambiguous(at, along);
     std::vector<Open> starts = nearest;
     std::ranges::sort(starts);
     const Adjacency neighbours = build_adjacency(topology);
@@ -62,15 +62,16 @@ class Roots {
 
  private:
   struct Open {
-    /// the nearest skin is ambiguous (see kBetweenMm), so a neighbour's root is more reliable
-    bool is_between;
+    /// whether two areas of skin are about equally near (see kBetweenMm), so that the skin vertex
+    /// of a neighbour is more reliable
+    bool is_ambiguous;
     double distance;
     std::uint32_t point, vertex;
 
     auto operator<=>(const Open&) const = default;  // NOLINT(modernize-use-nullptr)
   };
 
-  bool is_between(const Open& at, EdgeDistances& along) const {
+  bool is_ambiguous(const Open& at, EdgeDistances& along) const {
     const double reach = at.distance + kBetweenMm * skin_.mm();
     along.search(std::array{at.vertex}, kFarther * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
@@ -83,7 +84,7 @@ class Roots {
     std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
     open.push(start);
     while (!open.empty()) {
-      const auto [is_between, distance, point, from] = open.top();
+      const auto [is_ambiguous, distance, point, from] = open.top();
       open.pop();
       if (is_found_[point]) continue;
       is_found_[point] = true;

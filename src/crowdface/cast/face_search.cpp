@@ -74,7 +74,7 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
 }
 
 /// Compares the candidates with faces that joined the crowd after they were drawn.
-void FaceSearch::compare_with_newer(const CrowdSoFar& crowd) {
+void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   if (compared_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
     const auto nearest =
@@ -128,7 +128,7 @@ void FaceSearch::prepare(const CrowdSoFar& crowd) {
 std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd, const Refuses& refuses,
                                                     const Cost& cost) {
   for (;;) {
-    compare_with_newer(crowd);
+    compare_with_added_faces(crowd);
     draw_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
     // Take the farthest or cheapest candidate that passes all checks. If none does, draw more.

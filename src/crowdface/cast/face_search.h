@@ -60,7 +60,7 @@ class FaceSearch {
   bool meets_limits(Candidate& candidate);
   void draw_candidates(const CrowdSoFar& crowd);
   bool compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
-  void compare_with_newer(const CrowdSoFar& crowd);
+  void compare_with_added_faces(const CrowdSoFar& crowd);
   Candidate& farthest(const CrowdSoFar& crowd);
   Candidate& cheapest(const Cost& cost);
   void judge_skin(Candidate& candidate) const;

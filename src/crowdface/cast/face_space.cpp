@@ -82,9 +82,10 @@ void FaceSpace::choose_counting(const std::vector<double>& weights) {
   for (Index s = 0; s < heads_.mean.rows(); ++s) {
     if (weights[static_cast<std::size_t>(s)] > 0) counting_.push_back(s);
   }
-  roots_.resize(static_cast<Index>(counting_.size()));
-  for (Index i = 0; i < roots_.size(); ++i) {
-    roots_[i] = static_cast<float>(std::sqrt(weights[static_cast<std::size_t>(sample_at(i))]));
+  weight_roots_.resize(static_cast<Index>(counting_.size()));
+  for (Index i = 0; i < weight_roots_.size(); ++i) {
+    weight_roots_[i] =
+        static_cast<float>(std::sqrt(weights[static_cast<std::size_t>(sample_at(i))]));
   }
 }
 
@@ -92,7 +93,7 @@ void FaceSpace::choose_counting(const std::vector<double>& weights) {
 /// computed. Each row is a level; the columns are heads, coordinates and samples, scaled by the
 /// samples' √w.
 SpanBasis FaceSpace::level_modes() const {
-  const Index heads = head_point_count(), size = roots_.size();
+  const Index heads = head_point_count(), size = weight_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   parallel_for_each(heads, [&](Index h) {
@@ -102,7 +103,7 @@ SpanBasis FaceSpace::level_modes() const {
         for (Index c = 0; c < 3; ++c) {
           const auto value = static_cast<double>(trajectory(l, 3 * sample_at(i) + c));
           levels(l, (h * 3 + c) * size + i) =
-              static_cast<float>(value * heads_.mm_per_unit) * roots_[i];
+              static_cast<float>(value * heads_.mm_per_unit) * weight_roots_[i];
         }
       }
     }
@@ -115,12 +116,13 @@ SpanBasis FaceSpace::level_modes() const {
 template <class Value>
 void FaceSpace::put_function(const Value& value, float* row) const {
   double mean = 0;
-  for (Index i = 0; i < roots_.size(); ++i) {
-    const double scaled = static_cast<double>(roots_[i]) * value(i);
+  for (Index i = 0; i < weight_roots_.size(); ++i) {
+    const double scaled = static_cast<double>(weight_roots_[i]) * value(i);
     row[i] = static_cast<float>(scaled);
-    mean += static_cast<double>(roots_[i]) * scaled;
+    mean += static_cast<double>(weight_roots_[i]) * scaled;
   }
-  for (Index i = 0; i < roots_.size(); ++i) row[i] -= static_cast<float>(mean) * roots_[i];
+  for (Index i = 0; i < weight_roots_.size(); ++i)
+    row[i] -= static_cast<float>(mean) * weight_roots_[i];
 }
 
 /// Returns the functions whose sums are the faces; three rows (x, y, z) for each.
@@ -129,7 +131,7 @@ void FaceSpace::put_function(const Value& value, float* row) const {
 ///               their rows are scaled by this.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
-  const Index size = roots_.size(), regions = heads_.alpha.cols();
+  const Index size = weight_roots_.size(), regions = heads_.alpha.cols();
   FloatRows functions(rows.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
     put_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
@@ -149,7 +151,7 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
         put_function(
             [&](Index i) {  // the mode already contains √w
               return alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
-                     static_cast<double>(roots_[i]);
+                     static_cast<double>(weight_roots_[i]);
             },
             first + c * size);
       }
@@ -321,8 +323,8 @@ double FaceSpace::distance(const Point& a, const Point& b) {
 void FaceSpace::find_region_shares() {
   for (Index k = 0; k < heads_.alpha.cols(); ++k) {
     double share = 0;
-    for (Index i = 0; i < roots_.size(); ++i) {
-      share += static_cast<double>(roots_[i]) * static_cast<double>(roots_[i]) *
+    for (Index i = 0; i < weight_roots_.size(); ++i) {
+      share += static_cast<double>(weight_roots_[i]) * static_cast<double>(weight_roots_[i]) *
                heads_.alpha(sample_at(i), k);
     }
     region_shares_.push_back(share);

@@ -108,8 +108,8 @@ class FaceSpace {
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
-  std::vector<Index> counting_;  ///< samples of nonzero weight
-  Eigen::VectorXf roots_;        ///< √w of each sample in `counting_`
+  std::vector<Index> counting_;   ///< samples of nonzero weight
+  Eigen::VectorXf weight_roots_;  ///< √w of each sample in `counting_`
   FaceSpaceTables tables_;
   Shape mean_shape_;           ///< #P by 3
   std::vector<Shape> shapes_;  ///< shapes of all heads, including mirror images

@@ -67,7 +67,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
     throw_if_interrupted();
     if (drawn && !draws.draw_parents(crowd, family_separation, f, rejections)) return std::nullopt;
-    // Find a founder. Drawn parents must match well enough.
+    // Find a founder. Parents that were sampled for the family must also be similar to it.
     FaceSearch founder([&](std::uint32_t attempt) { return draws.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
                        f * attempts_each);

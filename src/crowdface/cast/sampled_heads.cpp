@@ -80,14 +80,14 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   return face;  // Eq. 7
 }
 
-/// Returns of(heads), its mirror image, or a blend of both.
-template <class Of>
-Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Of& of) {
+/// Returns property(heads), property of the mirrored heads, or a blend of both.
+template <class Property>
+Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
   const double w = mirror_share(recipe);
-  if (w == 0) return of(heads);
+  if (w == 0) return property(heads);
   require(heads.image != nullptr, "a mirrored face, and no mirror images of heads");
-  if (w == 1) return of(*heads.image);
-  return between_mirrored(of(heads), of(*heads.image), w);
+  if (w == 1) return property(*heads.image);
+  return between_mirrored(property(heads), property(*heads.image), w);
 }
 
 }  // namespace

@@ -30,12 +30,14 @@ std::vector<int> scatter_shares(const std::vector<double>& shares, std::uint64_t
                                 std::uint64_t seed, const std::string& purpose);
 
 /// Like scatter_shares, but a share gets ⌊q·n⌋ of the first n faces or one more, also if the shares
-/// sum to 1. Each face is drawn among the shares, and none, after which all can still get theirs.
+/// sum to 1. For each face, a share (or none) is chosen
+/// at random among those after which all shares can still get their faces.
 std::vector<int> scatter_exactly(std::vector<double> shares, std::uint64_t count,
                                  std::uint64_t seed, const std::string& purpose);
 
-/// Returns the group of each sampled face 1 … count, or −1. The groups with a count come first, in
-/// their order; then the groups with a share. A larger count changes no entry.
+/// Returns the index of the group of each sampled face, or −1 if it has none; #count. Groups with a
+/// fixed count come first, in their order, then groups with a share. The first n entries do not
+/// depend on `count`.
 ///
 /// \param times  Factor on the groups' counts, for a pool of candidates.
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,

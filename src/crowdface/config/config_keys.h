@@ -271,7 +271,7 @@ Key<Config> groups_key();
 std::size_t heads_of_smaller_group(const StarterFacts& facts);
 Key<Config> families_key();
 Key<Config> changes_key();
-/// Reads the changes of faces, of a config or of a review.
+/// Reads the changes of single faces that a config or a review asks for.
 std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
 /// Writes changes as a mapping from faces.
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context);

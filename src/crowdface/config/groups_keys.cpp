@@ -163,7 +163,7 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
 
 /// Divides the remaining share equally among the groups that give neither share nor count. Refuses
 /// shares and counts whose sums are too large.
-void part_the_rest(const YamlNode& node, ConfigDraft& draft) {
+void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;
   double shared = 0, open = 0;
@@ -197,7 +197,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
     if (!group.name.empty()) check_group(item, group, draft);
     config.groups.push_back(std::move(group));
   }
-  part_the_rest(node, draft);
+  divide_remaining_share(node, draft);
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {

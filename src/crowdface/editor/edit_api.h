@@ -31,7 +31,7 @@ class EditApi {
   /// \param session, folder, run  must outlive this object
   /// \param may_edit_config  whether requests may save recipes and regions to the job's config;
   ///                         true if the config is the user's own file
-  /// \param open_again  loads the config and the crowd again; afterwards another object answers
+  /// \param open_again  loads the config and the crowd again; replaces this object by another one that answers
   ///                    requests
   EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
           std::function<void()> open_again);

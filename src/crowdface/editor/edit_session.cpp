@@ -114,11 +114,11 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
                                    : Eigen::MatrixXd())),
       preview_(reducing_.get()),
       around_(job_.inputs.faces.topology),
-      open_(std::async(std::launch::async, [this] {
-              return vertex_visibility(job_.inputs.faces.topology,
-                                       surfaces_of(job_.config, job_.inputs).kinds,
-                                       mean_head(job_.inputs.faces), preview_.vertices);
-            }).share()) {
+      sky_shares_(std::async(std::launch::async, [this] {
+                    return vertex_visibility(job_.inputs.faces.topology,
+                                             surfaces_of(job_.config, job_.inputs).kinds,
+                                             mean_head(job_.inputs.faces), preview_.vertices);
+                  }).share()) {
   if (job_.config.smoothing.levels == Levels::kExact) {
     fitted_ = prepare(with_fitted_levels(job_.config), job_.inputs, job_.smoothing, cache);
   }

@@ -146,7 +146,7 @@ class EditSession {
   PreviewMesh preview_;
   VertexFaces around_;
   /// The visible fraction of the sky at the preview's vertices; takes about a second to compute.
-  std::shared_future<std::vector<float>> open_;
+  std::shared_future<std::vector<float>> sky_shares_;
 };
 
 }  // namespace crowdface

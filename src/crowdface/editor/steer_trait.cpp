@@ -69,7 +69,7 @@ PerHead gradient_of(const Recipe& recipe, const SteeredBand& band, double value,
   return gradient;
 }
 
-double reach_of(const PerHead& gradient) {
+double range_of(const PerHead& gradient) {
   const auto [low, high] = std::ranges::minmax(gradient);
   return high - low;
 }
@@ -88,12 +88,12 @@ Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double 
     for (const SteeredBand& band : bands) {
       weights.push_back(weights_of(band_of(recipe.regions[band.region], band.band), band.heads));
       gradients.push_back(gradient_of(recipe, band, value, measure));
-      widest = std::max(widest, reach_of(gradients.back()));
+      widest = std::max(widest, range_of(gradients.back()));
     }
     if (!(widest > 0)) break;
     if (takes_part.empty()) {
       for (const PerHead& gradient : gradients)
-        takes_part.push_back(reach_of(gradient) > kHardly * widest);
+        takes_part.push_back(range_of(gradient) > kHardly * widest);
     }
     const auto gain = [&](double length) {
       double sum = 0;

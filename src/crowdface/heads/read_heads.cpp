@@ -236,7 +236,7 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
 
 /// Gives a head the mesh that the first head with the same outline has read. If that head could not
 /// be read, reads this one.
-void end_reading(HeadReading& reading, MeshShelf& shelf) {
+void finish_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
@@ -289,7 +289,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
     progress.step();
   });
   for_each_sound([&](std::size_t i) {
-    end_reading(readings[i], shelf);
+    finish_reading(readings[i], shelf);
     files[i] = std::move(readings[i].head);
   });
   give_faces_to_points(files, errors);

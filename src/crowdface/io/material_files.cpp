@@ -198,20 +198,20 @@ class Collector {
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;
-    const std::vector<std::string_view> tails = tails_of(rest);
+    const std::vector<std::string_view> suffixes = word_suffixes(rest);
     const bool has_options = rest.starts_with('-');
-    known->second = folder / with_forward_slashes(has_options ? tails.back() : rest);
+    known->second = folder / with_forward_slashes(has_options ? suffixes.back() : rest);
     if (textures_.full) return known->second;
-    for (const std::string_view tail : tails) {
-      fs::path relative = folder / with_forward_slashes(tail);
+    for (const std::string_view suffix : suffixes) {
+      fs::path relative = folder / with_forward_slashes(suffix);
       if (!stays_inside(relative)) continue;
       if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
     // The path may come from another machine, or have the encoding of another system: look for the
     // file name beside the head, then search it.
-    for (const std::string_view tail : tails) {
-      for (const std::string& name : readings_of(tail)) {
+    for (const std::string_view suffix : suffixes) {
+      for (const std::string& name : readings_of(suffix)) {
         const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
         if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
           continue;
@@ -219,7 +219,7 @@ class Collector {
         return known->second = beside;
       }
     }
-    for (const std::string& name : readings_of(has_options ? tails.back() : rest)) {
+    for (const std::string& name : readings_of(has_options ? suffixes.back() : rest)) {
       if (name.find('\0') != name.npos || ++searches_ > kMaxSearches) break;
       const auto found = search_texture(folder_ / folder, with_forward_slashes(name), mesh_.stem());
       if (found) return known->second = folder / *found;
@@ -282,16 +282,16 @@ MaterialStatement material_statement(std::string_view line) {
   return {line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank))};
 }
 
-std::vector<std::string_view> tails_of(std::string_view text) {
-  constexpr std::size_t kMaxTails = 32;
-  std::vector<std::string_view> tails;
-  for (std::size_t end = text.size(); end > 0 && tails.size() < kMaxTails;) {
+std::vector<std::string_view> word_suffixes(std::string_view text) {
+  constexpr std::size_t kMaxSuffixes = 32;
+  std::vector<std::string_view> suffixes;
+  for (std::size_t end = text.size(); end > 0 && suffixes.size() < kMaxSuffixes;) {
     const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
-    tails.push_back(text.substr(begin));
+    suffixes.push_back(text.substr(begin));
     end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
   }
-  std::ranges::reverse(tails);
-  return tails;
+  std::ranges::reverse(suffixes);
+  return suffixes;
 }
 
 bool is_texture_statement(std::string_view word) {

@@ -44,7 +44,7 @@ MaterialStatement material_statement(std::string_view line);
 bool is_texture_statement(std::string_view word);
 /// All suffixes of a text that begin at a word, longest first: a file name may contain spaces, and
 /// follows the options. Limited to the last 32 words.
-std::vector<std::string_view> tails_of(std::string_view text);
+std::vector<std::string_view> word_suffixes(std::string_view text);
 
 /// Finds the material files that a mesh names, and the textures that those name; for names with
 /// <UDIM> all existing tiles. Problems become warnings, not errors: files that are missing or

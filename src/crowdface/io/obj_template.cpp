@@ -69,8 +69,8 @@ Coordinates coordinates_of(std::string_view line, bool whole) {
 }
 
 /// Checks that the text has the numbers of rows that the target was read with.
-void require_counts(const ObjFile& target, std::uint32_t vertices, Index expected,
-                    std::uint32_t normals) {
+void check_row_counts(const ObjFile& target, std::uint32_t vertices, Index expected,
+                      std::uint32_t normals) {
   bool fits = static_cast<Index>(vertices) == expected;
   for (const std::uint32_t row : target.corner_normals) {
     fits = fits && (row == kNoIndex || row < normals);
@@ -125,7 +125,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
                       (is_normal ? normals++ : vertices++) & 0x7fffffffU, is_normal});
   }
   if (!places.empty()) add_block(places);
-  require_counts(target, vertices, vertices_, normals);
+  check_row_counts(target, vertices, vertices_, normals);
   if (!has_normals) return;
   fans_.emplace(topology, target.corner_normals, normals);
   fix_normals(target.corner_normals, fixed);

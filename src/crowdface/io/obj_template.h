@@ -26,7 +26,8 @@ class ObjTemplate {
   /// the target is not needed afterwards.
   /// \param topology  the faces, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  normals of the files' `vn` lines that only corners at one of these vertices use.
+  /// \param fixed  vertices with given normals. Files have these in the `vn` lines that no other
+  ///                vertex uses.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const FixedNormals& fixed = {});
 

@@ -24,8 +24,8 @@ std::vector<float> leading_numbers(std::string_view text) {
 /// The texture whose name ends a statement; among several the one with the longest name.
 std::filesystem::path texture_at_end(std::string_view rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
-  for (const std::string_view tail : tails_of(rest)) {
-    std::string name(tail);
+  for (const std::string_view suffix : word_suffixes(rest)) {
+    std::string name(suffix);
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::filesystem::path relative = (folder / name).lexically_normal();
     for (const MaterialFile& file : files.files) {

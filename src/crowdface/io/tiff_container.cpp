@@ -101,7 +101,7 @@ class Directory {
 
 /// Maximum number of bytes that one compressed byte can expand to; nothing for unsupported
 /// compressions.
-std::optional<std::uint64_t> most_of_one_byte(std::uint64_t compression, bool jpeg) {
+std::optional<std::uint64_t> max_expansion(std::uint64_t compression, bool jpeg) {
   constexpr std::uint64_t kJpeg = 7;
   constexpr std::pair<std::uint64_t, std::uint64_t> kMax[] = {
       {1, 1},         // uncompressed
@@ -155,7 +155,7 @@ std::string defect_of(const Directory& directory, bool jpeg) {
     return concat("expected samples of 8, 16 or 32 bits, found ", samples, " of ", depth);
   }
   const std::uint64_t compression = directory.first(kCompression, 1);
-  const auto most = most_of_one_byte(compression, jpeg);
+  const auto most = max_expansion(compression, jpeg);
   if (!most) {
     return concat("expected no compression, LZW, Deflate or PackBits, found TIFF's compression ",
                   compression, "; save it with one of these, or as PNG");

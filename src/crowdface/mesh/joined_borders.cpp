@@ -35,14 +35,14 @@ JoinedBorders joined_borders(const Topology& topology, const Positions& position
                              const std::vector<std::uint32_t>& pieces) {
   const std::vector<bool> is_border = border_vertices(topology);
   JoinedBorders result;
-  std::map<std::array<double, 4>, std::uint32_t> of_place;
+  std::map<std::array<double, 4>, std::uint32_t> row_at_place;
   for (std::uint32_t v = 0; v < is_border.size(); ++v) {
     const auto next = static_cast<std::uint32_t>(result.first.size());
     std::uint32_t joined = next;
     if (is_border[v]) {
       const auto row = positions.row(v);
       const double piece = pieces.empty() ? 0 : pieces[v];
-      joined = of_place.try_emplace({piece, row[0], row[1], row[2]}, next).first->second;
+      joined = row_at_place.try_emplace({piece, row[0], row[1], row[2]}, next).first->second;
     }
     if (joined == next) result.first.push_back(v);
     result.joined.push_back(joined);

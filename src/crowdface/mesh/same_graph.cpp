@@ -283,13 +283,13 @@ std::optional<std::vector<std::uint32_t>> same_graph(const Topology& expected,
   return Matcher(a, expected_positions, b, found_positions).match();
 }
 
-Topology triangulated(const Topology& topology, std::uint32_t around) {
+Topology triangulated(const Topology& topology, std::uint32_t fan_corner) {
   Topology triangles;
   triangles.vertex_count = topology.vertex_count;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::span<const std::uint32_t> face = topology.face(f);
     const auto size = static_cast<std::uint32_t>(face.size());
-    const std::uint32_t first = size == 4 ? around % size : 0;
+    const std::uint32_t first = size == 4 ? fan_corner % size : 0;
     for (std::uint32_t c = 1; c + 1 < size; ++c) {
       triangles.add_face(
           std::array{face[first], face[(first + c) % size], face[(first + c + 1) % size]});

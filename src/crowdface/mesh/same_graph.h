@@ -21,8 +21,8 @@ std::optional<std::vector<std::uint32_t>> same_graph(const Topology& expected,
                                                      const Topology& found,
                                                      const Positions& found_positions);
 
-/// Cuts each polygon into triangles around its first corner, or each quad around its corner number
-/// `around`, counted from 0.
-Topology triangulated(const Topology& topology, std::uint32_t around);
+/// Cuts polygons into fans of triangles. All triangles of a quad share its corner number
+/// `fan_corner`, counted from 0; those of other polygons share the first corner.
+Topology triangulated(const Topology& topology, std::uint32_t fan_corner);
 
 }  // namespace crowdface

@@ -134,20 +134,20 @@ std::vector<Clearance::Opposite> Clearance::opposites(std::span<const double> de
         span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
     return std::array{1 - of_second, of_second};
   };
-  const auto reach_of = [&](const Piece& piece) {
+  const auto depth_range = [&](const Piece& piece) {
     return std::array{std::min(depths[piece[0]], depths[piece[1]]),
                       std::max(depths[piece[0]], depths[piece[1]])};
   };
-  std::vector<std::array<double, 2>> reaches_of_high;
-  for (const Piece& high : high_) reaches_of_high.push_back(reach_of(high));
+  std::vector<std::array<double, 2>> ranges_of_high;
+  for (const Piece& high : high_) ranges_of_high.push_back(depth_range(high));
   std::vector<Opposite> opposites;
   Opposite nearest{};
   double least = std::numeric_limits<double>::max();
   for (const Piece& low : low_) {
-    const auto [low_from, low_to] = reach_of(low);
+    const auto [low_from, low_to] = depth_range(low);
     for (std::size_t h = 0; h < high_.size(); ++h) {
       const Piece& high = high_[h];
-      const auto [high_from, high_to] = reaches_of_high[h];
+      const auto [high_from, high_to] = ranges_of_high[h];
       const double from = std::max(low_from, high_from), to = std::min(low_to, high_to);
       const auto at = [&](double depth) {
         return Opposite{low, high, shares_at(low, depth), shares_at(high, depth)};

@@ -102,7 +102,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
 EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads)
     : lids_(std::move(lids)),
       maps_(std::move(maps)),
-      least_(lids_.vertices.size(), 1e300),
+      smallest_gaps_(lids_.vertices.size(), 1e300),
       rim_of_(lids_.vertices.size(), kNoIndex) {
   for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
     rim_of_[lids_.rim[r]] = static_cast<std::uint32_t>(r);
@@ -112,7 +112,7 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
     for (std::size_t i = 0; i < lids_.vertices.size(); ++i) {
       const Eigen::Vector3d point = heads[h].positions.row(lids_.vertices[i]).transpose();
       const double gap = maps_[h].gap_at(point - maps_[h].centre()).gap;
-      least_[i] = std::min(least_[i], gap);
+      smallest_gaps_[i] = std::min(smallest_gaps_[i], gap);
       if (rim_of_[i] != kNoIndex) gaps[rim_of_[i]] = gap;
     }
   }
@@ -188,7 +188,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
       of.missing += missing;
       of.count += 1;
     }
-    const double least = least_[lid.number];
+    const double least = smallest_gaps_[lid.number];
     const bool never = least > kFreeOfLids * map.radius();
     a[never ? kNewLidSlack : kDeepLidSlack] = 1;
     program.add_lower_bound(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);

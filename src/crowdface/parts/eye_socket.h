@@ -72,7 +72,7 @@ class EyeSocket {
   Lids lids_;
   std::vector<BallMap> maps_;              ///< #heads
   std::vector<std::vector<double>> gaps_;  ///< #heads by #rim
-  std::vector<double> least_;              ///< #lids: smallest gap in all heads
+  std::vector<double> smallest_gaps_;      ///< #lids: smallest gap in all heads
   std::vector<std::uint32_t> rim_of_;      ///< #lids: index in the rim, or kNoIndex
 };
 

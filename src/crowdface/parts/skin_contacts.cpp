@@ -230,11 +230,11 @@ std::vector<std::uint32_t> SkinContacts::moved() const {
 /// wide, so that neighbours rarely counteract each other. This is a linear complementarity problem,
 /// solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992, chapter 5). The nearest points of
 /// the profiles change during the iteration, so the gap is computed anew each time.
-std::vector<SkinContacts::Change> SkinContacts::ask(const Contact& contact,
-                                                    std::span<const Range> ranges, double most,
-                                                    Profiles& profiles,
-                                                    std::vector<double>& asked) const {
-  std::vector<Change> changes;
+std::vector<SkinContacts::DepthChange> SkinContacts::ask(const Contact& contact,
+                                                         std::span<const Range> ranges, double most,
+                                                         Profiles& profiles,
+                                                         std::vector<double>& asked) const {
+  std::vector<DepthChange> changes;
   double largest = std::numeric_limits<double>::max();
   for (int sweep = 0; sweep < kSweeps && largest > tolerance_; ++sweep) {
     largest = 0;
@@ -255,10 +255,10 @@ std::vector<SkinContacts::Change> SkinContacts::ask(const Contact& contact,
   return changes;
 }
 
-void SkinContacts::move_depths(const Contact& contact, std::span<const Change> changes,
+void SkinContacts::move_depths(const Contact& contact, std::span<const DepthChange> changes,
                                std::vector<double>& depths) {
   parallel_blocks(depths.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
-    for (const Change& change : changes) {
+    for (const DepthChange& change : changes) {
       const std::vector<double>& motions = contact.motions[change.place].depths;
       for (std::size_t k = begin; k < end; ++k) depths[k] += motions[k] * change.by;
     }
@@ -298,7 +298,7 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
       append(clearances_[p].depths(positions), profiles.depths);
     }
     std::vector<double> asked(contact.end - contact.begin, 0.0);
-    std::vector<Change> changes;
+    std::vector<DepthChange> changes;
     double most = 0;
     for (int round = 0; round < kRounds; ++round) {
       // Update the depths, and find the facing points again.

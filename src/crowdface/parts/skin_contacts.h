@@ -85,7 +85,7 @@ class SkinContacts {
                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_motions(Contact& contact) const;
   /// A change of a place's amplitude.
-  struct Change {
+  struct DepthChange {
     std::size_t place;  ///< index within the contact
     double by;
   };
@@ -96,9 +96,9 @@ class SkinContacts {
   /// \param asked  Amplitudes of the contact's places; updated.
   /// \return       Changes in the order in which they were made. The depths of `profiles` are not
   ///               updated.
-  std::vector<Change> ask(const Contact& contact, std::span<const Range> ranges, double most,
-                          Profiles& profiles, std::vector<double>& asked) const;
-  static void move_depths(const Contact& contact, std::span<const Change> changes,
+  std::vector<DepthChange> ask(const Contact& contact, std::span<const Range> ranges, double most,
+                               Profiles& profiles, std::vector<double>& asked) const;
+  static void move_depths(const Contact& contact, std::span<const DepthChange> changes,
                           std::vector<double>& depths);
   void move(const Contact& contact, std::span<const double> by, Positions& positions) const;
 

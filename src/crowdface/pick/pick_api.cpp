@@ -33,7 +33,7 @@ Json stands_json(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
   return {{"up", list_of(up)}, {"front", list_of(front)}};
 }
 
-/// Transforms from template (mm) to the unit of the scan.
+/// The similarity transform from the template (mm) to the scan (in its own unit).
 Json pose_json(const Similarity& pose) {
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r) rows.push_back(list_of(pose.rotation.row(r).transpose()));

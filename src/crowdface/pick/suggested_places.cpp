@@ -38,7 +38,7 @@ bool spread_out(const Positions& places) {
   return values(1) > kMinRatio * values(0);
 }
 
-/// Fits the pairs with `used`, except pair `without`.
+/// Fits a similarity transform to the pairs whose flag in `used` is set, without pair `without`.
 std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<bool>& used,
                               std::size_t without) {
   std::vector<std::size_t> rows;

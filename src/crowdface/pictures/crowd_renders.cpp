@@ -22,7 +22,7 @@ constexpr double kCutBelow = 0.22;
 /// Extreme points of the attachments on all heads. An attachment is not fitted to each head: some
 /// of its vertices are scaled from the bounding box of the head it was made for to that of the
 /// other head. This is fast, and exact enough for framing.
-std::vector<Eigen::Vector3d> reach_of(const AttachmentSet& attachments, const HeadSet& faces) {
+std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
     const Positions& points = item.file.positions;
@@ -84,9 +84,9 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
   }
   for (const Positions& head : acting) heads.push_back(&head);
   FramingOptions options{.cut_below = kCutBelow,
-                         .beside = reach_of(inputs.attachments, inputs.faces)};
+                         .beside = extent_of(inputs.attachments, inputs.faces)};
   if (mesh.has_body()) {
-    options.cut_below = -PicturedMesh::kShoulders;
+    options.cut_below = -PicturedMesh::kShoulderHeight;
     options.beside.push_back(mesh.lowest_shown());
   }
   return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views, options);

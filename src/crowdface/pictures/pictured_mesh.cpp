@@ -109,7 +109,8 @@ Eigen::Vector3d PicturedMesh::lowest_shown() const {
   const Eigen::Vector3d up = unit_vector(config_.faces.up);
   const Eigen::VectorXd heights = inputs_.mean * up;
   const Eigen::Vector3d middle = inputs_.neck->seam.positions.colwise().mean().transpose();
-  const double low = heights.minCoeff(), lowest = low - kShoulders * (heights.maxCoeff() - low);
+  const double low = heights.minCoeff(),
+               lowest = low - kShoulderHeight * (heights.maxCoeff() - low);
   return middle + (lowest - middle.dot(up)) * up;
 }
 

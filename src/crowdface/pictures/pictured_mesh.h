@@ -20,7 +20,7 @@ namespace crowdface {
 class PicturedMesh {
  public:
   /// Height of the body in pictures of faces, below the heads, as a fraction of the heads' height.
-  static constexpr double kShoulders = 0.1;
+  static constexpr double kShoulderHeight = 0.1;
 
   /// \param inputs    must outlive this object.
   /// \param textures  paint the body; null: the body is not shown.

@@ -45,13 +45,13 @@ std::filesystem::path SheetWriter::add_file(const std::string& name) {
 }
 
 void SheetWriter::write_beside(const std::string& stem, Rgb8Image page) {
-  if (pages_beside_ == thread_count()) wait();  // limits the number of pages in memory
-  ++pages_beside_;
+  if (pages_in_memory_ == thread_count()) wait();  // limits the number of pages in memory
+  ++pages_in_memory_;
   const auto png_file = add_file(stem + ".png");
   std::filesystem::path exr_file;
   if (contains(formats_, SheetFormat::kExr)) exr_file = add_file(stem + ".exr");
   std::string* kept = contains(formats_, SheetFormat::kPdf) ? &pngs_.emplace_back() : nullptr;
-  beside_.run([png_file, exr_file, kept, page = std::move(page)] {
+  tasks_.run([png_file, exr_file, kept, page = std::move(page)] {
     std::string png = to_png(page);
     write_file(png_file, png);
     if (!exr_file.empty()) write_file(exr_file, to_exr(page));
@@ -60,8 +60,8 @@ void SheetWriter::write_beside(const std::string& stem, Rgb8Image page) {
 }
 
 void SheetWriter::wait() {
-  beside_.wait();
-  pages_beside_ = 0;
+  tasks_.wait();
+  pages_in_memory_ = 0;
 }
 
 void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8Image page) {

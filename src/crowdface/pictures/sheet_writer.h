@@ -42,9 +42,9 @@ class SheetWriter {
   std::vector<std::string> pngs_;  ///< pages of the current volume, if PDF is asked for
   std::vector<SheetCell> index_;   ///< pages in the index of the current volume
   std::vector<std::filesystem::path> written_;
-  int pages_beside_ = 0;
+  int pages_in_memory_ = 0;
   // Last member, so that its tasks end before the members they use are destroyed.
-  BackgroundTasks beside_;
+  BackgroundTasks tasks_;
 };
 
 }  // namespace crowdface

@@ -12,9 +12,9 @@ namespace crowdface {
 
 namespace {
 
-/// The landmarks of faces as casting draws them, without limits and constraints.
-std::vector<Positions> drawn_landmarks(const CastingOptions& casting,
-                                       const FaceMeasurer& measurer) {
+/// The landmarks of randomly sampled faces, before limits and constraints apply.
+std::vector<Positions> sampled_landmarks(const CastingOptions& casting,
+                                         const FaceMeasurer& measurer) {
   constexpr std::uint64_t kDrawn = 2000;
   const std::vector<FaceKind> kinds = face_kinds(casting);
   const std::vector<int> schedule = schedule_groups(casting.groups, kDrawn);
@@ -32,7 +32,7 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
                                        const std::vector<FacePlan>& crowd) {
   std::vector<TraitReport> reports;
   std::vector<Positions> drawn;
-  if (!casting.population.empty()) drawn = drawn_landmarks(casting, traits.measurer());
+  if (!casting.population.empty()) drawn = sampled_landmarks(casting, traits.measurer());
   for (std::size_t t = 0; t < traits.traits().size(); ++t) {
     const std::size_t trait = traits.traits()[t];
     TraitReport report{trait, quartiles(traits.measurer().spread().ascending(trait)), {}, {}};
@@ -87,7 +87,7 @@ std::string format_trait_ranges(const Config& config, const Inputs& inputs,
                                 const Prepared& prepared, const CastingOptions& casting) {
   const auto traits = available_face_traits(config, inputs, prepared);
   if (!traits) return {};
-  const std::vector<Positions> drawn = drawn_landmarks(casting, traits->measurer());
+  const std::vector<Positions> drawn = sampled_landmarks(casting, traits->measurer());
   constexpr std::size_t kNameWidth = 24, kNumberWidth = 9;
   const auto column = [](const std::string& text, std::size_t width) {
     return text.size() < width ? std::string(width - text.size(), ' ') + text : text;

@@ -143,9 +143,9 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
       const auto& [few_edges, joined] = of_sheet[other];
       // Choose the candidates of each pair of leaves.
       const std::uint64_t once = one == other ? kOnce : ~std::uint64_t{0};
-      std::uint64_t facing_it = overlapping(far[one], far[other]);
+      std::uint64_t facing_it = overlap_mask(far[one], far[other]);
       if (facing_it != 0) facing_it &= ~facing_alike(normals[one], normals[other], 0);
-      const std::uint64_t near = overlapping(close[one], close[other]) & once;
+      const std::uint64_t near = overlap_mask(close[one], close[other]) & once;
       const std::uint64_t always = (near | (facing_it & once)) & ~few_edges;
       const std::uint64_t folded = near & few_edges & ~joined;
       if ((always | folded) != 0) near_.push_back({one, other, always, folded});
@@ -194,7 +194,7 @@ std::vector<CrossingSearch::Pair> CrossingSearch::crossing(
     if ((boxes.is_new[near.one] | boxes.is_new[near.other]) == 0) continue;
     if (!overlap(boxes.leaves[near.one], boxes.leaves[near.other])) continue;
     std::uint64_t left = (near.always | near.folded) &
-                         overlapping(boxes.triangles[near.one], boxes.triangles[near.other]);
+                         overlap_mask(boxes.triangles[near.one], boxes.triangles[near.other]);
     if ((left & near.folded) != 0) {
       left &=
           near.always | ~facing_alike(boxes.normals[near.one], boxes.normals[near.other], kAlike);

@@ -18,8 +18,9 @@ namespace {
 constexpr double kSpacing = 0.06;  // spacing of the nodes
 constexpr double kBetween = 0.1;   // radius of a node's influence
 constexpr double kPatch = 0.1;     // radius of the patch that determines a node's map
-/// Weight of the whole skin's similarity in a node's fit, as a fraction of the patch's scatter.
-constexpr double kWhole = 0.02;
+/// Weight with which a node's fit is drawn to the similarity transform of the whole skin, as a
+/// fraction of the patch's scatter.
+constexpr double kRegularisation = 0.02;
 /// Largest numbers of vertices: kMaxSkin for the whole skin, kMaxCandidates for candidates of
 /// nodes, kMaxPatch for a patch.
 constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
@@ -108,8 +109,9 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
     const Eigen::Vector3d weighted = weights[i] * from;
     spread += weighted * from.transpose();
   }
-  // Regularise the fit towards the whole skin's similarity, in proportion to the patch's scatter.
-  const double whole = kWhole * (spread(0, 0) + spread(1, 1) + spread(2, 2));
+  // Regularise the fit towards the similarity transform of the whole skin, in proportion to the
+  // patch's scatter.
+  const double whole = kRegularisation * (spread(0, 0) + spread(1, 1) + spread(2, 2));
   if (!(whole > 0)) {
     place.rest = Eigen::Matrix3d::Identity();
     return place;
@@ -126,10 +128,10 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
 
 FrameField::Frames FrameField::frames(const Positions& face) const {
   Frames frames{fit_rigid_motion(*neutral_, face, some_skin_, ones_), {}};
-  frames.of_place.resize(places_.size());
+  frames.at_place.resize(places_.size());
   for (std::size_t p = 0; p < places_.size(); ++p) {
     const Place& place = places_[p];
-    Eigen::Matrix3d& map = frames.of_place[p];
+    Eigen::Matrix3d& map = frames.at_place[p];
     for (Index c = 0; c < 3; ++c) map.col(c) = frames.whole.turn(place.rest.col(c));
     // Positions relative to one vertex, so that rounding does not depend on where the face is.
     const Eigen::Vector3d origin = row3(face, place.vertex);
@@ -143,7 +145,7 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
 
 Eigen::Matrix3d FrameField::at(std::size_t i, const Frames& frames) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-  for (const Share& share : shares_.of(i)) map += share.weight * frames.of_place[share.place];
+  for (const Share& share : shares_.of(i)) map += share.weight * frames.at_place[share.place];
   return map;
 }
 

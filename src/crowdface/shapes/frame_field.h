@@ -29,7 +29,7 @@ class FrameField {
 
   struct Frames {
     RigidMotion whole;                      ///< motion from the template to the face
-    std::vector<Eigen::Matrix3d> of_place;  ///< #nodes: linear map at each node
+    std::vector<Eigen::Matrix3d> at_place;  ///< #nodes: linear map at each node
   };
   Frames frames(const Positions& face) const;
   /// Returns the map at the vertex `used[i]`. If the face is the template rotated, translated and

@@ -66,7 +66,7 @@ MissedLevel choose_fewest_functions(const float* fields, std::size_t count, cons
         break;
       }
       const float here = hn::GetLane(hn::MaxOfLanes(lanes, largest));
-      if (here > worst[p].squared) worst[p] = {0, here, level};
+      if (here > worst[p].squared_error) worst[p] = {0, here, level};
     }
   }
   worst[kept].kept = kept;

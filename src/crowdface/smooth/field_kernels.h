@@ -12,9 +12,9 @@ void narrow(const float* from, std::size_t count, float scale, std::int16_t* to)
 
 /// The truncation error of a tile that keeps only its first `kept` fields.
 struct MissedLevel {
-  std::size_t kept = 0;   ///< number of fields kept
-  float squared = 0;      ///< the largest squared error distance of any vertex and level
-  std::size_t level = 0;  ///< index of the level with the largest error
+  std::size_t kept = 0;     ///< number of fields kept
+  float squared_error = 0;  ///< the largest of any vertex and level
+  std::size_t level = 0;    ///< index of the level with the largest error
 };
 
 /// Finds the smallest number of leading fields that approximates a tile: without the other fields,

@@ -249,8 +249,8 @@ std::optional<FieldPatches> FieldPatches::of(PatchLists lists, Index vertex_coun
   }
   FieldPatches result;
   result.heads_ = ranks.size();
-  result.places_.reserve(patches);
-  Place end{};
+  result.patches_.reserve(patches);
+  Patch end{};
   for (std::size_t i = 0; i < patches; ++i) {
     const std::size_t here = std::min(kPatchVertices, vertices - i * kPatchVertices);
     const std::size_t skeleton = lists.skeletons[i];
@@ -261,7 +261,7 @@ std::optional<FieldPatches> FieldPatches::of(PatchLists lists, Index vertex_coun
       if (count > static_cast<std::uint64_t>(ranks[h])) return std::nullopt;
       end.fields += count;
     }
-    result.places_.push_back(end);
+    result.patches_.push_back(end);
     end.field += end.fields;
     end.number += end.fields * FieldPatch::values_of(skeleton);
     if (skeleton < here) end.weight += skeleton * kPatchVertices;
@@ -276,7 +276,7 @@ std::optional<FieldPatches> FieldPatches::of(PatchLists lists, Index vertex_coun
 }
 
 FieldPatch FieldPatches::operator[](std::size_t patch) const {
-  const Place& place = places_[patch];
+  const Patch& place = patches_[patch];
   const std::size_t first = patch * kPatchVertices;
   FieldPatch result;
   result.vertices =

@@ -76,19 +76,19 @@ class FieldPatches {
   static std::optional<FieldPatches> of(PatchLists lists, Index vertex_count,
                                         std::span<const Index> ranks);
 
-  std::size_t size() const { return places_.size(); }
+  std::size_t size() const { return patches_.size(); }
   Index vertex_count() const { return static_cast<Index>(lists_.vertices.size()); }
   std::size_t head_count() const { return heads_; }
   FieldPatch operator[](std::size_t patch) const;
   const PatchLists& lists() const { return lists_; }
 
  private:
-  struct Place {
+  struct Patch {
     std::size_t fields, field, number, weight;
   };
   PatchLists lists_;
   std::size_t heads_ = 0;
-  std::vector<Place> places_;
+  std::vector<Patch> patches_;
 };
 
 /// A vertex order for cutting patches: along a space-filling curve (hilbert_order). Runs of up to

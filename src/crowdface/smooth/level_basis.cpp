@@ -104,11 +104,11 @@ class TileFitter {
       // Skip trailing fields whose upper bounds have a negligible sum; their error need not be
       // evaluated at each level.
       std::size_t looked_at = count_;
-      double unseen = 0;
+      double skipped = 0;
       for (; looked_at > 0; --looked_at) {
         const double more = peaks_[looked_at - 1] * longest(of_field(looked_at - 1));
-        if (unseen + more > kUnseenShare * tolerance_) break;
-        unseen += more;
+        if (skipped + more > kSkippedShare * tolerance_) break;
+        skipped += more;
       }
       // rounded[p]: bound of the rounding error of the first p fields.
       std::vector<double> rounded = {0};
@@ -118,14 +118,14 @@ class TileFitter {
       }
       // Keep the fewest of the remaining fields that meet the tolerance.
       const double most =
-          std::min(tolerance_ - rounded.back(), kLeftOutShare * tolerance_) - unseen;
+          std::min(tolerance_ - rounded.back(), kLeftOutShare * tolerance_) - skipped;
       const MissedLevel left_out =
           choose_fewest_functions(by_coordinate.data(), looked_at, functions_.data(), count_,
                                   static_cast<std::size_t>(directions_.functions.rows()),
                                   most > 0 ? static_cast<float>(most * most) : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept);
       const double missed =
-          std::sqrt(static_cast<double>(left_out.squared)) + unseen + rounded[left_out.kept];
+          std::sqrt(static_cast<double>(left_out.squared_error)) + skipped + rounded[left_out.kept];
       if (missed > fitted.missed) {
         fitted.missed = missed;
         fitted.level = left_out.level;
@@ -140,7 +140,7 @@ class TileFitter {
   /// the exact normals as when all tiles keep the same fields (docs/method.md).
   static constexpr double kLeftOutShare = 0.125;
   /// The share of the tolerance for trailing fields that are skipped without evaluation.
-  static constexpr double kUnseenShare = 0.01;
+  static constexpr double kSkippedShare = 0.01;
 
   static double longest(std::span<const float> vectors) {
     float most = 0;

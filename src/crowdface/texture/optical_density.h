@@ -12,8 +12,8 @@ namespace crowdface {
 using Density = std::uint16_t;
 inline constexpr float kMaxDensity = 65535;
 
-/// The density of light.
-/// \param light  linear, 0 … 1; clamped to this range.
+/// The optical density −log(light) of a linear colour value.
+/// \param light  0 … 1; clamped to this range.
 Density density_of_light(float light);
 /// The inverse of density_of_light: linear light, 0 … 1.
 float light_of_density(float density);

@@ -201,7 +201,7 @@ unsigned met(const BoxRay& ray, const LeafBoxes& boxes) {
   return HWY_DYNAMIC_DISPATCH(met_boxes)(ray, boxes);
 }
 
-std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b) {
+std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b) {
   return HWY_DYNAMIC_DISPATCH(overlapping_boxes)(a, b);
 }
 

@@ -71,8 +71,8 @@ unsigned met(const BoxRay& ray, const LeafBoxes& boxes);
 
 /// Pairs of overlapping boxes from two leaves: bit 8 i + j belongs to box i of `a` and box j of
 /// `b`.
-std::uint64_t overlapping(const LeafBoxes& a, const LeafBoxes& b);
-/// Pairs of triangles with a common vertex, encoded like the pairs of `overlapping`.
+std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b);
+/// Pairs of triangles with a common vertex, encoded like the pairs of `overlap_mask`.
 std::uint64_t sharing_vertices(const LeafCorners& a, const LeafCorners& b);
 /// Pairs of triangles whose normals have a cosine above `least`, encoded in the same way.
 std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least);

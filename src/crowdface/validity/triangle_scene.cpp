@@ -87,7 +87,7 @@ void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const
   // the bits 8 i + j with j > i: each pair of a leaf with itself once
   constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
-  std::uint64_t left = overlapping(leaves_[one], leaves_[other]);
+  std::uint64_t left = overlap_mask(leaves_[one], leaves_[other]);
   if (one == other) left &= kLaterOnes;
   if (left != 0) left &= ~sharing_vertices(tree_.corners[one], tree_.corners[other]);
   for (; left != 0; left &= left - 1) {

@@ -207,9 +207,9 @@ GuideRay cap_ray(double a, double b) {
   return ray;
 }
 
-GuideRay window_ray(const Window& window, double around) {
-  const double x0 = column_unit(window.column0), x1 = column_unit(window.column1);
-  const double y0 = row_unit(window.row0), y1 = row_unit(window.row1);
+GuideRay opening_ray(const Opening& opening, double around) {
+  const double x0 = column_unit(opening.column0), x1 = column_unit(opening.column1);
+  const double y0 = row_unit(opening.row0), y1 = row_unit(opening.row1);
   if (around < 1) return strip_ray(x0, y0 + (y1 - y0) * around);
   if (around < 2) return strip_ray(x0 + (x1 - x0) * (around - 1), y1);
   if (around < 3) return strip_ray(x1, y1 + (y0 - y1) * (around - 2));

@@ -18,8 +18,8 @@ struct GuideRay {
 GuideRay strip_ray(double a, double b);
 GuideRay cap_ray(double a, double b);
 
-/// Returns the ray at the outer edge of a window (ring coordinate b = 0), at x > 0.
+/// Returns the ray at the outer edge of an opening (ring coordinate b = 0), at x > 0.
 /// \param around  ring coordinate a, 0 … 4.
-GuideRay window_ray(const Window& window, double around);
+GuideRay opening_ray(const Opening& opening, double around);
 
 }  // namespace crowdface::synth

@@ -13,10 +13,10 @@ namespace {
 constexpr std::array<double, kColumns - 1> kColumnWeights = {2, 3, 4, 5, 4, 5, 6, 5, 4, 5, 4, 3, 2};
 constexpr std::array<double, kRows - 1> kRowWeights = {4, 4, 7, 3, 3, 2, 5, 3, 3, 5, 5};
 
-constexpr std::array<Window, 4> kWindows = {{{Sheet::kEye, 2, 4, 2, 3},
-                                             {Sheet::kNostril, 1, 2, 4, 5},
-                                             {Sheet::kMouth, -3, 3, 6, 7},
-                                             {Sheet::kEar, 6, 7, 2, 5}}};
+constexpr std::array<Opening, 4> kOpenings = {{{Sheet::kEye, 2, 4, 2, 3},
+                                               {Sheet::kNostril, 1, 2, 4, 5},
+                                               {Sheet::kMouth, -3, 3, 6, 7},
+                                               {Sheet::kEar, 6, 7, 2, 5}}};
 
 }  // namespace
 
@@ -30,15 +30,15 @@ double row_unit(int row) {
   return std::accumulate(kRowWeights.begin(), kRowWeights.begin() + row, 0.0);
 }
 
-const Window& window_of(Sheet sheet) {
-  for (const Window& window : kWindows) {
-    if (window.sheet == sheet) return window;
+const Opening& opening_of(Sheet sheet) {
+  for (const Opening& opening : kOpenings) {
+    if (opening.sheet == sheet) return opening;
   }
-  return kWindows.back();
+  return kOpenings.back();
 }
 
-std::span<const Window> windows() {
-  return kWindows;
+std::span<const Opening> openings() {
+  return kOpenings;
 }
 
 }  // namespace crowdface::synth

@@ -6,7 +6,7 @@
 namespace crowdface::synth {
 
 /// The patches of the skin. The strip surrounds the head like a sleeve, from the edge of the crown
-/// down to the neck; the cap closes it at the top. The strip has rectangular windows that are
+/// down to the neck; the cap closes it at the top. The strip has rectangular openings that are
 /// filled with concentric rings. The rings of eyes, nostrils and mouth end in an open hole, those
 /// of an ear in a core.
 enum class Sheet { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
@@ -16,10 +16,10 @@ struct Address {
   Sheet sheet = Sheet::kStrip;
   double side = 1;  ///< −1: the mirrored patch at the head's right (x < 0)
   /// Strip and cap: signed units around the head from the midline of the face. Rings: 0 … 4 along
-  /// the sides of the window, counter-clockwise from its upper left corner, seen on the side x > 0.
+  /// the sides of the opening, counter-clockwise from its upper left corner, seen on the side x > 0.
   /// Ear core: 0 … 1 across.
   double a = 0;
-  /// Strip: units down from the cap. Cap: units from front to back. Rings: 0 at the window's
+  /// Strip: units down from the cap. Cap: units from front to back. Rings: 0 at the opening's
   /// outline, 1 at the edge of the opening (ear: of the core), 2 at the hole. Ear core: 0 … 1 down.
   double b = 0;
 };
@@ -35,12 +35,12 @@ double column_unit(int column);
 /// Returns the units from the cap to a lattice row (0 … 11).
 double row_unit(int row);
 
-/// A rectangle of the lattice that is cut out of the strip.
-struct Window {
+/// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
+struct Opening {
   Sheet sheet;
   int column0, column1, row0, row1;  ///< bounds at x > 0; for the mouth column0 = −column1
 };
-const Window& window_of(Sheet sheet);
-std::span<const Window> windows();
+const Opening& opening_of(Sheet sheet);
+std::span<const Opening> openings();
 
 }  // namespace crowdface::synth

@@ -30,9 +30,9 @@ class Sewing {
     row_units_.push_back(row_unit(kRows - 1));
     add_strip();
     add_cap();
-    for (const Window& window : windows()) {
-      add_rings(window, 1);
-      if (window.sheet != Sheet::kMouth) add_rings(window, -1);
+    for (const Opening& opening : openings()) {
+      add_rings(opening, 1);
+      if (opening.sheet != Sheet::kMouth) add_rings(opening, -1);
     }
     layout_.topology.vertex_count = static_cast<Index>(layout_.addresses.size());
     layout_.uvs.resize(static_cast<Index>(uvs_.size()), 2);
@@ -71,11 +71,11 @@ class Sewing {
                               std::array{a.uv, b.uv, c.uv, d.uv});
   }
 
-  /// A window's range of columns i and rows j, in quads.
+  /// An opening's range of columns i and rows j, in quads.
   struct Span {
     int i0, i1, j0, j1;
   };
-  Span span_of(const Window& w, int side) const {
+  Span span_of(const Opening& w, int side) const {
     const int i0 = counts_.column(w.column0), i1 = counts_.column(w.column1);
     return {side > 0 ? i0 : -i1, side > 0 ? i1 : -i0, counts_.row(w.row0), counts_.row(w.row1)};
   }
@@ -88,12 +88,12 @@ class Sewing {
 
   void add_strip() {
     std::vector<Span> holes;
-    for (const Window& w : windows()) {
+    for (const Opening& w : openings()) {
       holes.push_back(span_of(w, 1));
       if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
     }
     strip_.resize(strip_index(half_, rows_) + 1);
-    // Skip vertices strictly inside a window, and quads of a window.
+    // Skip vertices strictly inside an opening, and quads of an opening.
     const auto inside = [&](int i, int j) {
       return std::ranges::any_of(
           holes, [&](const Span& s) { return i > s.i0 && i < s.i1 && j > s.j0 && j < s.j1; });
@@ -157,7 +157,7 @@ class Sewing {
     }
   }
 
-  /// A corner on the outline of a window, its ring coordinate a, and its column and row.
+  /// A corner on the outline of an opening, its ring coordinate a, and its column and row.
   struct Stitch {
     Corner corner;
     double a;
@@ -175,7 +175,7 @@ class Sewing {
     return 4 - x;
   }
 
-  /// Returns the window's outline, counter-clockwise from its upper left corner, seen from outside.
+  /// Returns the opening's outline, counter-clockwise from its upper left corner, seen from outside.
   std::vector<Stitch> outline(const Span& s, int side) {
     std::vector<Stitch> out;
     const auto put = [&](int i, int j) {
@@ -188,16 +188,16 @@ class Sewing {
     return out;
   }
 
-  /// Fills a window with concentric rings of quads; an ear also gets a core.
-  void add_rings(const Window& window, int side) {
-    const Span span = span_of(window, side);
+  /// Fills an opening with concentric rings of quads; an ear also gets a core.
+  void add_rings(const Opening& opening, int side) {
+    const Span span = span_of(opening, side);
     const std::vector<Stitch> first = outline(span, side);
     const std::size_t n = first.size();
     std::vector<Corner> ring, next(n);
     for (const Stitch& s : first) ring.push_back(s.corner);
-    for (const double b : counts_.rings(window.sheet)) {
+    for (const double b : counts_.rings(opening.sheet)) {
       for (std::size_t p = 0; p < n; ++p) {
-        next[p] = add({window.sheet, static_cast<double>(side), first[p].a, b});
+        next[p] = add({opening.sheet, static_cast<double>(side), first[p].a, b});
       }
       for (std::size_t p = 0; p < n; ++p) {
         const std::size_t q = (p + 1) % n;
@@ -205,11 +205,11 @@ class Sewing {
       }
       ring = next;
     }
-    if (window.sheet == Sheet::kEar) add_core(span, side, first, ring);
+    if (opening.sheet == Sheet::kEar) add_core(span, side, first, ring);
   }
 
   /// Fills the innermost ring of an ear with a grid of quads.
-  /// \param first  outline of the window. \param ring  corners of the innermost ring.
+  /// \param first  outline of the opening. \param ring  corners of the innermost ring.
   void add_core(const Span& s, int side, const std::vector<Stitch>& first,
                 const std::vector<Corner>& ring) {
     std::map<std::pair<int, int>, Corner> core;

@@ -29,7 +29,7 @@ GuideRay eye_edge(const Vector2d& c) {
 }
 
 GuideRay mouth_edge(const Vector2d& c) {
-  // Concentrate the points of the window's short sides near the corners of the mouth.
+  // Concentrate the points of the opening's short sides near the corners of the mouth.
   const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
   // The line between the lips: a dip in the middle, the corners slightly lower.
   const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
@@ -102,14 +102,14 @@ SkinPoint ring_skin(const Address& address) {
     if (address.b == 1) return edge;
     return {into_opening(address.sheet, edge.position, circle, address.b), edge.normal, 0};
   }
-  const GuideRay outer = window_ray(window_of(address.sheet), address.a);
+  const GuideRay outer = opening_ray(opening_of(address.sheet), address.a);
   const Vector3d inner_guide = onto_skin(inner.origin, inner.guide);
   return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
                   outer.guide + address.b * (inner_guide - outer.guide)});
 }
 
 SkinPoint ear_skin(const Address& address) {
-  const Vector3d position = ear_point(address);
+  const Vector3d position = ear_position(address);
   const double relief = address.sheet == Sheet::kEar ? smooth_step(0.2, 0, address.b) : 0;
   return {position, skin_normal(position), relief};
 }

@@ -9,7 +9,7 @@
 namespace crowdface::synth {
 namespace {
 
-/// A span of rings in a window: range of the coordinate b, and number of rings at a scale of 1.
+/// A span of rings in an opening: range of the coordinate b, and number of rings at a scale of 1.
 struct RingSpan {
   double from, to, weight;
 };
@@ -59,10 +59,10 @@ Index QuadCounts::vertices() const {
   const Index front = column(kFrontColumn), side = column(kBackColumn) - front;
   const Index around = 2 * column(kColumns - 1);
   Index sum = around * (row(kRows - 1) + 1) + (2 * front - 1) * (side - 1);
-  for (const Window& w : windows()) {
+  for (const Opening& w : openings()) {
     const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
-    // Subtract the strip's vertices inside the window; the core of an ear has the same number.
+    // Subtract the strip's vertices inside the opening; the core of an ear has the same number.
     if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
   }

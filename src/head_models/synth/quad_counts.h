@@ -18,7 +18,7 @@ struct QuadCounts {
   int column(int k) const;
   /// Returns the number of quads from the cap to lattice row k.
   int row(int k) const;
-  /// Returns the coordinate b (see Address) of every ring of a window, without its outline (b = 0).
+  /// Returns the coordinate b (see Address) of every ring of an opening, without its outline (b = 0).
   std::vector<double> rings(Sheet sheet) const;
   /// Returns the number of vertices of the whole layout.
   Index vertices() const;

@@ -55,7 +55,7 @@ Eigen::Vector2d disc_centre() {
   return {(across(column_unit(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
-/// Half-axes of the edge of an opening and of its hole, relative to the window.
+/// Half-axes of the edge of an opening and of its hole, relative to the opening.
 struct Opening {
   Eigen::Vector2d edge, hole;
 };
@@ -78,9 +78,9 @@ Eigen::Vector2d in_window(const Address& address) {
   return edge + (round.cwiseProduct(opening.hole) - edge) * (address.b - 1);
 }
 
-/// Maps a point q in the square [−1, 1]² of a window to texture coordinates.
+/// Maps a point q in the square [−1, 1]² of an opening to texture coordinates.
 Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
-  const Window& w = window_of(sheet);
+  const Opening& w = opening_of(sheet);
   const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
   const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
   return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),

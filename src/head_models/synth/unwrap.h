@@ -27,7 +27,7 @@ Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv);
 /// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
 double strip_v(double unit);
 
-/// Returns the point of ring coordinate a on the outline of a window's square [−1, 1]²: x outward,
+/// Returns the point of ring coordinate a on the outline of an opening's square [−1, 1]²: x outward,
 /// y up.
 Eigen::Vector2d on_square(double around);
 /// Returns the point of the unit circle in the same direction.
