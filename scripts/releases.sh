@@ -28,13 +28,22 @@ hashes() { (cd "$1" && sha256sum plan.jsonl meshes/*.*); }
 # Fails if the compiler warned of anything in the last build; not in the short form, which CI runs.
 refuse_warnings() { [ -n "$short" ] || ! grep --max-count=20 'warning:' build/release/build.log; }
 
+# run_first_tests BUILD [RUNNER]: of whole crowds only those with golden hashes.
+run_first_tests() {
+  local test
+  for test in $first_tests; do
+    [ "$test" != run ] || export GTEST_FILTER='*Golden*'
+    ${2-} "$1/bin/crowdface_${test}_test" --gtest_brief=1
+  done
+}
+
 # The two commands, in a fresh root.
 native() {
   scripts/demo.sh
   refuse_warnings
   if [ -n "$short" ]; then
     scripts/build.sh release $(printf 'crowdface_%s_test ' $first_tests)
-    for test in $first_tests; do "build/release/bin/crowdface_${test}_test" --gtest_brief=1; done
+    run_first_tests build/release
   else
     scripts/test.sh | tail -n 40
   fi
@@ -58,11 +67,8 @@ cross() {
   apt-get install -y --no-install-recommends "${packages[@]}"
   cmake --preset arm64
   cmake --build --preset arm64 --target crowdface $(printf 'crowdface_%s_test ' $first_tests)
-  local test head
-  for test in $first_tests; do
-    [ $test != run ] || export GTEST_FILTER='*Golden*'
-    qemu-aarch64-static "build/arm64/bin/crowdface_${test}_test" --gtest_brief=1
-  done
+  run_first_tests build/arm64 qemu-aarch64-static
+  local head
   local crowdface='qemu-aarch64-static build/arm64/bin/crowdface'
   $crowdface synth -o out/arm_heads --count 16 --vertices 20000 --seed 1 --textures 64 --hair
   for head in out/arm_heads/*.obj; do cmp <(grep ^v "$head") <(grep ^v "out/demo_heads/${head##*/}"); done
@@ -83,7 +89,7 @@ in_fresh_root() {
   {
     echo 'set -euo pipefail; cd /crowdface; export LANG=C.UTF-8'
     declare -p short first_tests
-    declare -f hashes refuse_warnings native cross
+    declare -f hashes refuse_warnings run_first_tests native cross
     echo "$3"
     echo 'hashes out/demo >result/demo.sha256'
   } >"$inside"

@@ -55,6 +55,20 @@ TEST(ConfigDifference, AKeyThatTheOldConfigDidNotKnowHasItsDefaultThere) {
       << "of a section that the old config lacks, too";
 }
 
+TEST(ConfigDifference, WhatGroupsHaveFromSamplingIsToldOnce) {
+  const auto config = [](const std::string& common, const std::string& own) {
+    return "sampling: {max_sources: " + common +
+           ", age: 0}\ngroups:\n  - {name: old, max_sources: " + own + ", age: 1}\n";
+  };
+  EXPECT_THAT(config_differences(config("3", "3"), config("4", "4")),
+              ElementsAre("sampling.max_sources"));
+  EXPECT_THAT(config_differences(config("3", "3"), config("3", "4")), ElementsAre("groups"));
+  EXPECT_THAT(config_differences(config("3", "2"), config("4", "2")),
+              ElementsAre("sampling.max_sources"));
+  EXPECT_THAT(config_differences(config("3", "2"), config("4", "1")),
+              ElementsAre("sampling.max_sources", "groups"));
+}
+
 TEST(ConfigDifference, KeysOnWhichNoRecipeDependsMayChange) {
   const std::string old =
       "crowd: {name: mob}\noutput: {meshes: [obj], contact_sheet: {rows: 4}}\ntextures: {size: 8}\n"

@@ -64,6 +64,25 @@ void add_differences(const YamlNode& a, const YamlNode& b, const YamlNode* defau
   }
 }
 
+bool is_same(const YamlNode& a, const YamlNode& b) {
+  std::vector<std::string> paths;
+  add_differences(a, b, nullptr, paths);
+  return paths.empty();
+}
+
+/// Removes the keys that a group has from `sampling`, so that a difference there is told once.
+void remove_inherited_keys(YamlNode& root) {
+  const YamlEntry* sampling = root.find("sampling");
+  const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);
+  if (sampling == nullptr || groups == root.entries.end()) return;
+  for (YamlNode& group : groups->value.items) {
+    std::erase_if(group.entries, [&](const YamlEntry& entry) {
+      const YamlEntry* common = sampling->value.find(entry.key);
+      return common != nullptr && is_same(common->value, entry.value);
+    });
+  }
+}
+
 const YamlNode* node_at(const YamlNode& root, std::string_view key_path) {
   const YamlNode* node = &root;
   while (node != nullptr && !key_path.empty()) {
@@ -153,7 +172,9 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
     if (keeps_distances(*old, *root)) ignored.insert({kDistance, kFirstDistances});
   }
   for (YamlNode* node : {&*old, &*root, defaults ? &*defaults : nullptr}) {
-    if (node != nullptr) remove_keys(ignored, *node);
+    if (node == nullptr) continue;
+    remove_keys(ignored, *node);
+    remove_inherited_keys(*node);
   }
   std::vector<std::string> paths;
   add_differences(*old, *root, defaults ? &*defaults : nullptr, paths);
