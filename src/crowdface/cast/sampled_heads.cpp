@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "crowdface/cast/float_kernels.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 
@@ -62,8 +63,8 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
           const float* row = trajectory.data() + term.row * trajectory.cols();
           const auto f = static_cast<float>(part.weight * term.factor * heads.mm_per_unit);
           for (const auto& [begin, end] : heads.stretches[k]) {
-            float* out = change.data();
-            for (Index i = 3 * begin; i < 3 * end; ++i) out[i] += f * row[i];
+            add_scaled(f, row + 3 * begin, static_cast<std::size_t>(3 * (end - begin)),
+                       change.data() + 3 * begin);
           }
         }
       }
