@@ -22,7 +22,7 @@ int main(int argc, char** argv) try {
 
   const CrowdCheck check = verify_crowd(argv[2]);
   std::cout << argv[2] << ": " << check.files << " files, "
-            << (check.good() ? "all whole" : "some damaged") << '\n';
+            << (check.is_intact() ? "all whole" : "some damaged") << '\n';
 } catch (const Error& error) {
   std::cerr << error.what() << '\n';
   return static_cast<int>(error.code());

@@ -74,8 +74,8 @@ class PythonJob {
     std::vector<std::string> lines;
     const CrowdPlan plan = plan_crowd(job_.config, job_.inputs, prepared(), defects, cache_);
     std::string text;
-    told_plan_text(plan.crowd, job_.names, job_.settings,
-                   table_facts(job_.config))([&](std::string_view piece) { text += piece; });
+    annotated_plan_text(plan.crowd, job_.names, job_.settings,
+                        table_facts(job_.config))([&](std::string_view piece) { text += piece; });
     for (const std::string_view line : split(text, '\n')) {
       if (!line.empty()) lines.emplace_back(line);
     }

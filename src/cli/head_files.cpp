@@ -34,7 +34,7 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
     }
     throw_if_interrupted();
     const EncodedFile made = file.make();
-    if (!holds(file.path, {made.size(), made.digest()})) {
+    if (!has_content(file.path, {made.size(), made.digest()})) {
       problems.add(ExitCode::kUsage,
                    concat(file.path.string(),
                           ": already exists with other contents; use --force to replace it"));

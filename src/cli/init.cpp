@@ -53,7 +53,7 @@ std::string mask_beside(const fs::path& heads) {
 
 void throw_if_any(const Complaints& complaints) {
   Problems problems;
-  complaints.tell(problems);
+  complaints.report_to(problems);
   problems.throw_if_any();
 }
 

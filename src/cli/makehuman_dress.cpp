@@ -186,7 +186,7 @@ MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, i
       model_(model),
       parts_(read_makehuman_parts(package, model.base(), model.skin_rows())),
       max_texels_(max_texels) {
-  model.wear(parts_.clothing);
+  model.add_parts(parts_.clothing);
 }
 
 void MakeHumanDress::add_person(const fs::path& folder, const std::string& name, std::uint64_t seed,

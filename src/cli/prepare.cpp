@@ -59,7 +59,7 @@ Run add_prepare(CLI::App& program) {
             load_job(options.config.config, options.config.overrides, options.config.cache_path());
         const std::filesystem::path cache = options.config.cache_path();
         make_directories(cache);
-        if (!shard.whole()) {
+        if (!shard.is_whole_crowd()) {
           return prepare_some(job.config, job.inputs, job.smoothing, cache,
                               [&](std::size_t head) { return shard.owns(head); });
         }

@@ -115,7 +115,7 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.config = config_arguments(options.config, tasks.directory.root);
   tasks.limits = options.limit_arguments();
   tasks.crowd = job.config.crowd.name;
-  tasks.cache = options.config.cache.empty() ? tasks.directory.submitted() / "cache"
+  tasks.cache = options.config.cache.empty() ? tasks.directory.task_folder() / "cache"
                                              : full_path(options.config.cache);
   tasks.scratch = options.scratch;
   tasks.processors = whole_number("--processors", options.processors, 1, kMaxProcessors);

@@ -32,7 +32,7 @@ void verify(const VerifyOptions& options) {
   tell("altered: ", check.altered);
   tell("not finished: ", check.unfinished);
   tell("", check.remarks);
-  if (!check.good()) {
+  if (!check.is_intact()) {
     throw InvalidInput(concat(options.directory, ": of ", check.files, " files ",
                               count(check.missing.size(), "missing, "),
                               count(check.altered.size(), "altered; "),

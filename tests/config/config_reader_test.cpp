@@ -72,7 +72,7 @@ TEST_F(ReadConfig, APatternMayHaveManyAsterisks) {
   std::string pattern;
   for (int i = 0; i < 50; ++i) pattern += "*a";
   const auto count = [&](const std::string& name) {
-    return files_like(folder_ / "heads" / name).size();
+    return files_matching(folder_ / "heads" / name).size();
   };
   EXPECT_EQ(count(pattern + "*b.obj"), 0U);
   EXPECT_EQ(count(pattern + "*.obj"), 1U);

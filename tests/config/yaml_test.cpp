@@ -20,7 +20,7 @@ Parsed parse(std::string_view text) {
   Parsed parsed;
   Complaints complaints;
   parsed.root = parse_yaml(text, "f", complaints);
-  complaints.tell(parsed.problems);
+  complaints.report_to(parsed.problems);
   return parsed;
 }
 
@@ -216,7 +216,7 @@ class SetValue : public testing::Test {
     Complaints complaints;
     set_value(root_, assignment, complaints);
     Problems problems;
-    complaints.tell(problems);
+    complaints.report_to(problems);
     return problems.empty() ? "" : problems.messages()[0];
   }
   YamlNode root_;
@@ -280,7 +280,7 @@ TEST(ReadYaml, MissingFilesAndFoldersAreMissingInput) {
   EXPECT_FALSE(read_yaml("/no/such/file.yaml", complaints));
   EXPECT_FALSE(read_yaml("/", complaints));
   Problems problems;
-  complaints.tell(problems);
+  complaints.report_to(problems);
   EXPECT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems.code(), ExitCode::kMissingInput);
 }

@@ -96,10 +96,10 @@ TEST_F(ConfigEdits, HeadsComeAfterThoseOfTheConfig) {
   EXPECT_EQ(config().faces.names, names);
   expect_error(ExitCode::kUsage, {"two heads are called"},
                [&] { put_heads(folder_.config(), {more / "eva.obj"}); });
-  put_back_section(folder_.config(), "faces", one);
+  restore_section(folder_.config(), "faces", one);
   names.pop_back();
   EXPECT_EQ(config().faces.names, names);
-  put_back_section(folder_.config(), "faces", std::nullopt);
+  restore_section(folder_.config(), "faces", std::nullopt);
   EXPECT_EQ(config().faces.names, folder_.names());
 }
 

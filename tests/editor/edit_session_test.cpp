@@ -354,7 +354,7 @@ TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
   RegionPainting painting(session, editor.strokes());
   const std::vector<float> masks = painting.masks();
   painting.stroke(stroke_on(session, "paint"));
-  EXPECT_TRUE(painting.painted());
+  EXPECT_TRUE(painting.differs_from_config());
   const std::vector<float> painted = painting.masks();
   ASSERT_EQ(painted.size(), masks.size());
   double more = 0;
@@ -370,7 +370,7 @@ TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
   EXPECT_LT(preview_error_mm(editor, face), 0.1);
   painting.undo();
   painting.apply();
-  EXPECT_FALSE(painting.painted());
+  EXPECT_FALSE(painting.differs_from_config());
   EXPECT_EQ(painting.masks(), masks);
   EXPECT_EQ(session.build(face.recipe), before);
 }
@@ -421,20 +421,21 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
   {
     RegionPainting painting(session, editor.strokes());
     EXPECT_EQ(painting.masks(), painted);
-    EXPECT_TRUE(painting.painted());
+    EXPECT_TRUE(painting.differs_from_config());
   }
   {
     std::ofstream(editor.strokes(), std::ios::app) << "{\"region\": \"chin\"}\n";
     EXPECT_EQ(RegionPainting(session, editor.strokes()).masks(), painted) << "edited by hand";
   }
   EditSession other(load_job(editor.folder / "config.yaml", {}), editor.folder / "cache", 3000);
-  EXPECT_FALSE(RegionPainting(other, editor.strokes()).painted()) << "on another preview";
-  EXPECT_FALSE(RegionPainting(session, editor.strokes()).painted());
+  EXPECT_FALSE(RegionPainting(other, editor.strokes()).differs_from_config())
+      << "on another preview";
+  EXPECT_FALSE(RegionPainting(session, editor.strokes()).differs_from_config());
 
   RegionPainting painting(session, editor.strokes());
   painting.stroke(stroke_on(session, "paint"));
   painting.forget();
-  EXPECT_FALSE(RegionPainting(session, editor.strokes()).painted());
+  EXPECT_FALSE(RegionPainting(session, editor.strokes()).differs_from_config());
 }
 
 TEST(RegionPainting, RegionsAreAddedRemovedAndProposed) {

@@ -20,7 +20,7 @@ namespace {
 using namespace crowdface;
 
 /// Every number that is promised can be read.
-void read_all(const PreparedHead& head, const HeadCacheShape& shape) {
+void read_all(const PreparedHead& head, const HeadCacheSizes& shape) {
   double all = 0;
   const LevelFields& fields = head.levels.fields;
   for (Index p = 0; p < fields.rank; ++p) {
@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::ofstream(cache_entry(folder, entry_key), std::ios::binary) << bytes;
   };
   for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
-    const HeadCacheShape shape = {8, 4, 3, 5, 60, levels};
+    const HeadCacheSizes shape = {8, 4, 3, 5, 60, levels};
     write(prepared_key(key));
     if (const auto head = find_prepared(folder, key, shape)) read_all(*head, shape);
   }

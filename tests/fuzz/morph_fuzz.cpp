@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const crowdface::FittedMesh mesh = crowdface::read_fitted_mesh(file.path(), 4);
     const crowdface::Positions base = crowdface::Positions::Identity(4, 3);
-    if (mesh.on(base).rows() != mesh.topology.vertex_count) std::abort();
+    if (mesh.fitted_to(base).rows() != mesh.topology.vertex_count) std::abort();
   } catch (const crowdface::Error&) {
   }
   return 0;

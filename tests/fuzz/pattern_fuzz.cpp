@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const auto pattern = files[0].parent_path() / text;
   try {
-    const auto found = crowdface::files_like(pattern);
+    const auto found = crowdface::files_matching(pattern);
     for (const auto& file : files) {
       const bool expected =
           ::fnmatch(pattern.c_str(), file.c_str(), FNM_PATHNAME | FNM_PERIOD) == 0;

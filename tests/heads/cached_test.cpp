@@ -181,11 +181,11 @@ TEST_F(Cached, PlacesOnTheOtherSideLieInTheirTriangles) {
   find_neighbours(inputs);
   inputs.cache = folder_.path();
   const Eigen::Vector3d side(1, 0, 0);
-  const FoundMirror found = find_other_sides(inputs, side);
+  const FoundMirror found = find_cached_mirror(inputs, side);
   const std::string kept = read_file(entry());
   for (const double share : {std::nan(""), 1e300}) {
     write_file(entry(), testing::forged_array(kept, "shares", 0, share));
-    EXPECT_EQ(find_other_sides(inputs, side).map.shares, found.map.shares);
+    EXPECT_EQ(find_cached_mirror(inputs, side).map.shares, found.map.shares);
     EXPECT_EQ(read_file(entry()), kept);
   }
 }

@@ -27,14 +27,14 @@ class Wardrobe : public ::testing::Test {
 TEST_F(Wardrobe, VerticesAreMeansOfThreeOthersAndAnOffset) {
   const FittedMesh mesh = read_fitted_mesh(proxy("hair/bob01/bob01.json"), files_.vertex_count);
   Positions base = Positions::Random(files_.vertex_count, 3);
-  const Positions on = mesh.on(base);
+  const Positions on = mesh.fitted_to(base);
   ASSERT_EQ(on.rows(), 4);
   const Eigen::RowVector3d mean = 0.5 * base.row(8) + 0.25 * base.row(9) + 0.25 * base.row(10);
   EXPECT_LT(
       (on.row(2) - mean - Eigen::RowVector3d(0.2 + kAttachmentSide, kAttachmentSide, 0.01)).norm(),
       1e-12);
   base.row(9).array() += 4;
-  EXPECT_LT((mesh.on(base).row(2) - on.row(2) - Eigen::RowVector3d(1, 1, 1)).norm(), 1e-12);
+  EXPECT_LT((mesh.fitted_to(base).row(2) - on.row(2) - Eigen::RowVector3d(1, 1, 1)).norm(), 1e-12);
   EXPECT_EQ(mesh.licence.author, "Some One");
   EXPECT_EQ(mesh.pictures.at(0).path, proxy("hair/bob01/textures/bob01.png"));
 }
@@ -42,13 +42,13 @@ TEST_F(Wardrobe, VerticesAreMeansOfThreeOthersAndAnOffset) {
 TEST_F(Wardrobe, WhatHoldsToOthersIsWhereItWasAndGoesWithThem) {
   FittedMesh mesh = read_fitted_mesh(proxy("hair/bob01/bob01.json"), files_.vertex_count);
   Positions base = Positions::Random(files_.vertex_count, 3);
-  const Positions before = mesh.on(base);
-  mesh.hold_to({20, 30, 31, 40}, base);
-  EXPECT_LT((mesh.on(base) - before).cwiseAbs().maxCoeff(), 1e-12);
+  const Positions before = mesh.fitted_to(base);
+  mesh.anchor_to({20, 30, 31, 40}, base);
+  EXPECT_LT((mesh.fitted_to(base) - before).cwiseAbs().maxCoeff(), 1e-12);
   base.row(8).array() += 100;
-  EXPECT_LT((mesh.on(base) - before).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((mesh.fitted_to(base) - before).cwiseAbs().maxCoeff(), 1e-12);
   for (const int row : {20, 30, 31, 40}) base.row(row).array() += 2;
-  EXPECT_LT(((mesh.on(base) - before).array() - 2).abs().maxCoeff(), 1e-12);
+  EXPECT_LT(((mesh.fitted_to(base) - before).array() - 2).abs().maxCoeff(), 1e-12);
 }
 
 TEST_F(Wardrobe, FilesThatAreNotWholeAreRefused) {
@@ -79,7 +79,7 @@ TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
   MakeHumanHeads naked(folder_.path()), dressed(folder_.path());
   const MakeHumanParts parts =
       read_makehuman_parts(folder_.path(), dressed.base(), dressed.skin_rows());
-  dressed.wear(parts.clothing);
+  dressed.add_parts(parts.clothing);
   const auto skin = static_cast<Index>(naked.skin_rows().size());
   const Positions expected = naked.positions(3, 2), found = dressed.positions(3, 2);
   // The tube's vertices come before those of the left eye in the file, and behind those of the right one.

@@ -56,7 +56,7 @@ class CheckedWrap : public ::testing::Test {
 
   WrapTemplate shape_ = some_template();
   Positions there_ = 10 * some_head(1);
-  Scan scan_{shape_.skin.of(there_), shape_.skin.triangles};
+  Scan scan_{shape_.skin.rows_of(there_), shape_.skin.triangles};
   std::map<std::string, std::uint32_t> here_ = propose_landmarks(shape_);
   std::vector<FaceFeature> features_ = face_features(shape_, here_);
   std::vector<WrapLandmark> landmarks_;

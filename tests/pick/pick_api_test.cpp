@@ -47,7 +47,7 @@ class PickApiTest : public ::testing::Test {
   }
   std::uint32_t foremost() const {
     Index v = 0;
-    Positions skin = shape_.skin.of(shape_.positions);
+    Positions skin = shape_.skin.rows_of(shape_.positions);
     skin.col(2).maxCoeff(&v);
     return shape_.skin.vertices[static_cast<std::size_t>(v)];
   }
@@ -76,7 +76,8 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
 
   const LandmarkFile saved = read_landmarks(file_);
   EXPECT_TRUE(saved.of_template.contains("a: b"));
-  const auto matched = match_landmarks(saved, session_.inputs().of_file, session_.inputs().scan);
+  const auto matched =
+      match_landmarks(saved, session_.inputs().file_positions, session_.inputs().scan);
   ASSERT_EQ(matched.size(), 2U);
   EXPECT_EQ(matched[0].name, "corner");
   EXPECT_EQ(matched[0].place, row3(session_.inputs().scan.positions, 12));

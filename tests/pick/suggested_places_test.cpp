@@ -94,7 +94,7 @@ TEST_F(SuggestedPlacesTest, TheTemplatesSkinFallsIntoRegions) {
   EXPECT_EQ(region_at(proposals_.at("nose_tip")), "nose");
   EXPECT_EQ(region_at(proposals_.at("chin")), "mouth");
   Index top = 0;
-  shape_.skin.of(shape_.positions).col(1).maxCoeff(&top);
+  shape_.skin.rows_of(shape_.positions).col(1).maxCoeff(&top);
   EXPECT_EQ(region_at(shape_.skin.vertices[static_cast<std::size_t>(top)]), "brow");
 }
 

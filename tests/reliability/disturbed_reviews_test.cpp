@@ -123,7 +123,7 @@ class ReviewedCrowd {
   void run_killed(const std::vector<std::string>& given, const Shard& shard,
                   const std::string& what) {
     constexpr Kind kKinds[] = {Kind::kKillBefore, Kind::kKillWithin, Kind::kKillAfter};
-    for (int kill = 0; kill < (shard.whole() ? 3 : 1); ++kill) {
+    for (int kill = 0; kill < (shard.is_whole_crowd() ? 3 : 1); ++kill) {
       const Kind kind = kKinds[random_() % 3];
       const std::uint64_t call = random_() % calls_;
       const ChildOutcome killed = run(folder_.out(), {kind, call, 0}, given, shard);

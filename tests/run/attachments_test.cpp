@@ -317,7 +317,7 @@ TEST_F(AttachmentsOfACrowd, CountForTheMemoryThatFilesTake) {
     const auto bytes = [&](const Job& job) {
       return FaceEncoders(job.config, job.inputs, {format}, {&face, 1}).encode_bytes();
     };
-    const bool has_them = traits_of(format).attachments != Beside::kNowhere;
+    const bool has_them = traits_of(format).attachments != DataStorage::kNowhere;
     const auto cap =
         static_cast<std::size_t>(with.inputs.attachments.at("cap").file.positions.rows());
     EXPECT_GE(bytes(with), bytes(without) + (has_them ? cap * 3 * sizeof(float) : 0))

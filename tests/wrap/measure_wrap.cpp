@@ -187,8 +187,8 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
       m.surface.push_back(result.distance_mm(static_cast<Index>(i)));
     }
   }
-  m.flipped = TargetTriangles(shape.skin.triangles, shape.skin.of(shape.positions))
-                  .compare(shape.skin.of(result.positions))
+  m.flipped = TargetTriangles(shape.skin.triangles, shape.skin.rows_of(shape.positions))
+                  .compare(shape.skin.rows_of(result.positions))
                   .flipped;
   return m;
 }

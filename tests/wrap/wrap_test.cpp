@@ -30,7 +30,7 @@ WrapTemplate synthetic(Index vertices, std::uint64_t index, const TemplateOption
 
 /// Landmarks far from each other on the visible skin, the first the foremost vertex.
 std::vector<WrapLandmark> spread_landmarks(const WrapTemplate& head, std::size_t count) {
-  const Positions skin = head.skin.of(head.positions);
+  const Positions skin = head.skin.rows_of(head.positions);
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(skin.rows(), 1e300);
   for (Index v = 0; v < skin.rows(); ++v) {
     if (head.skin.openness[static_cast<std::size_t>(v)] < 0.4) distances(v) = -1;
@@ -100,7 +100,7 @@ TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
         Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d(1, 2, 3).normalized())
             .toRotationMatrix();
     turn.scale = kCm;
-    const Scan scan{turn.apply(head.skin.of(crowned)), head.skin.triangles};
+    const Scan scan{turn.apply(head.skin.rows_of(crowned)), head.skin.triangles};
     const auto face = find_scan_face(scan, std::nullopt);
     ASSERT_TRUE(face);
     WrapResult result = wrap(shape, nullptr, scan, {}, PoseHint{face->axes.up, face->axes.front});
@@ -121,7 +121,7 @@ TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
 
 TEST(Wrap, ATemplateThatIsTheScanStaysWhereItIs) {
   const WrapTemplate shape = synthetic(5000, 1);
-  const Scan scan{shape.skin.of(shape.positions), shape.skin.triangles};
+  const Scan scan{shape.skin.rows_of(shape.positions), shape.skin.triangles};
   std::vector<WrapLandmark> landmarks = spread_landmarks(shape, 8);
   for (WrapLandmark& landmark : landmarks) {
     landmark.place = shape.positions.row(landmark.vertex).transpose();
@@ -187,7 +187,7 @@ TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
   const TemplateOptions options{.max_vertices = 8000, .reduced_vertices = 5000};
   const WrapTemplate shape = synthetic(vertices, 1, options),
                      head = synthetic(vertices, 2, options);
-  const Positions skin = head.skin.of(head.positions);
+  const Positions skin = head.skin.rows_of(head.positions);
   const Positions normals = vertex_normals_or_zero(head.skin.triangles, skin);
   std::vector<double> edges;
   for (const Triangle& t : head.skin.triangles) {
@@ -280,7 +280,7 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
 TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {
   const WrapTemplate shape = synthetic(5000, 1);
   std::vector<WrapLandmark> landmarks = spread_landmarks(shape, 12);
-  const Scan scan{shape.skin.of(shape.positions), shape.skin.triangles};
+  const Scan scan{shape.skin.rows_of(shape.positions), shape.skin.triangles};
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const auto& other = landmarks[(i + 5) % landmarks.size()];
     landmarks[i].place = shape.positions.row(other.vertex).transpose();
@@ -301,7 +301,7 @@ TEST(Wrap, ATemplateWithoutSkinIsRefused) {
 
 TEST(Unfold, TurnsFoldedTrianglesBackAndTouchesNothingElse) {
   const WrapTemplate shape = synthetic(5000, 1);
-  const Positions rest = shape.skin.of(shape.positions);
+  const Positions rest = shape.skin.rows_of(shape.positions);
   Positions folded = rest;
   const Index v = 2000;
   for (const std::uint32_t n : shape.skin.adjacency.of(v)) {

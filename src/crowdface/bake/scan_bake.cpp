@@ -104,7 +104,7 @@ double ScanBake::edge_length(Index vertex) const {
 
 ScanBake::ScanPoint ScanBake::look(const SkinPoint& from, std::uint32_t guess) const {
   ScanPoint seen;
-  ScanSurface::Place place =
+  ScanSurface::ClosestPoint place =
       surface_.nearest(from.position, from.normal, kMinCosine, kReachMm, guess);
   if (place.triangle == kNoIndex) return seen;
   // The surface along the normal instead of the closest one: one step of a fixed-point iteration.

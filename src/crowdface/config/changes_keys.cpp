@@ -110,7 +110,7 @@ std::string write_locked(const FaceChange& change, const WriteContext& context) 
 
 const Keys<FaceChange>& change_keys() {
   const auto known_group =
-      such_that(name(), [](const std::string& name, const YamlNode& node, ConfigDraft& draft) {
+      restricted(name(), [](const std::string& name, const YamlNode& node, ConfigDraft& draft) {
         const auto& groups = draft.config.groups;
         if (std::ranges::find(groups, name, &Group::name) != groups.end()) return true;
         const auto known = texts_of(groups, [](const Group& group) { return group.name; });

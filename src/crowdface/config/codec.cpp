@@ -39,7 +39,7 @@ Codec<double> fraction() {
 
 /// A size in millimetres up to `smoothing.max_size`.
 Codec<double> relief_size() {
-  return such_that(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
+  return restricted(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;
     const bool bounded = draft.smoothing_known && !smoothing.max_iterations;
     if (!bounded || size <= smoothing.max_size_mm) return true;
@@ -200,7 +200,7 @@ Codec<double> positive_length(double high_mm) {
 
 Codec<double> above_zero(const Codec<double>& codec, const std::string& expected) {
   Codec<double> above =
-      such_that(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
+      restricted(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
         if (value == 0) draft.complaints.expected(node, expected);
         return value != 0;
       });
@@ -234,7 +234,7 @@ Codec<Range> range(const Codec<double>& one) {
 }
 
 Codec<Range> age() {
-  return such_that(range(number(-1, 1)), [](Range age, const YamlNode& node, ConfigDraft& draft) {
+  return restricted(range(number(-1, 1)), [](Range age, const YamlNode& node, ConfigDraft& draft) {
     const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
       if (!heads.empty() || !draft.tags_known || !draft.heads_known) return true;
       draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
@@ -375,13 +375,12 @@ Codec<std::filesystem::path> path(const std::string& expected) {
 }
 
 Codec<std::filesystem::path> obj_file() {
-  return such_that(path("an OBJ file"),
-                   [](const std::filesystem::path& file, const YamlNode& node, ConfigDraft& draft) {
-                     if (mesh_format_of(file) == MeshFormat::kObj)
-                       return expect_file(node, file, draft);
-                     draft.complaints.expected(node, "a file whose name ends in .obj");
-                     return false;
-                   });
+  return restricted(path("an OBJ file"), [](const std::filesystem::path& file, const YamlNode& node,
+                                            ConfigDraft& draft) {
+    if (mesh_format_of(file) == MeshFormat::kObj) return expect_file(node, file, draft);
+    draft.complaints.expected(node, "a file whose name ends in .obj");
+    return false;
+  });
 }
 
 }  // namespace crowdface

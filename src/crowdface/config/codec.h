@@ -81,7 +81,7 @@ Codec<std::filesystem::path> obj_file();
 /// Restricts a codec to values that pass a check.
 /// \param fits  called with (value, node, draft); adds a complaint and returns false to refuse.
 template <class Value, class Fits>
-Codec<Value> such_that(Codec<Value> codec, const Fits& fits) {
+Codec<Value> restricted(Codec<Value> codec, const Fits& fits) {
   codec.read = [=, read = std::move(codec.read)](const YamlNode& node, ConfigDraft& draft) {
     auto value = read(node, draft);
     if (value && !fits(*value, node, draft)) value.reset();

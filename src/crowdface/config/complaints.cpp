@@ -33,7 +33,7 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
   return node.kind == YamlNode::Kind::kMap;
 }
 
-void Complaints::tell(Problems& problems) const {
+void Complaints::report_to(Problems& problems) const {
   // a longer list would push the first problems off the screen
   constexpr std::size_t kMaxTold = 100;
   std::vector<Complaint> sorted = complaints_;

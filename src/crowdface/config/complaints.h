@@ -35,7 +35,7 @@ class Complaints {
 
   /// Reports the first 100 complaints by line and column. Complaints about the command line come
   /// last. If there are more, one final problem states how many.
-  void tell(Problems& problems) const;
+  void report_to(Problems& problems) const;
 
  private:
   std::vector<Complaint> complaints_;

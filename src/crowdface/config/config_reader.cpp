@@ -85,7 +85,7 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   auto& directory = draft.config.output.directory;
   if (directory.empty()) directory = resolve(draft.folder, concat("out/", draft.config.crowd.name));
   if (root) read_path_options(overrides, draft);
-  complaints.tell(problems);
+  complaints.report_to(problems);
   const bool complete = complaints.empty();
   if (complete) {
     for (std::string& text : overridden_keys(*root, draft.config)) {

@@ -73,7 +73,7 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
 void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   const auto pattern = path("a pattern").read(node, draft);
   if (!pattern) return;
-  std::vector<fs::path> files = files_like(*pattern);
+  std::vector<fs::path> files = files_matching(*pattern);
   std::erase_if(files, [](const fs::path& file) { return !is_head_file(file); });
   draft.heads_known = expect_head_count(
       node, files.size(), concat(" that match ", quoted(node.text)), draft.complaints);

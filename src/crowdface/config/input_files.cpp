@@ -123,7 +123,7 @@ std::string left_out_of_heads(const fs::path& folder) {
       "\", or convert the files with crowdface convert");
 }
 
-std::vector<fs::path> files_like(const fs::path& pattern) {
+std::vector<fs::path> files_matching(const fs::path& pattern) {
   std::vector<fs::path> found = {fs::path()};
   for (const fs::path& part : pattern) {
     const std::string text = part.string();
@@ -235,7 +235,7 @@ std::string pattern_below(const fs::path& folder) {
       if (heads.empty()) continue;
       const fs::path pattern =
           folder / "*" / (at / heads.front().filename()).lexically_relative(below);
-      if (files_like(pattern).size() < kMinHeads) continue;
+      if (files_matching(pattern).size() < kMinHeads) continue;
       return concat("; if each head has its own folder, set faces.files: \"",
                     (folder.filename() / pattern.lexically_relative(folder)).string(),
                     "\" in the config");

@@ -36,7 +36,7 @@ std::string objection_to_head_name(const std::string& name, const std::filesyste
 /// matches any number of characters except '/', `?` matches one. Wildcards do not match hidden
 /// files.
 /// \throws MissingInput if a folder cannot be read.
-std::vector<std::filesystem::path> files_like(const std::filesystem::path& pattern);
+std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
 
 /// Returns a name for each head: the file's stem. If two stems are equal, uses the parts of the
 /// paths that differ instead ("people/ann/neutral.obj": "ann").

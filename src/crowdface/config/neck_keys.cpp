@@ -10,10 +10,9 @@ using Neck = Config::Neck;
 constexpr double kMaxFalloffMm = 1000;
 
 Codec<std::filesystem::path> existing_file(const std::string& expected) {
-  return such_that(path(expected),
-                   [](const std::filesystem::path& file, const YamlNode& node, ConfigDraft& draft) {
-                     return expect_file(node, file, draft);
-                   });
+  return restricted(path(expected),
+                    [](const std::filesystem::path& file, const YamlNode& node,
+                       ConfigDraft& draft) { return expect_file(node, file, draft); });
 }
 
 void read_like(const YamlNode& node, Neck& neck, ConfigDraft& draft) {

@@ -158,7 +158,7 @@ const Keys<Sheet>& contact_sheet_keys() {
           .apart_from_faces(),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
           .apart_from_faces(),
-      key("shapes", &Sheet::shapes, such_that(whole(0, 64), can_be_shown)).apart_from_faces(),
+      key("shapes", &Sheet::shapes, restricted(whole(0, 64), can_be_shown)).apart_from_faces(),
       word_key("texture", &Sheet::texture)};
   return keys;
 }

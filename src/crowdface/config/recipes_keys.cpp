@@ -226,7 +226,7 @@ std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std
   draft.heads_known = true;
   std::optional<ManualRecipe> recipe;
   if (const auto node = parse_yaml(text, source, complaints)) recipe = read_recipe(*node, draft);
-  complaints.tell(problems);
+  complaints.report_to(problems);
   return complaints.empty() ? std::move(recipe) : std::nullopt;
 }
 

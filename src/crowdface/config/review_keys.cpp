@@ -274,7 +274,7 @@ Review parse_review(std::string_view text, const std::string& source, const Conf
   draft.config = config;
   draft.heads_known = true;
   Review review = read_marks(parse_yaml(text, source, complaints), draft);
-  complaints.tell(problems);
+  complaints.report_to(problems);
   return review;
 }
 

@@ -44,7 +44,7 @@ const Keys<Config::Smoothing>& smoothing_keys() {
       word_key("boundary", &Smoothing::boundary),
       word_key("operator", &Smoothing::operator_kind),
       word_key("levels", &Smoothing::levels),
-      key("tolerance", &Smoothing::tolerance_mm, such_that(length(kMaxSizeMm), is_held))};
+      key("tolerance", &Smoothing::tolerance_mm, restricted(length(kMaxSizeMm), is_held))};
   return keys;
 }
 

@@ -48,7 +48,7 @@ class TreeBuilder : public YAML::EventHandler {
       const Frame& frame = frames_.back();
       if (frame.node.kind == YamlNode::Kind::kMap) {
         node.place = frame.key_place;
-      } else if (!text_.null_stands_at(mark.line, mark.column)) {
+      } else if (!text_.is_null_at(mark.line, mark.column)) {
         node.place = frame.node.place;
       }
     }
@@ -68,7 +68,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
                 const std::string& value) override {
     refuse_tag(mark, tag);
-    if (text_.quote_left_open(mark.line, mark.column)) {
+    if (text_.is_unclosed_quote_at(mark.line, mark.column)) {
       fail(place(mark), "the quote opened here is never closed");
     }
     YamlNode node = make(YamlNode::Kind::kScalar, mark);

@@ -29,13 +29,13 @@ class YamlText {
   std::optional<Problem> find_problem() const;
 
   /// Returns whether `~` or `null` is written at this position.
-  bool null_stands_at(int line, int byte_column) const;
+  bool is_null_at(int line, int byte_column) const;
   /// Returns whether a quote starts at this position and is never closed. yaml-cpp accepts such a
   /// quote and reads the rest of the file as its text.
-  bool quote_left_open(int line, int byte_column) const;
+  bool is_unclosed_quote_at(int line, int byte_column) const;
 
  private:
-  std::string_view from(int line, int byte_column) const;
+  std::string_view text_from(int line, int byte_column) const;
   YamlPlace place_of(std::size_t offset) const;
 
   std::string_view text_;

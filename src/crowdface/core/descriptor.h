@@ -17,14 +17,14 @@
 namespace crowdface {
 
 /// The message of `errno`: why the last system call failed.
-inline std::string reason() {
+inline std::string errno_message() {
   return std::generic_category().message(errno);
 }
 
 /// \throws Failure with the message "FILE: WHAT: REASON", where REASON explains `errno`.
 template <class Failure>
 [[noreturn]] void throw_with_reason(const std::filesystem::path& file, std::string_view what) {
-  throw Failure(concat(file.string(), ": ", what, ": ", reason()));
+  throw Failure(concat(file.string(), ": ", what, ": ", errno_message()));
 }
 
 /// A file descriptor that is closed on destruction.

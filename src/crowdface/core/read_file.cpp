@@ -122,7 +122,7 @@ FileDigest hash_file(const fs::path& path) {
   return digest_of([&](const TakePiece& take) { read_pieces(path, take); });
 }
 
-bool holds(const fs::path& path, const FileDigest& content) {
+bool has_content(const fs::path& path, const FileDigest& content) {
   std::error_code error;
   if (fs::file_size(path, error) != content.bytes || error) return false;
   try {

@@ -110,7 +110,7 @@ class TemporaryFile {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
     if (::fstat(file_.get(), &status) == 0) return status.st_nlink > 0;
-    const std::string why = reason();
+    const std::string why = errno_message();
     ::unlink(path_.c_str());
     throw IoError(concat(target_.string(), ": its file status cannot be read: ", why));
   }

@@ -55,9 +55,9 @@ std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
 }
 
 std::vector<fs::path> record_files(const CrowdDirectory& directory) {
-  return {directory.plan(),     directory.founders(), directory.table(),    directory.casting(),
-          directory.report(),   directory.ledger(),   directory.likeness(), directory.timings(),
-          directory.rejected(), directory.planned(),  directory.stage()};
+  return {directory.plan(),     directory.founders(),    directory.table(),    directory.casting(),
+          directory.report(),   directory.ledger(),      directory.likeness(), directory.timings(),
+          directory.rejected(), directory.plan_marker(), directory.stage()};
 }
 
 /// Names of all files in the folder's ledgers whose items begin with `items`.

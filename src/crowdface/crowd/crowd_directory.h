@@ -46,7 +46,7 @@ struct CrowdDirectory {
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
   /// Identifies the job to which the plan belongs, for shards that reuse the plan; see
   /// planned_faces.
-  std::filesystem::path planned() const { return root / "planned.json"; }
+  std::filesystem::path plan_marker() const { return root / "planned.json"; }
   /// Progress of a shard, for `crowdface status` and other observers.
   std::filesystem::path progress(const Shard& shard) const {
     return of_shard(root / "progress.json", shard);
@@ -55,7 +55,7 @@ struct CrowdDirectory {
     return of_all_shards(root / "progress.json");
   }
   /// Scripts and logs of tasks that run on other machines.
-  std::filesystem::path submitted() const { return root / "submit"; }
+  std::filesystem::path task_folder() const { return root / "submit"; }
   /// The shard's own log, ledger and lock; the crowd's files above if the shard is the whole crowd.
   std::filesystem::path log(const Shard& shard) const { return of_shard(log(), shard); }
   std::filesystem::path ledger(const Shard& shard) const { return of_shard(ledger(), shard); }

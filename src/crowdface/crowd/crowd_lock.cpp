@@ -13,10 +13,10 @@ CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
   const auto tell = [&](std::string_view who) {
     log_info(concat(directory.root.string(), ": ", who, " is using this folder; waiting for it"));
   };
-  crowd_ = std::make_unique<FileLock>(directory.lock(),
-                                      shard.whole() ? LockKind::kExclusive : LockKind::kShared,
-                                      [&] { tell("another run"); });
-  if (!shard.whole()) {
+  crowd_ = std::make_unique<FileLock>(
+      directory.lock(), shard.is_whole_crowd() ? LockKind::kExclusive : LockKind::kShared,
+      [&] { tell("another run"); });
+  if (!shard.is_whole_crowd()) {
     shard_ = std::make_unique<FileLock>(directory.lock(shard), LockKind::kExclusive,
                                         [&] { tell(concat("shard ", shard.name())); });
   }

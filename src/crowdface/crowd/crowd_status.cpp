@@ -63,7 +63,7 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
 
 /// Number of shards of the last submission; 1 if the crowd was not sharded.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
-  const auto job = parse_shallow_json(text_of(directory.submitted() / "job.json"));
+  const auto job = parse_shallow_json(text_of(directory.task_folder() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {
     const auto shards = job["shards"].get<std::uint64_t>();
     if (parse_shard(concat("1/", shards))) return shards;
@@ -106,7 +106,7 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
 /// Adds the error from the log of a task that died without a report in the crowd's folder.
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
   const TaskEnd end = end_of_task(
-      text_of(directory.submitted() / "log" / concat("blend-", status.shard.index, ".log")));
+      text_of(directory.task_folder() / "log" / concat("blend-", status.shard.index, ".log")));
   if (!end.code || *end.code == 0) return;
   constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
   status.state = *end.code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
@@ -143,7 +143,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
   const auto is_log = [](const fs::path& path) {
     return path.extension() == ".log" && !path.filename().string().starts_with("blend-");
   };
-  for (const fs::path& log : list_files(directory.submitted() / "log", is_log)) {
+  for (const fs::path& log : list_files(directory.task_folder() / "log", is_log)) {
     const TaskEnd end = end_of_task(text_of(log));
     if (!end.code || *end.code == 0 || end.requeued) continue;
     status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.code,
@@ -173,7 +173,7 @@ TaskEnd end_of_task(std::string_view log) {
 
 CrowdStatus crowd_status(const fs::path& crowd_directory) {
   const CrowdDirectory directory{crowd_directory};
-  if (!path_exists(directory.submitted())) require_crowd(directory);
+  if (!path_exists(directory.task_folder())) require_crowd(directory);
   CrowdStatus status;
   status.planned = path_exists(directory.plan());
   status.gathered = path_exists(directory.report());

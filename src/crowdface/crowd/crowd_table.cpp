@@ -247,8 +247,8 @@ std::string hex_of_light(const Eigen::Array3d& light) {
   return text;
 }
 
-TextPieces told_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                          const Digest& settings, const TableFacts& facts) {
+TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                               const Digest& settings, const TableFacts& facts) {
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
   return text_of_items(crowd.size(), [&crowd, &names, settings, parenthood, tags = facts.tags,
                                       is_tagged = has_any_tag(facts.tags)](std::size_t i) {

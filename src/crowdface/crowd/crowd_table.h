@@ -33,8 +33,8 @@ TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names
 /// The text of plan.jsonl: that of plan_text, and who each face is: `sex` and `tags` if the heads have
 /// tags, and the `family_role` of parents and children (the `family` names the other members). `crowd`
 /// and `names` must outlive the text.
-TextPieces told_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                          const Digest& settings, const TableFacts& facts);
+TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                               const Digest& settings, const TableFacts& facts);
 
 /// A colour in linear light as sRGB, "#C89F8A".
 std::string hex_of_light(const Eigen::Array3d& light);

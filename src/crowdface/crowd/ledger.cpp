@@ -155,7 +155,7 @@ LedgerLines read_ledger(const fs::path& path, std::string_view item) {
 
 void remove_recorded(const fs::path& root, const LedgerEntry::File& file) {
   fs::path path = root / file.name;
-  if (!is_inside_folder(path, root) || !holds(path, file.content)) return;
+  if (!is_inside_folder(path, root) || !has_content(path, file.content)) return;
   std::error_code error;
   fs::remove(path, error);
   if (error) throw IoError(concat(path.string(), ": cannot be removed: ", error.message()));
@@ -166,7 +166,7 @@ void remove_recorded(const fs::path& root, const LedgerEntry::File& file) {
 
 bool files_match(const fs::path& root, const LedgerEntry& entry) {
   return std::all_of(entry.files.begin(), entry.files.end(), [&](const LedgerEntry::File& file) {
-    return holds(root / file.name, file.content);
+    return has_content(root / file.name, file.content);
   });
 }
 
@@ -235,7 +235,7 @@ void Ledger::record_all(std::vector<LedgerEntry> entries) {
   for (const LedgerEntry& entry : entries) lines += line_with_end(entry);
   file_->append(lines);
   const std::lock_guard lock(mutex_);
-  grown_ = true;
+  has_appended_ = true;
   for (LedgerEntry& entry : entries) settle_on(std::move(entry));
 }
 
@@ -267,7 +267,7 @@ FileDigest Ledger::write(const std::string& name, const TextPieces& text) {
   }
   const LedgerEntry::File file{name, digest_of(text)};
   if (proven(name, file.content.digest)) return file.content;
-  if (!holds(root_ / name, file.content)) write_file(root_ / name, text);
+  if (!has_content(root_ / name, file.content)) write_file(root_ / name, text);
   keep(file);
   return file.content;
 }
@@ -302,7 +302,7 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
     if (lines.size() == 1) return lines.back();
     const auto agreed = std::find_if(lines.rbegin(), lines.rend(), [&](const LedgerEntry& line) {
       return std::all_of(line.files.begin(), line.files.end(), [&](const auto& file) {
-        return is_in_them(file.name) || holds(root_ / file.name, file.content);
+        return is_in_them(file.name) || has_content(root_ / file.name, file.content);
       });
     });
     return agreed == lines.rend() ? lines.back() : *agreed;
@@ -358,7 +358,7 @@ void Ledger::remove_outdated_files() const {
 void Ledger::settle() {
   remove_outdated_files();
   const TextPieces text = [&](const TakePiece& take) { give_text(take); };
-  if (grown_ || !holds(own_, digest_of(text))) write_file(own_, text);
+  if (has_appended_ || !has_content(own_, digest_of(text))) write_file(own_, text);
   for (const fs::path& other : others_) {
     std::error_code error;
     if (!fs::remove(other, error) && error) {

@@ -131,7 +131,7 @@ class Ledger {
   std::vector<std::filesystem::path> others_;
   std::map<std::string, Item> items_;
   std::vector<LedgerEntry::File> replaced_;  ///< files of lines that newer lines replaced
-  bool grown_ = false;                       ///< whether this run has appended lines
+  bool has_appended_ = false;                ///< whether this run has appended lines
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;
 };

@@ -46,7 +46,7 @@ std::optional<Shard> shard_of_name(std::string name) {
 }
 
 fs::path of_shard(const fs::path& path, const Shard& shard) {
-  if (shard.whole()) return path;
+  if (shard.is_whole_crowd()) return path;
   fs::path result = path;
   return result.replace_filename(
       concat(path.stem().string(), '-', shard.name(), path.extension().string()));

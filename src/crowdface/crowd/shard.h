@@ -16,7 +16,7 @@ struct Shard {
   std::uint64_t index = 1;  ///< counted from 1
   std::uint64_t count = 1;  ///< number of shards; 1: the shard is the whole crowd
 
-  bool whole() const { return count == 1; }
+  bool is_whole_crowd() const { return count == 1; }
   /// Whether the shard owns the face at this position of the plan, counted from 0.
   bool owns(std::size_t face) const { return face % count == index - 1; }
   /// Name such as "2of7", as in the shard's file names.

@@ -56,7 +56,7 @@ void compare_files(const CrowdDirectory& directory,
   Progress progress("checking files", files.size());
   parallel_for_each(files.size(), [&](std::size_t f) {
     throw_if_interrupted();
-    good[f] = holds(directory.root / files[f]->name, files[f]->content);
+    good[f] = has_content(directory.root / files[f]->name, files[f]->content);
     progress.step();
   });
   check.files = files.size();

@@ -17,7 +17,7 @@ struct CrowdCheck {
   std::vector<std::string> unfinished;  ///< items of the plan that no ledger line proves
   std::vector<std::string> remarks;     ///< problems of the ledger itself, and leftovers
 
-  bool good() const {
+  bool is_intact() const {
     return missing.empty() && altered.empty() && unfinished.empty() && remarks.empty();
   }
 };

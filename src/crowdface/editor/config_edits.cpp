@@ -22,7 +22,7 @@ YamlNode parsed(const std::string& text, const std::string& source) {
   Complaints complaints;
   auto root = parse_yaml(text, source, complaints);
   Problems problems;
-  complaints.tell(problems);
+  complaints.report_to(problems);
   problems.throw_if_any();
   return std::move(*root);
 }
@@ -134,8 +134,8 @@ std::optional<std::string> section_in_edits(const fs::path& edits, const std::st
   return in_flow(found->value);
 }
 
-fs::path put_back_section(const fs::path& config, const std::string& section,
-                          const std::optional<std::string>& value) {
+fs::path restore_section(const fs::path& config, const std::string& section,
+                         const std::optional<std::string>& value) {
   return put_edit(config, [&](YamlNode& edits) {
     std::erase_if(edits.entries, [&](const YamlEntry& edit) { return edit.key == section; });
     if (!value) return;

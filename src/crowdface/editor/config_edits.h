@@ -43,8 +43,8 @@ std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
 /// Puts back what section_in_edits returned earlier.
 /// \return the file of the edits.
 /// \throws Error as put_recipe does, or if `value` is more than one value.
-std::filesystem::path put_back_section(const std::filesystem::path& config,
-                                       const std::string& section,
-                                       const std::optional<std::string>& value);
+std::filesystem::path restore_section(const std::filesystem::path& config,
+                                      const std::string& section,
+                                      const std::optional<std::string>& value);
 
 }  // namespace crowdface

@@ -51,7 +51,7 @@ class EditorLock {
     Descriptor file(
         ::open(address_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));
     if (!file.valid() || !write_all(file.get(), address) || !file.close()) {
-      throw CannotCreate(concat(address_.string(), ": cannot be written: ", reason()));
+      throw CannotCreate(concat(address_.string(), ": cannot be written: ", errno_message()));
     }
   }
 

@@ -84,7 +84,7 @@ HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
   json["can_edit_config"] = may_edit_config_;
   {
     const std::lock_guard lock(building_);
-    json["painted"] = painting_.painted();
+    json["painted"] = painting_.differs_from_config();
   }
   if (may_edit_config_) {
     json["regions_edit"] = edit_json(session_.job().config.edits, "regions");
@@ -195,7 +195,7 @@ void EditApi::note_turn(const std::string& page, std::uint64_t turn) {
   newest = std::max(newest, turn);
 }
 
-bool EditApi::overtaken(const std::string& page, std::uint64_t turn) {
+bool EditApi::is_overtaken(const std::string& page, std::uint64_t turn) {
   const std::lock_guard lock(turns_mutex_);
   const auto newest = turns_.find(page);
   return newest != turns_.end() && turn < newest->second;
@@ -258,7 +258,8 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
       static_cast<std::uint64_t>(body.contains("turn") ? number_in(body, "turn", 0, kMaxTurns) : 0);
   if (!page.empty()) note_turn(page, turn);
   const std::lock_guard lock(building_);
-  if (!page.empty() && overtaken(page, turn)) return refusal(409, "overtaken by a newer request");
+  if (!page.empty() && is_overtaken(page, turn))
+    return refusal(409, "overtaken by a newer request");
   painting_.apply();
   const auto begin = std::chrono::steady_clock::now();
   const Positions positions = session_.build(face.recipe);

@@ -71,7 +71,7 @@ class EditApi {
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json told(const FaceMeasures& measures) const;
   void note_turn(const std::string& page, std::uint64_t turn);
-  bool overtaken(const std::string& page, std::uint64_t turn);
+  bool is_overtaken(const std::string& page, std::uint64_t turn);
 
   const EditSession& session_;
   bool may_edit_config_;

@@ -171,13 +171,13 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
 HttpAnswer EditApi::painted_masks() const {
   const std::vector<float> masks = painting_.masks();
   BinaryAnswer answer;
-  answer.head["painted"] = painting_.painted();
+  answer.head["painted"] = painting_.differs_from_config();
   answer.add("alpha", std::span(masks));
   return binary_answer(answer.bytes());
 }
 
 void EditApi::require_masks_of_config() const {
-  if (!painting_.painted()) return;
+  if (!painting_.differs_from_config()) return;
   throw UsageError(
       "the config does not use the painted masks yet; press \"Use masks\" first, so that the saved "
       "face matches the config");
@@ -236,7 +236,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
     const std::lock_guard lock(building_);
     folder_.require_same();
     if (body.contains("back")) {
-      edits = put_back_section(config, "regions", optional_text_in(body, "back"));
+      edits = restore_section(config, "regions", optional_text_in(body, "back"));
     } else {
       const PaintedRegions regions = painting_.regions(body);
       edits = put_regions(config, regions.names, painting_.save(regions, unused_masks()));
@@ -279,7 +279,7 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
   const std::string config_text = read_file(config.file);
   if (body.contains("back")) {
     folder_.require_same();
-    put_back_section(config.file, "faces", optional_text_in(body, "back"));
+    restore_section(config.file, "faces", optional_text_in(body, "back"));
     open_again(request, rest);
     return json_answer(Json::object());
   }
@@ -289,7 +289,7 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
     try {
       open_again_();
     } catch (...) {
-      put_back_section(config.file, "faces", before);
+      restore_section(config.file, "faces", before);
       write_file(config.file, config_text);
       throw;
     }

@@ -113,7 +113,7 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
                                    ? judging_.get().where->space.head_distances()
                                    : Eigen::MatrixXd())),
       preview_(reducing_.get()),
-      around_(job_.inputs.faces.topology),
+      vertex_faces_(job_.inputs.faces.topology),
       sky_shares_(std::async(std::launch::async, [this] {
                     return vertex_visibility(job_.inputs.faces.topology,
                                              surfaces_of(job_.config, job_.inputs).kinds,
@@ -150,14 +150,14 @@ std::vector<HeadLevels> EditSession::preview_levels() const {
 }
 
 Positions EditSession::build(const Recipe& recipe) const {
-  const std::lock_guard lock(kept_mutex_);
-  return builder_.rebuild(recipe, kept_);
+  const std::lock_guard lock(previous_face_mutex_);
+  return builder_.rebuild(recipe, previous_face_);
 }
 
 void EditSession::use_masks(const RegionWeights& masks) {
-  const std::lock_guard lock(kept_mutex_);
+  const std::lock_guard lock(previous_face_mutex_);
   builder_.use_masks(job_.config, masks);
-  kept_ = {};
+  previous_face_ = {};
 }
 
 FacePointIndex::Nearest EditSession::nearest_other_face(const FaceSpace::Point& point,
@@ -282,7 +282,7 @@ std::vector<float> EditSession::normals(const Positions& face) const {
   std::vector<float> normals(3 * preview_.vertices.size());
   parallel_for_each(preview_.vertices.size(), kBlock, [&](std::size_t i) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const std::uint32_t f : around_.of(preview_.vertices[i])) {
+    for (const std::uint32_t f : vertex_faces_.of(preview_.vertices[i])) {
       sum += face_area_vector(job_.inputs.faces.topology, f, face);
     }
     const double length = sum.norm();

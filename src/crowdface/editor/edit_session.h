@@ -95,7 +95,7 @@ class EditSession {
                        const std::string& opened = "") const;
   /// See MeshFaults. \param face  result of `build`
   std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
-    return faults_.of(recipe, face);
+    return faults_.faults_of(recipe, face);
   }
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
@@ -139,12 +139,12 @@ class EditSession {
   std::optional<Prepared> fitted_;  ///< set for `levels: exact`: fields for the preview only
   FaceBuilder builder_;
   MeshFaults faults_;
-  mutable std::mutex kept_mutex_;
-  mutable FaceBuilder::Kept kept_;
+  mutable std::mutex previous_face_mutex_;
+  mutable FaceBuilder::PreviousFace previous_face_;
   std::shared_future<Judging> judging_;
   CastingOptions casting_;
   PreviewMesh preview_;
-  VertexFaces around_;
+  VertexFaces vertex_faces_;
   /// The visible fraction of the sky at the preview's vertices; takes about a second to compute.
   std::shared_future<std::vector<float>> sky_shares_;
 };

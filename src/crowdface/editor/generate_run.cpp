@@ -66,12 +66,12 @@ GenerateRun::GenerateRun(std::vector<std::string> arguments, std::filesystem::pa
 GenerateRun::~GenerateRun() {
   stop();
   const std::lock_guard lock(mutex_);
-  look(0);
+  update_state(0);
 }
 
 void GenerateRun::start() {
   const std::lock_guard lock(mutex_);
-  look(WNOHANG);
+  update_state(WNOHANG);
   if (state_ == State::kRunning) return;
   write_file(log_, "");
   std::vector<char*> arguments;
@@ -105,7 +105,7 @@ void GenerateRun::start() {
 
 void GenerateRun::stop() {
   const std::lock_guard lock(mutex_);
-  look(WNOHANG);
+  update_state(WNOHANG);
   if (state_ != State::kRunning) return;
   stopped_ = true;
   ::kill(process_, SIGTERM);
@@ -113,13 +113,13 @@ void GenerateRun::stop() {
 
 GenerateRun::State GenerateRun::state() {
   const std::lock_guard lock(mutex_);
-  look(WNOHANG);
+  update_state(WNOHANG);
   return state_;
 }
 
 /// Updates the state of the process.
 /// \param options  WNOHANG, or 0 to wait for the end of the process.
-void GenerateRun::look(int options) {
+void GenerateRun::update_state(int options) {
   if (state_ != State::kRunning) return;
   int status = 0;
   if (::waitpid(process_, &status, options) != process_) return;

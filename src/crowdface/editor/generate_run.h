@@ -41,7 +41,7 @@ class GenerateRun {
   RunProgress progress() const;
 
  private:
-  void look(int options);
+  void update_state(int options);
 
   std::vector<std::string> arguments_;
   std::filesystem::path log_;

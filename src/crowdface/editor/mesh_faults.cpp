@@ -18,7 +18,7 @@ std::shared_ptr<const MeshFaults::Target> MeshFaults::target(Index head) const {
   return target;
 }
 
-std::vector<std::string> MeshFaults::of(const Recipe& recipe, const Positions& face) const {
+std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Positions& face) const {
   if (!skin_is_judged(job_.config, job_.inputs)) return {};
   const BelievabilityOptions& limits = job_.config.believability;
   const std::shared_ptr<const Target> target = this->target(recipe.target);

@@ -24,7 +24,7 @@ class MeshFaults {
   /// skin, and limits of believability. Nothing if the config, or the size of the meshes, excludes
   /// judging. Takes some tenths of a second.
   /// \param face  built from this recipe, #V by 3.
-  std::vector<std::string> of(const Recipe& recipe, const Positions& face) const;
+  std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 
  private:
   /// The faults of a target head itself, which its faces may have too.

@@ -66,7 +66,7 @@ void RegionPainting::replay() {
     for (const Json& stroke : strokes_.strokes()) {
       if (!stroke.contains(kUndo)) {
         paint(stroke);
-      } else if (painted()) {
+      } else if (differs_from_config()) {
         painter().undo();
       }
     }
@@ -136,7 +136,7 @@ void RegionPainting::paint(const Json& body) {
   }
   std::vector<SurfacePoint> places;
   for (const Json& point : body["points"]) places.push_back(place_of(point));
-  painter().paint(region, places, brush, !is_true(body, "begin") && painted());
+  painter().paint(region, places, brush, !is_true(body, "begin") && differs_from_config());
   painted_ = true;
 }
 
@@ -146,7 +146,7 @@ void RegionPainting::stroke(const Json& body) {
 }
 
 void RegionPainting::undo() {
-  if (!painted()) throw UsageError("there is no stroke to undo");
+  if (!differs_from_config()) throw UsageError("there is no stroke to undo");
   painter().undo();
   painted_ = true;
   keep({{kUndo, true}});

@@ -38,7 +38,7 @@ class RegionPainting {
   /// \throws UsageError if there is none.
   void undo();
   /// Whether the masks differ from the config's masks.
-  bool painted() const { return painter_ && painter_->can_undo(); }
+  bool differs_from_config() const { return painter_ && painter_->can_undo(); }
 
   /// α at the preview's vertices, row by row; zero at components that are not skin.
   std::vector<float> masks() const;

@@ -231,7 +231,7 @@ std::string EditSession::mesh() const {
 
 std::string EditSession::light() const {
   std::vector<std::uint8_t> roots;
-  for (const float share : open_.get()) {
+  for (const float share : sky_shares_.get()) {
     roots.push_back(static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share))));
   }
   BinaryAnswer answer;

@@ -12,14 +12,14 @@
 
 namespace crowdface {
 
-std::vector<LookFile> files_of(const AttachmentLook& look) {
+std::vector<AttachmentFile> files_of(const AttachmentLook& look) {
   std::set<std::filesystem::path> colours;
   if (look.colour) {
     for (const SurfaceMaterial& material : read_surface_materials(look.item->materials)) {
       colours.insert(material.colour_map);
     }
   }
-  std::vector<LookFile> files;
+  std::vector<AttachmentFile> files;
   for (const MaterialFile& file : look.item->materials.files) {
     files.push_back({file, colours.contains(file.from)});
   }

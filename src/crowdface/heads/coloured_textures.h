@@ -9,12 +9,12 @@
 namespace crowdface {
 
 /// A material file or texture of an attachment in a colour.
-struct LookFile {
+struct AttachmentFile {
   MaterialFile file;
   bool is_coloured = false;  ///< a colour texture, whose content is coloured_texture
 };
 /// The material files and textures of an attachment. Textures keep their names.
-std::vector<LookFile> files_of(const AttachmentLook& look);
+std::vector<AttachmentFile> files_of(const AttachmentLook& look);
 
 /// Encodes a neutral colour texture in a colour, as a PNG file with 8 bits per channel.
 /// \throws InvalidInput if the file is not a readable image.

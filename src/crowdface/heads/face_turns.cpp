@@ -107,7 +107,8 @@ FaceTurns::FaceTurns(const Inputs& inputs, const Prepared& prepared, const Regio
   mean_ = head_motion(placed_.mean, turned_.mean);
 }
 
-std::optional<RigidMotion> FaceTurns::of(const Recipe& recipe, const MirrorPlane* plane) const {
+std::optional<RigidMotion> FaceTurns::motion_of(const Recipe& recipe,
+                                                const MirrorPlane* plane) const {
   const bool is_turned = has_turned_head(recipe);
   if (!is_turned && is_unmirrored(recipe)) return std::nullopt;
   Recipe plain = recipe;

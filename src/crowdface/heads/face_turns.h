@@ -23,7 +23,7 @@ class FaceTurns {
   /// the same recipe gives for heads in the common pose. Returns nothing if the recipe uses no head
   /// of another pose and no mirror image.
   /// \param plane  in which faces are mirrored; read only for a mirrored or asymmetric face
-  std::optional<RigidMotion> of(const Recipe& recipe, const MirrorPlane* plane) const;
+  std::optional<RigidMotion> motion_of(const Recipe& recipe, const MirrorPlane* plane) const;
 
  private:
   bool has_turned_head(const Recipe& recipe) const;

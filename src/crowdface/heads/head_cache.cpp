@@ -41,7 +41,7 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
 };
 
 /// Also fills in what follows from the shape.
-bool is_head(PreparedHead& head, const HeadCacheShape& shape) {
+bool is_head(PreparedHead& head, const HeadCacheSizes& shape) {
   const Eigen::MatrixXd& mixing = head.levels.mixing;
   LevelFields& fields = head.levels.fields;
   std::size_t firsts = 0;
@@ -60,7 +60,7 @@ bool is_head(PreparedHead& head, const HeadCacheShape& shape) {
 }  // namespace
 
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
-                                          const HeadCacheShape& shape) {
+                                          const HeadCacheSizes& shape) {
   return find_cached<PreparedHead>(cache, prepared_key(key), kPreparedArrays,
                                    [&](PreparedHead& head, const CacheEntry& entry) {
                                      head.levels.fields.owner = head.levels.mapped = entry.file();

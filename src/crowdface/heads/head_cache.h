@@ -34,7 +34,7 @@ struct PreparedHead {
 };
 
 /// The sizes that an entry must have to be used.
-struct HeadCacheShape {
+struct HeadCacheSizes {
   Index vertices = 0;
   Index samples = 0;
   Index trajectory_levels = 0;  ///< rows of the trajectory
@@ -46,7 +46,7 @@ struct HeadCacheShape {
 /// Finds a prepared head in the cache. Its fields stay in the memory-mapped file. \return nothing
 /// if the entry does not exist or has other sizes.
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
-                                          const HeadCacheShape& shape);
+                                          const HeadCacheSizes& shape);
 
 /// Key and arrays for `write_entry` or `store`.
 CacheKey prepared_key(const Digest& digest);

@@ -37,7 +37,7 @@ std::string mirroring_key(const Config& config) {
 }
 
 FoundMirror find_mirror(const Config& config, const Inputs& inputs) {
-  return find_other_sides(inputs, head_axes(config).side());
+  return find_cached_mirror(inputs, head_axes(config).side());
 }
 
 std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& inputs,

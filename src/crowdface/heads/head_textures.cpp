@@ -110,7 +110,7 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
   const auto add_kind = [&](const HeadTextures& textures) {
     const TextureLayout& layout = textures.blended.layout;
     const TextureKind kind = textures.names.front().kind;
-    for (std::size_t p = 0; p < layout.pictures.size(); ++p) places_.push_back({kind, p});
+    for (std::size_t p = 0; p < layout.pictures.size(); ++p) image_indices_.push_back({kind, p});
     if (kind != TextureKind::kColour && !is_shown(kind)) return;
     TextureLayer& layer = layer_of(kind, texture_set_);
     layer.of_face = layout.of_face;
@@ -127,7 +127,7 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
 }
 
 void FaceTextureSet::add(std::size_t picture, const BlendedPicture& blended) {
-  const auto [kind, number] = places_[picture];
+  const auto [kind, number] = image_indices_[picture];
   const bool is_colour = kind == TextureKind::kColour;
   if (!is_colour && !is_shown(kind)) return;
   layer_of(kind, texture_set_).textures[number] = std::make_shared<const Texture>(

@@ -73,12 +73,12 @@ class FaceTextureSet {
                              int max_px);
 
  private:
-  struct Place {
+  struct ImageIndex {
     TextureKind kind = TextureKind::kColour;
     std::size_t number = 0;  ///< index among the images of its kind
   };
   TextureSet texture_set_;
-  std::vector<Place> places_;  ///< one per image, see `add`
+  std::vector<ImageIndex> image_indices_;  ///< one per image, see `add`
   int max_px_;
 };
 

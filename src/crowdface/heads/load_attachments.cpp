@@ -149,8 +149,8 @@ void load_attachments(const Config& config, const CacheFolder& cache, Inputs& in
     set.items.push_back(std::move(*item));
   }
   const auto& meshes = config.output.meshes;
-  const bool have_files =
-      any_format(meshes, [](const auto& format) { return format.attachments != Beside::kNowhere; });
+  const bool have_files = any_format(
+      meshes, [](const auto& format) { return format.attachments != DataStorage::kNowhere; });
   if (!meshes.empty() && !have_files) {
     inputs.warn(
         "output.meshes writes only NumPy arrays, which cannot hold attachments: the faces are "

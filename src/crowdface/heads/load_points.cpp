@@ -134,7 +134,7 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems) {
   } catch (const RecoverableError& error) {
     problems.add(error);
   }
-  complaints.tell(problems);
+  complaints.report_to(problems);
   Hasher hasher;
   for (const std::string& name : inputs.points.names) hasher.add(name);
   for (const auto* sets : {&inputs.points.positions, &inputs.points.meshes}) {

@@ -112,7 +112,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   return prepared;
 }
 
-HeadCacheShape cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
+HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.faces.topology.vertex_count,
           static_cast<Index>(prepared.traced.size()),
           static_cast<Index>(trajectory_levels(inputs.max_level).size()),
@@ -153,7 +153,7 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
 void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                   const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted) {
   Prepared prepared = shared_by_heads(config, inputs);
-  const HeadCacheShape shape = cache_shape(config, inputs, prepared);
+  const HeadCacheSizes shape = cache_shape(config, inputs, prepared);
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
@@ -168,7 +168,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const CacheFolder& cache) {
   Prepared prepared = shared_by_heads(config, inputs);
-  const HeadCacheShape shape = cache_shape(config, inputs, prepared);
+  const HeadCacheSizes shape = cache_shape(config, inputs, prepared);
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;

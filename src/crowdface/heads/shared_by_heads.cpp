@@ -202,7 +202,7 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
       });
 }
 
-FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side) {
+FoundMirror find_cached_mirror(const Inputs& inputs, const Eigen::Vector3d& side) {
   Hasher key;
   begin_key(key, inputs).add(kMirrorVersion);
   for (const Digest& head : inputs.head_digests) key.add(head);

@@ -22,6 +22,6 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples);
 
 /// find_mirror, cached.
-FoundMirror find_other_sides(const Inputs& inputs, const Eigen::Vector3d& side);
+FoundMirror find_cached_mirror(const Inputs& inputs, const Eigen::Vector3d& side);
 
 }  // namespace crowdface

@@ -38,7 +38,7 @@ ColourShares::ColourShares(const Config& config, const Inputs& inputs)
           region_shares(inputs.regions, face_areas(inputs.faces.topology, inputs.skin, inputs.mean,
                                                    FaceArea::kFront, config.faces.front))) {}
 
-std::vector<double> ColourShares::of(const Recipe& recipe) const {
+std::vector<double> ColourShares::shares_of(const Recipe& recipe) const {
   return face_colour_weights(recipe, heads_, region_shares_).whole;
 }
 

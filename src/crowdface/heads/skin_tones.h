@@ -16,7 +16,7 @@ std::vector<double> skin_tones(const Inputs& inputs);
 class ColourShares {
  public:
   ColourShares(const Config& config, const Inputs& inputs);
-  std::vector<double> of(const Recipe& recipe) const;
+  std::vector<double> shares_of(const Recipe& recipe) const;
 
  private:
   std::size_t heads_;

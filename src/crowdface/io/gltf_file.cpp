@@ -114,7 +114,7 @@ GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(s
     scene_ = parse_shallow_json(bytes);
   }
   if (!scene_.is_object()) fail("expected a glTF 2.0 file, found that its JSON cannot be read");
-  room_ = kOften * binary_.size();
+  remaining_numbers_ = kOften * binary_.size();
 }
 
 void GltfFile::fail(const std::string& what) const {
@@ -148,7 +148,7 @@ std::string_view GltfFile::buffer(std::size_t number) {
   const auto [known, is_new] = own_buffers_.try_emplace(number);
   if (!is_new) return known->second;
   known->second = resource(json.at("uri").get<std::string>(), what);
-  room_ += kOften * known->second.size();
+  remaining_numbers_ += kOften * known->second.size();
   return known->second;
 }
 
@@ -178,7 +178,7 @@ std::string_view GltfFile::view(std::size_t number) {
           " cannot be unpacked; gltf-transform copy in.glb out.glb writes it without compression"));
     }
     known->second = std::move(*bytes);
-    room_ += kOften * known->second.size();
+    remaining_numbers_ += kOften * known->second.size();
     return known->second;
   }
   return part(json);
@@ -186,11 +186,11 @@ std::string_view GltfFile::view(std::size_t number) {
 
 /// Limits the total number of values read. A mesh may be used by many nodes, and several accessors
 /// may share the same data.
-void GltfFile::require_room(std::size_t more) {
-  if (more > room_) {
+void GltfFile::reserve_numbers(std::size_t more) {
+  if (more > remaining_numbers_) {
     fail("its meshes and skins use far more numbers than its buffers have bytes");
   }
-  room_ -= more;
+  remaining_numbers_ -= more;
 }
 
 std::vector<double> GltfFile::numbers_in(std::size_t number, std::size_t begin, int type,
@@ -204,7 +204,7 @@ std::vector<double> GltfFile::numbers_in(std::size_t number, std::size_t begin, 
       (count > 0 && (count - 1) * stride + size * width > bytes.size() - begin)) {
     fail(concat("accessor ", accessor, " reaches beyond its data"));
   }
-  require_room(count * width);
+  reserve_numbers(count * width);
   std::vector<double> numbers;
   numbers.reserve(count * width);
   const auto take = [&]<class T>(T) {
@@ -246,8 +246,8 @@ std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
       // Reading a view enlarges the limit that the next check uses.
       view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());
     }
-    if (count > room_ / width) require_room(room_ + 1);
-    require_room(count * width);
+    if (count > remaining_numbers_ / width) reserve_numbers(remaining_numbers_ + 1);
+    reserve_numbers(count * width);
     numbers.resize(count * width, 0);
   }
   if (json.contains("sparse")) {
@@ -301,7 +301,8 @@ std::vector<std::uint32_t> GltfFile::parents() const {
 }
 
 /// Processes nodes from the roots down, each once.
-std::vector<Eigen::Matrix4d> GltfFile::worlds(const std::vector<std::uint32_t>& parents) const {
+std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
+    const std::vector<std::uint32_t>& parents) const {
   const Json& nodes = scene_.at("nodes");
   std::vector<Eigen::Matrix4d> worlds(parents.size());
   std::vector<bool> known(parents.size(), false);

@@ -42,20 +42,20 @@ class GltfFile {
   /// #nodes: parent of each node, or kNoIndex.
   std::vector<std::uint32_t> parents() const;
   /// #nodes: the transform from each node's axes to the file's axes.
-  std::vector<Eigen::Matrix4d> worlds(const std::vector<std::uint32_t>& parents) const;
+  std::vector<Eigen::Matrix4d> world_transforms(const std::vector<std::uint32_t>& parents) const;
 
  private:
   std::string_view buffer(std::size_t number);
   /// Reads `count` rows of `width` numbers from buffer view `number`.
   std::vector<double> numbers_in(std::size_t number, std::size_t begin, int type, std::size_t count,
                                  std::size_t width, std::size_t accessor);
-  void require_room(std::size_t more);
+  void reserve_numbers(std::size_t more);
 
   std::filesystem::path path_;
   Json scene_;
   std::string_view binary_;
   std::map<std::size_t, std::string> own_buffers_, own_views_;
-  std::size_t room_ = 0;  ///< how many more numbers may be read from this file
+  std::size_t remaining_numbers_ = 0;  ///< how many more numbers may be read from this file
 };
 
 /// A matrix from 16 numbers in column-major order.

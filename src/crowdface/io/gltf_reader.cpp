@@ -51,7 +51,7 @@ class GltfMeshReader {
     refuse_unknown_extensions();
     const GltfJson& nodes = scene.at("nodes");
     const std::vector<std::uint32_t> parents = file_.parents();
-    const std::vector<Eigen::Matrix4d> worlds = file_.worlds(parents);
+    const std::vector<Eigen::Matrix4d> worlds = file_.world_transforms(parents);
     std::vector<bool> shown = nodes_of_scene(parents);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       if (!shown[n] || !nodes[n].contains("mesh")) continue;

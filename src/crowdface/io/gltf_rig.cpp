@@ -23,7 +23,7 @@ constexpr std::size_t kLongestJointName = 1000;  ///< bytes
 class RigReader {
  public:
   RigReader(std::string_view bytes, const std::filesystem::path& path)
-      : file_(bytes, path), parents_(file_.parents()), worlds_(file_.worlds(parents_)) {
+      : file_(bytes, path), parents_(file_.parents()), worlds_(file_.world_transforms(parents_)) {
     const Json& nodes = file_.scene().at("nodes");
     joint_of_.assign(nodes.size(), kNoIndex);
     for (const Json& skin : file_.scene().value("skins", Json::array())) {

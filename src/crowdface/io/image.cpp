@@ -61,7 +61,7 @@ void check_size(const path& file, const PictureFacts& spec, const ImageLimits& l
     refuse_file(file, concat("expected at most ", limits.max_side, " pixels a side, found ", size));
   }
   const auto most = static_cast<std::int64_t>(input_limits().image_pixels);
-  if (!limits.ours && std::int64_t{spec.width} * spec.height > most) {
+  if (!limits.is_own_file && std::int64_t{spec.width} * spec.height > most) {
     refuse_file(file, concat("expected at most ", most, " pixels (--limit), found ", size));
   }
   if (spec.channels > limits.max_channels) {
@@ -229,7 +229,8 @@ void crop_to_display_window(const path& file, const PictureFacts& facts, const I
   shown.width = facts.full_width;
   shown.height = facts.full_height;
   check_size(file, shown, limits);
-  const ImageMemory memory = limits.ours ? nullptr : take_image_memory(file, pixel_bytes(shown));
+  const ImageMemory memory =
+      limits.is_own_file ? nullptr : take_image_memory(file, pixel_bytes(shown));
   std::visit([&](auto& pixels) { pixels = in_display_window(pixels, facts); }, image.pixels);
   image.width = facts.full_width;
   image.height = facts.full_height;
@@ -240,7 +241,7 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
   const auto [codec, facts, picture] = open_checked(file, mapped, limits);
   Image image{facts.width, facts.height, facts.channels,     facts.alpha_channel,
               {},          {},           facts.channel_names};
-  if (!limits.ours) image.memory = take_image_memory(file, pixel_bytes(facts));
+  if (!limits.is_own_file) image.memory = take_image_memory(file, pixel_bytes(facts));
   std::string error;
   if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
     throw_if_interrupted();
@@ -285,7 +286,7 @@ Image read_image(const path& file, const ImageLimits& limits) {
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {
-      if (limits.ours) throw IoError(again.what());
+      if (limits.is_own_file) throw IoError(again.what());
       throw;
     }
   }

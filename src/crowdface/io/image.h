@@ -60,7 +60,7 @@ struct ImageLimits {
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< width · height · channels
   bool jpeg = false;                     ///< accept JPEG: for colours, never for masks
-  bool ours = false;  ///< this program wrote the file: `input_limits()` does not apply
+  bool is_own_file = false;  ///< this program wrote the file: `input_limits()` does not apply
 };
 
 /// Thrown if the pixels of a file with a valid header are damaged.

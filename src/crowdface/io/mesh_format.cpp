@@ -20,18 +20,18 @@ namespace fs = std::filesystem;
 // attachments, textures; reader.
 constexpr std::array<MeshFormatTraits, kMeshFormats> kTraits = {
     {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kOnLevels,
-      Beside::kOwnFiles, Beside::kOwnFiles, Beside::kOwnFiles,
+      DataStorage::kOwnFiles, DataStorage::kOwnFiles, DataStorage::kOwnFiles,
       [](const fs::path& file, Index) { return read_obj(file).positions; }},
      {MeshFormat::kPly, "ply", ".ply", "ply", true, false, FileNormals::kLikeTarget,
-      Beside::kNowhere, Beside::kOwnFiles, Beside::kNowhere,
+      DataStorage::kNowhere, DataStorage::kOwnFiles, DataStorage::kNowhere,
       [](const fs::path& file, Index) { return read_ply_positions(file); }},
-     {MeshFormat::kGlb, "glb", ".glb", "glb", true, false, FileNormals::kAlways, Beside::kInside,
-      Beside::kInside, Beside::kInside, read_glb_positions},
+     {MeshFormat::kGlb, "glb", ".glb", "glb", true, false, FileNormals::kAlways,
+      DataStorage::kInside, DataStorage::kInside, DataStorage::kInside, read_glb_positions},
      {MeshFormat::kPoints, "points", ".npy", "points", false, false, FileNormals::kNone,
-      Beside::kOneFile, Beside::kNowhere, Beside::kNowhere,
+      DataStorage::kOneFile, DataStorage::kNowhere, DataStorage::kNowhere,
       [](const fs::path& file, Index) { return read_npy(file); }},
-     {MeshFormat::kUsd, "usd", ".usda", "usd", true, false, FileNormals::kAlways, Beside::kInside,
-      Beside::kInside, Beside::kOwnFiles, read_usda_positions}}};
+     {MeshFormat::kUsd, "usd", ".usda", "usd", true, false, FileNormals::kAlways,
+      DataStorage::kInside, DataStorage::kInside, DataStorage::kOwnFiles, read_usda_positions}}};
 
 constexpr bool rows_are_in_order() {
   for (std::size_t f = 0; f < kTraits.size(); ++f) {

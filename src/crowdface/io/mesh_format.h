@@ -23,7 +23,7 @@ enum class MeshFormat {
 inline constexpr std::size_t kMeshFormats = 5;
 
 /// Where data other than the mesh (shapes, attachments, textures) is stored.
-enum class Beside {
+enum class DataStorage {
   kNowhere,
   kInside,    ///< in the face's own file
   kOneFile,   ///< in one more file of the same format
@@ -47,7 +47,7 @@ struct MeshFormatTraits {
   bool has_faces;               ///< the file stores the faces, so levels of detail can be written
   bool has_material_file;       ///< the file names an MTL file
   FileNormals normals;
-  Beside shapes, attachments, textures;
+  DataStorage shapes, attachments, textures;
   /// Reads the positions of a face's file; null if the format does not keep the vertex order.
   /// \throws InvalidInput if another program wrote the file.
   Positions (*read)(const std::filesystem::path& file, Index vertices);
@@ -57,8 +57,8 @@ const MeshFormatTraits& traits_of(MeshFormat format);
 /// Whether the face files name the textures of attachments, which are then stored beside the
 /// meshes.
 inline bool names_attachment_textures(const MeshFormatTraits& format) {
-  return format.attachments == Beside::kOwnFiles ||
-         (format.attachments == Beside::kInside && format.textures == Beside::kOwnFiles);
+  return format.attachments == DataStorage::kOwnFiles ||
+         (format.attachments == DataStorage::kInside && format.textures == DataStorage::kOwnFiles);
 }
 /// All formats, in the order in which messages list them.
 const std::vector<MeshFormat>& all_mesh_formats();

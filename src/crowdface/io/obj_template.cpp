@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kPlacesPerBlock = 8192;
+constexpr std::size_t kRangesPerBlock = 8192;
 
 char* copy(std::string_view text, char* out) {
   std::memcpy(out, text.data(), text.size());
@@ -107,24 +107,24 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
   // Normals that no face uses are ordinary text.
   const bool has_normals = !target.corner_normals.empty();
   std::uint32_t vertices = 0, normals = 0;
-  std::vector<Place> places;  // vertices and normals may be interleaved
+  std::vector<NumberRange> ranges;  // vertices and normals may be interleaved
   for (std::size_t begin = 0; begin < text_.size();) {
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     const std::string_view line = text_.substr(begin, end - begin);
     begin = end + 1;
     const auto [numbers, is_normal] = coordinates_of(line, colours);
     if (numbers.empty() || (is_normal && !has_normals)) continue;
-    const bool ends_run = !places.empty() && places.back().is_normal != is_normal &&
-                          places.size() > kPlacesPerBlock / 2;
-    if (places.size() == kPlacesPerBlock || ends_run) {
-      add_block(places);
-      places.clear();
+    const bool ends_run = !ranges.empty() && ranges.back().is_normal != is_normal &&
+                          ranges.size() > kRangesPerBlock / 2;
+    if (ranges.size() == kRangesPerBlock || ends_run) {
+      add_block(ranges);
+      ranges.clear();
     }
-    places.push_back({static_cast<std::uint64_t>(numbers.data() - text_.data()),
+    ranges.push_back({static_cast<std::uint64_t>(numbers.data() - text_.data()),
                       static_cast<std::uint32_t>(numbers.size()),
                       (is_normal ? normals++ : vertices++) & 0x7fffffffU, is_normal});
   }
-  if (!places.empty()) add_block(places);
+  if (!ranges.empty()) add_block(ranges);
   check_row_counts(target, vertices, vertices_, normals);
   if (!has_normals) return;
   fans_.emplace(topology, target.corner_normals, normals);
@@ -154,28 +154,28 @@ void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
   }
 }
 
-void ObjTemplate::add_block(const std::vector<Place>& places) {
+void ObjTemplate::add_block(const std::vector<NumberRange>& ranges) {
   Block block;
   block.begin = blocks_.empty() ? 0 : blocks_.back().end;
-  block.end = places.back().begin + places.back().length;
+  block.end = ranges.back().begin + ranges.back().length;
   block.buffer = buffer_size_;
   // Upper bound: new numbers at maximum length plus the old text without the digits of vertices.
   // Digits of normals count, because a normal that no face uses keeps its text.
   std::size_t old_text = block.end - block.begin;
-  for (const Place& place : places) {
-    if (place.is_normal) continue;
+  for (const NumberRange& range : ranges) {
+    if (range.is_normal) continue;
     old_text -= static_cast<std::size_t>(std::ranges::count_if(
-        text_.substr(place.begin, place.length), [](char c) { return !is_blank(c); }));
+        text_.substr(range.begin, range.length), [](char c) { return !is_blank(c); }));
   }
-  const std::size_t colours = colours_ ? (3 * kLongestSingle + 5) * places.size() : 0;
-  buffer_size_ += 3 * kLongestSingle * places.size() + colours + old_text + kLongestSingle;
-  block.places = places;
+  const std::size_t colours = colours_ ? (3 * kLongestSingle + 5) * ranges.size() : 0;
+  buffer_size_ += 3 * kLongestSingle * ranges.size() + colours + old_text + kLongestSingle;
+  block.ranges = ranges;
   blocks_.push_back(std::move(block));
 }
 
 std::size_t ObjTemplate::memory_bytes() const {
   std::size_t bytes = blocks_.size() * sizeof(Block) + (fans_ ? fans_->memory_bytes() : 0);
-  for (const Block& block : blocks_) bytes += block.places.size() * sizeof(Place);
+  for (const Block& block : blocks_) bytes += block.ranges.size() * sizeof(NumberRange);
   return bytes;
 }
 
@@ -207,22 +207,22 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
 
 char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out) const {
   std::uint64_t at = block.begin;
-  for (const Place& place : block.places) {
-    out = copy(text_.substr(at, place.begin - at), out);
-    out = encode_place(place, rows, out);
-    at = place.begin + place.length;
+  for (const NumberRange& range : block.ranges) {
+    out = copy(text_.substr(at, range.begin - at), out);
+    out = encode_range(range, rows, out);
+    at = range.begin + range.length;
   }
   return out;
 }
 
-char* ObjTemplate::encode_place(const Place& place, const Rows& rows, char* out) const {
-  const std::string_view old = text_.substr(place.begin, place.length);
-  if (!place.is_normal && colours_) {
-    return write_coloured(out, rows.positions, rows.colours, place.row);
+char* ObjTemplate::encode_range(const NumberRange& range, const Rows& rows, char* out) const {
+  const std::string_view old = text_.substr(range.begin, range.length);
+  if (!range.is_normal && colours_) {
+    return write_coloured(out, rows.positions, rows.colours, range.row);
   }
-  if (!place.is_normal) return write_like(old, out, rows.positions, place.row);
-  if (is_zero(rows.normals, place.row)) return copy(old, out);
-  return write_like(old, out, rows.normals, place.row);
+  if (!range.is_normal) return write_like(old, out, rows.positions, range.row);
+  if (is_zero(rows.normals, range.row)) return copy(old, out);
+  return write_like(old, out, rows.normals, range.row);
 }
 
 }  // namespace crowdface

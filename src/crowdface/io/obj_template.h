@@ -49,19 +49,19 @@ class ObjTemplate {
 
  private:
   /// The location of the numbers of one `v` or `vn` line.
-  struct Place {
+  struct NumberRange {
     std::uint64_t begin = 0;
     std::uint32_t length = 0;
     std::uint32_t row : 31 = 0;
     std::uint32_t is_normal : 1 = 0;
   };
-  /// A range of places, formatted by one thread.
+  /// Successive ranges, formatted by one thread.
   struct Block {
-    /// Offset in the text at which the block starts: the end of the preceding place.
+    /// Offset in the text at which the block starts: the end of the preceding range.
     std::uint64_t begin = 0;
-    std::uint64_t end = 0;     ///< end of the last place
+    std::uint64_t end = 0;     ///< end of the last range
     std::uint64_t buffer = 0;  ///< offset of the output
-    std::vector<Place> places;
+    std::vector<NumberRange> ranges;
   };
   struct Rows {
     const Positions& positions;
@@ -70,9 +70,9 @@ class ObjTemplate {
   };
 
   void fix_normals(const std::vector<std::uint32_t>& corner_rows, const FixedNormals& fixed);
-  void add_block(const std::vector<Place>& places);
+  void add_block(const std::vector<NumberRange>& ranges);
   char* encode_block(const Block& block, const Rows& rows, char* out) const;
-  char* encode_place(const Place& place, const Rows& rows, char* out) const;
+  char* encode_range(const NumberRange& range, const Rows& rows, char* out) const;
 
   std::string_view text_;
   const Topology& topology_;

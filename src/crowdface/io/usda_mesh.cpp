@@ -70,7 +70,7 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
   }
 }
 
-void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& positions,
+void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& positions,
                    const Positions& normals, std::span<const Displacements> moves,
                    const std::string& what, const ColourRows& colours) const {
   require(moves.size() == shapes_.size(), "UsdaMesh: displacements of each target");
@@ -102,7 +102,7 @@ void UsdaMesh::add(EncodedFile& file, const Place& place, const Positions& posit
   file.add("        }\n");
 }
 
-void UsdaMesh::add_shapes(EncodedFile& file, const Place& place,
+void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& place,
                           std::span<const Displacements> moves, const std::string& what) const {
   if (shapes_.empty()) return;
   std::vector<std::string> targets;
@@ -127,7 +127,7 @@ void UsdaMesh::add_shapes(EncodedFile& file, const Place& place,
   }
 }
 
-void UsdaMesh::add_subsets(EncodedFile& file, const Place& place) const {
+void UsdaMesh::add_subsets(EncodedFile& file, const PrimPaths& place) const {
   const auto used =
       std::ranges::count_if(materials_, [](const std::string& name) { return !name.empty(); });
   for (std::size_t m = 0; m < materials_.size(); ++m) {

@@ -40,7 +40,7 @@ class UsdaMesh {
   UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form);
 
   /// Paths and names of a prim and its related prims in one layer.
-  struct Place {
+  struct PrimPaths {
     std::string face;       ///< path of the parent prim, which contains the skeleton
     std::string name;       ///< name of the Mesh prim
     std::string materials;  ///< path of the prim that contains the materials
@@ -51,7 +51,7 @@ class UsdaMesh {
   /// \param what  names the mesh in messages.
   /// \param colours  #V, written as the primvar displayColor in linear light; or no rows.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
-  void add(EncodedFile& file, const Place& place, const Positions& positions,
+  void add(EncodedFile& file, const PrimPaths& place, const Positions& positions,
            const Positions& normals, std::span<const Displacements> moves, const std::string& what,
            const ColourRows& colours = {}) const;
 
@@ -65,9 +65,9 @@ class UsdaMesh {
   std::size_t encode_bytes() const;
 
  private:
-  void add_shapes(EncodedFile& file, const Place& place, std::span<const Displacements> moves,
+  void add_shapes(EncodedFile& file, const PrimPaths& place, std::span<const Displacements> moves,
                   const std::string& what) const;
-  void add_subsets(EncodedFile& file, const Place& place) const;
+  void add_subsets(EncodedFile& file, const PrimPaths& place) const;
 
   Index vertices_;
   Subdivision subdivision_;

@@ -358,7 +358,7 @@ LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, i
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
       ::bind(socket, address, size) != 0 || ::listen(socket, SOMAXCONN) != 0 ||
       ::getsockname(socket, address, &size) != 0) {
-    throw CannotCreate(concat("cannot listen on port ", port, " of this machine: ", reason(),
+    throw CannotCreate(concat("cannot listen on port ", port, " of this machine: ", errno_message(),
                               "; choose another with --port"));
   }
   const int bound = ntohs(here.sin_port);

@@ -55,14 +55,14 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
 
 }  // namespace
 
-std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
-                                         const std::map<std::string, std::uint32_t>& here,
-                                         const Scan& scan, const PoseHint& given) {
+std::vector<WrapLandmark> find_landmarks(
+    const WrapTemplate& shape, const std::map<std::string, std::uint32_t>& template_vertices,
+    const Scan& scan, const PoseHint& given) {
   PoseHint hint = given;
   if (!hint.face) hint.face = find_scan_face(scan, hint);
   // Estimate the pose of the template on the scan.
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
-  Positions rest = shape.skin.of(shape.positions);
+  Positions rest = shape.skin.rows_of(shape.positions);
   if (shape.reduced) rest = bent.of(rest);
   const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face);
   const Positions placed = inverse(pose).apply(scan.positions);
@@ -82,8 +82,10 @@ std::vector<WrapLandmark> find_landmarks(const WrapTemplate& shape,
     std::vector<WrapLandmark> landmarks;
     for (const LandmarkName& known : suggested_landmarks()) {
       const std::string name(known.name);
-      const auto of_template = here.find(name), found = of_scan.find(name);
-      if (!known.is_found_on_scans || of_template == here.end() || found == of_scan.end()) continue;
+      const auto of_template = template_vertices.find(name), found = of_scan.find(name);
+      if (!known.is_found_on_scans || of_template == template_vertices.end() ||
+          found == of_scan.end())
+        continue;
       const std::uint32_t vertex = of_template->second, there = found->second;
       if ((row3(placed, there) - row3(shape.positions, vertex)).norm() > kFarMm) continue;
       landmarks.push_back({name, vertex, row3(scan.positions, there), true, kFoundErrorMm});

@@ -88,7 +88,7 @@ LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of) {
     file.of_scan = read_places(map.find("scan"), complaints);
   }
   Problems problems;
-  complaints.tell(problems);
+  complaints.report_to(problems);
   problems.throw_if_any();
   return file;
 }

@@ -214,7 +214,7 @@ HttpAnswer PickApi::job(const PickSession& session) const {
         {{"name", file_name(inputs.template_file)}, {"stands", stands_json(axes.up, axes.front)}}},
        {"scan",
         {{"name", file_name(inputs.scan_file)},
-         {"stands", stands_json(session.scan_stands().up, session.scan_stands().front)}}},
+         {"stands", stands_json(session.scan_orientation().up, session.scan_orientation().front)}}},
        {"scans", scans},
        {"number", scans_.number()},
        {"file", inputs.landmarks.string()},

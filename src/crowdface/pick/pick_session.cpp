@@ -39,7 +39,7 @@ double step_of(const PickableMesh& mesh) {
 std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInputs& inputs) {
   std::map<std::string, PickedLandmark> by_name;
   for (const auto& [name, place] : file.of_template) {
-    by_name[name].vertex = template_vertex(place, inputs.of_file);
+    by_name[name].vertex = template_vertex(place, inputs.file_positions);
   }
   for (const auto& [name, place] : file.of_scan) {
     PickedLandmark& landmark = by_name[name];
@@ -66,11 +66,11 @@ PickSession::PickSession(PickInputs inputs)
       scan_(inputs_.scan.positions, inputs_.scan.triangles),
       plane_(middle_plane(inputs_.shape, inputs_.positions)),
       proposals_(propose_landmarks(inputs_.shape)),
-      stands_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
-      known_(text_on_disk()) {
+      scan_orientation_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
+      known_text_(text_on_disk()) {
   LandmarkFile file;
-  if (!inputs_.of_template.empty()) {
-    file.of_template = read_landmarks(inputs_.of_template).of_template;
+  if (!inputs_.template_landmarks.empty()) {
+    file.of_template = read_landmarks(inputs_.template_landmarks).of_template;
   }
   if (path_exists(inputs_.landmarks)) {
     const LandmarkFile own = read_landmarks(inputs_.landmarks);
@@ -87,7 +87,7 @@ std::vector<PickedLandmark> PickSession::landmarks() const {
 
 bool PickSession::loses_comments() const {
   const std::lock_guard lock(mutex_);
-  return has_more_comments(known_);
+  return has_more_comments(known_text_);
 }
 
 std::string PickSession::text_on_disk() const {
@@ -122,15 +122,15 @@ SuggestedPlaces PickSession::suggest(const std::vector<PickedLandmark>& landmark
 void PickSession::save(const std::vector<PickedLandmark>& landmarks) {
   const std::lock_guard lock(mutex_);
   const std::string before = text_on_disk();
-  if (before != known_) {
-    known_ = before;
+  if (before != known_text_) {
+    known_text_ = before;
     throw UsageError(concat(
         inputs_.landmarks.string(),
         " has been changed by another program since it was read; save again to overwrite it"));
   }
   std::string text = format_landmarks(landmarks, opening_comments(before));
   write_file(inputs_.landmarks, text);
-  known_ = std::move(text);
+  known_text_ = std::move(text);
   landmarks_ = landmarks;
 }
 

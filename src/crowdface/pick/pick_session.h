@@ -22,12 +22,12 @@ struct PickInputs {
   Positions positions;  ///< #V by 3 of the template, in millimetres
   /// #V by 3 of the template, in the unit of its file. The landmark file gives template points in
   /// this unit.
-  Positions of_file;
+  Positions file_positions;
   Scan scan;
   std::optional<PoseHint> hint;  ///< pose of the scan; estimated if not given
   std::filesystem::path template_file, scan_file, landmarks;
   /// A further landmark file, for template landmarks that `landmarks` lacks; may be empty.
-  std::filesystem::path of_template = {};
+  std::filesystem::path template_landmarks = {};
   ColourRows scan_colours = {};  ///< of the scan's vertices, or no rows
 };
 
@@ -43,7 +43,7 @@ class PickSession {
   const PickableMesh& of_template() const { return template_; }
   const PickableMesh& of_scan() const { return scan_; }
   /// Up and front direction of the head on the scan: given or estimated.
-  const PoseHint& scan_stands() const { return stands_; }
+  const PoseHint& scan_orientation() const { return scan_orientation_; }
   /// The landmarks read from the file or saved last.
   std::vector<PickedLandmark> landmarks() const;
   /// Whether saving would lose comments: only comments at the start of the file are kept.
@@ -68,11 +68,11 @@ class PickSession {
   PickableMesh template_, scan_;
   MirrorPlane plane_;
   std::map<std::string, std::uint32_t> proposals_;
-  PoseHint stands_;
+  PoseHint scan_orientation_;
   /// Guards the members below.
   mutable std::mutex mutex_;
   std::vector<PickedLandmark> landmarks_;
-  std::string known_;  ///< content of the file when it was last read or written
+  std::string known_text_;  ///< content of the file when it was last read or written
 };
 
 }  // namespace crowdface

@@ -75,15 +75,15 @@ PickedPlace PickableMesh::place_of(const Triangle& corners,
   return place;
 }
 
-std::optional<PickableMesh::Met> PickableMesh::meet(const Eigen::Vector3d& origin,
-                                                    const Eigen::Vector3d& direction) const {
+std::optional<PickableMesh::Hit> PickableMesh::first_hit(const Eigen::Vector3d& origin,
+                                                         const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d way = direction.normalized();
   const Ray ray{(origin - middle_).cast<float>(), way.cast<float>()};
   const auto hit = scene_.nearest_hits(std::span(&ray, 1)).front();
   if (!hit) return std::nullopt;
   const Quad& quad = quads_[hit->primitive];
   const double u = hit->u, v = hit->v;
-  return Met{hit->primitive, hit->primitive < skin_.size(),
+  return Hit{hit->primitive, hit->primitive < skin_.size(),
              (1 - u - v) * row3(positions_, quad[0]) + u * row3(positions_, quad[1]) +
                  v * row3(positions_, quad[2])};
 }
@@ -91,13 +91,13 @@ std::optional<PickableMesh::Met> PickableMesh::meet(const Eigen::Vector3d& origi
 std::optional<PickedPlace> PickableMesh::cast(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction,
                                               double beside) const {
-  const auto met = meet(origin, direction);
-  if (!met) return std::nullopt;
-  if (met->is_skin) {
-    const Triangle& corners = skin_[met->triangle];
-    return place_of(corners, nearest_on_triangle(positions_, corners, met->point).shares);
+  const auto hit = first_hit(origin, direction);
+  if (!hit) return std::nullopt;
+  if (hit->is_skin) {
+    const Triangle& corners = skin_[hit->triangle];
+    return place_of(corners, nearest_on_triangle(positions_, corners, hit->point).shares);
   }
-  return nearest(met->point, -direction.normalized(), 0, beside);
+  return nearest(hit->point, -direction.normalized(), 0, beside);
 }
 
 std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,

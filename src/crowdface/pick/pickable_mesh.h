@@ -42,12 +42,13 @@ class PickableMesh {
   std::optional<PickedPlace> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                   double beside) const;
   /// First hit of a ray. `triangle` numbers the rows of `skin` first, then those of `others`.
-  struct Met {
+  struct Hit {
     std::uint32_t triangle = 0;
     bool is_skin = false;
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
   };
-  std::optional<Met> meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+  std::optional<Hit> first_hit(const Eigen::Vector3d& origin,
+                               const Eigen::Vector3d& direction) const;
 
   /// The nearest skin point within `reach` whose surface faces `facing`: the cosine between normal
   /// and `facing` is at least `min_cosine`.

@@ -214,7 +214,7 @@ std::string CrowdRenders::render_png(const Positions& positions, Index head) con
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {
-  Image image = read_image(path, {.ours = true});
+  Image image = read_image(path, {.is_own_file = true});
   Rgb8Image result(image.width, image.height);
   if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
       bytes != nullptr && image.channels == 3) {

@@ -33,7 +33,7 @@ constexpr std::size_t kMaxHidden = 2'000;
 /// Width and height of a face's textures; half of this if there are more than two textures.
 constexpr int kMaxTexels = 1024;
 constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are omitted
-constexpr float kMinLight = 0.004F;  ///< lower bound of `open_` if there are shapes
+constexpr float kMinLight = 0.004F;  ///< lower bound of `visibility_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
 /// Visible fraction of the sky at the vertices of `triangles`, a part of a split mesh.
@@ -143,8 +143,8 @@ void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& wh
 GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& shown)
     : config_(config),
       inputs_(inputs),
-      whole_(shown),
-      around_(shown.topology()),
+      pictured_mesh_(shown),
+      vertex_faces_(shown.topology()),
       frame_(frame_of(inputs, shown.body_points())) {
   const HeadSet& faces = inputs.faces;
   const Topology& topology = shown.topology();
@@ -169,24 +169,24 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   // Reduce to the limit; hidden triangles get a smaller one.
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
-  draft_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);
-  for (const std::uint32_t vertex : mesh_.vertices) open_.push_back(open[vertex]);
+  draft_triangles_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);
+  for (const std::uint32_t vertex : mesh_.vertices) visibility_.push_back(open[vertex]);
   colours_ =
       surface_colours(topology, surfaces, mean, config.faces.front)(mesh_.vertices, kAllColumns);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
-    places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
+    texture_places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
   const std::vector<const Positions*> heads = positions_of(faces);
   // The bounding box of all heads and the shoulders.
-  low_ = heads.front()->colwise().minCoeff().transpose();
-  high_ = heads.front()->colwise().maxCoeff().transpose();
+  box_low_ = heads.front()->colwise().minCoeff().transpose();
+  box_high_ = heads.front()->colwise().maxCoeff().transpose();
   for (const Positions* head : heads) {
-    low_ = low_.cwiseMin(head->colwise().minCoeff().transpose());
-    high_ = high_.cwiseMax(head->colwise().maxCoeff().transpose());
+    box_low_ = box_low_.cwiseMin(head->colwise().minCoeff().transpose());
+    box_high_ = box_high_.cwiseMax(head->colwise().maxCoeff().transpose());
   }
   if (shown.has_body()) {
-    low_ = low_.cwiseMin(shown.lowest_shown());
-    high_ = high_.cwiseMax(shown.lowest_shown());
+    box_low_ = box_low_.cwiseMin(shown.lowest_shown());
+    box_high_ = box_high_.cwiseMax(shown.lowest_shown());
   }
   add_shapes(surfaces, mean);
 }
@@ -200,7 +200,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   const double least = min_move();
   for (const Shape& shape : inputs_.shapes.shapes) {
     // Keep the vertices of the reduced mesh that the shape moves visibly.
-    ShownMoves& shown = shown_.emplace_back();
+    ShownMoves& shown = shown_moves_.emplace_back();
     const auto& moved = shape.moves.vertices;
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
       const auto at = std::ranges::lower_bound(moved, mesh_.vertices[v]);
@@ -214,21 +214,22 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   // In the shape that moves most, the sky is visible from more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
-  widest_ = static_cast<std::size_t>(
+  widest_shape_ = static_cast<std::size_t>(
       std::max_element(shapes.begin(), shapes.end(),
                        [&](const Shape& a, const Shape& b) { return way(a) < way(b); }) -
       shapes.begin());
   Positions acting = mean;
-  shapes[widest_].moves.add_to(acting);
-  open_in_widest_ = vertex_visibility(whole_.topology(), surfaces.kinds, acting, mesh_.vertices);
+  shapes[widest_shape_].moves.add_to(acting);
+  visibility_in_widest_ =
+      vertex_visibility(pictured_mesh_.topology(), surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
-  for (float& open : open_) open = std::max(open, kMinLight);
+  for (float& open : visibility_) open = std::max(open, kMinLight);
 }
 
 std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried) const {
   std::string bytes;
   for (std::size_t s = 0; s < carried.size(); ++s) {
-    for (const std::uint32_t row : shown_[s].rows) {
+    for (const std::uint32_t row : shown_moves_[s].rows) {
       bytes += pack_move(carried[s].moves.row(row), frame_);
     }
   }
@@ -261,7 +262,7 @@ std::string GalleryMeshes::roughness(const TextureSet& texture_set) const {
   std::string bytes;
   if (texture_set.roughness.of_face.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // the page's value for skin without a roughness map
-  for (const TexturePlace& place : places_) {
+  for (const TexturePlace& place : texture_places_) {
     const float rough = roughness_at(texture_set, place).value_or(kSkin);
     bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
   }
@@ -286,16 +287,16 @@ std::string GalleryMeshes::shared_script() const {
   json["front"] = axis_to_json(config_.faces.front);
   json["low"] = to_json(frame_.low);
   json["step"] = frame_.step;
-  json["box"] = {to_json(low_), to_json(high_)};
+  json["box"] = {to_json(box_low_), to_json(box_high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
-  json["draft"] = base64(little_endian(draft_));
+  json["draft"] = base64(little_endian(draft_triangles_));
   json["twins"] = base64(little_endian(mesh_.twins));
   if (!mesh_.uvs.empty()) {
     json["uvs"] = base64(little_endian(mesh_.uvs));
     json["looks"] = mesh_.looks;
   }
   json["colours"] = base64(shades(colours_));
-  add_eyes(config_, inputs_, whole_, mesh_, json);
+  add_eyes(config_, inputs_, pictured_mesh_, mesh_, json);
   const auto light = [](const std::vector<float>& open) {
     std::string bytes;
     for (const float share : open) {
@@ -303,9 +304,10 @@ std::string GalleryMeshes::shared_script() const {
     }
     return base64(bytes);
   };
-  json["light"] = light(open_);
-  if (!shown_.empty()) json["widest"] = {{"shape", widest_}, {"light", light(open_in_widest_)}};
-  for (const ShownMoves& shown : shown_) {
+  json["light"] = light(visibility_);
+  if (!shown_moves_.empty())
+    json["widest"] = {{"shape", widest_shape_}, {"light", light(visibility_in_widest_)}};
+  for (const ShownMoves& shown : shown_moves_) {
     json["moved"].push_back(base64(little_endian(shown.vertices)));
   }
   return call("setMesh", json);
@@ -317,22 +319,23 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
                                        const VertexColours* face_colours,
                                        const std::vector<PlacedAttachment>& placed,
                                        const BlendedPicture* body) const {
-  const PicturedFace shown(whole_, face, face_textures, face_colours, body, kMaxTexels);
+  const PicturedFace shown(pictured_mesh_, face, face_textures, face_colours, body, kMaxTexels);
   const Positions& positions = shown.positions();
   const TextureSet* const texture_set = shown.textures();
   const VertexColours* const colours = shown.colours();
   std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
-  if (texture_set != nullptr && !places_.empty()) {
+  if (texture_set != nullptr && !texture_places_.empty()) {
     lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
-      return leaning_normal(*texture_set, whole_.topology(), whole_.uvs(), places_[v], positions,
-                            normal);
+      return leaning_normal(*texture_set, pictured_mesh_.topology(), pictured_mesh_.uvs(),
+                            texture_places_[v], positions, normal);
     };
   }
   std::string bytes =
-      pack_face(whole_.topology(), mesh_.vertices, around_, frame_, positions, lean);
+      pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_, frame_, positions, lean);
   if (texture_set != nullptr) bytes += roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
-  if (!shown_.empty()) parts.push_back(concat("\"moves\":\"", base64(packed_shapes(moves)), '"'));
+  if (!shown_moves_.empty())
+    parts.push_back(concat("\"moves\":\"", base64(packed_shapes(moves)), '"'));
   if (!placed.empty()) {
     std::vector<std::string> packed;
     for (const PlacedAttachment& one : placed) {

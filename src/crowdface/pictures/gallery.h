@@ -59,27 +59,28 @@ class GalleryMeshes {
 
   const Config& config_;
   const Inputs& inputs_;
-  const PicturedMesh& whole_;  ///< the mesh before reduction
+  const PicturedMesh& pictured_mesh_;  ///< the mesh before reduction
   PreviewMesh mesh_;
-  std::vector<std::uint32_t> draft_;  ///< draft_triangles of mesh_
-  VertexFaces around_;
+  std::vector<std::uint32_t> draft_triangles_;  ///< draft_triangles of mesh_
+  VertexFaces vertex_faces_;
   PackingFrame frame_;
   ShownAttachments attachments_;
   /// colours of surfaces without textures, per vertex of the reduced mesh
   VertexColours colours_;
-  std::vector<float> open_;  ///< vertex_visibility of these vertices on the mean head
+  std::vector<float> visibility_;  ///< vertex_visibility of these vertices on the mean head
   /// #V of the reduced mesh; empty if there are no textures.
-  std::vector<TexturePlace> places_;
-  Eigen::Vector3d low_, high_;  ///< bounding box of all heads and the shoulders of the body
+  std::vector<TexturePlace> texture_places_;
+  Eigen::Vector3d box_low_, box_high_;  ///< bounding box of all heads and the shoulders of the body
 
   /// The vertices of the reduced mesh that a shape moves.
   struct ShownMoves {
     std::vector<std::uint32_t> rows;      ///< rows of the shape's displacements
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
-  std::vector<ShownMoves> shown_;      ///< #shapes
-  std::size_t widest_ = 0;             ///< number of the shape that moves most, such as an open jaw
-  std::vector<float> open_in_widest_;  ///< like `open_`, but in the shape `widest_`
+  std::vector<ShownMoves> shown_moves_;  ///< #shapes
+  std::size_t widest_shape_ = 0;  ///< number of the shape that moves most, such as an open jaw
+  std::vector<float>
+      visibility_in_widest_;  ///< like `visibility_`, but in the shape `widest_shape_`
 };
 
 }  // namespace crowdface

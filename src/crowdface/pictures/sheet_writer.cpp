@@ -44,7 +44,7 @@ std::filesystem::path SheetWriter::add_file(const std::string& name) {
   return written_.emplace_back(folder_ / name);
 }
 
-void SheetWriter::write_beside(const std::string& stem, Rgb8Image page) {
+void SheetWriter::write_in_background(const std::string& stem, Rgb8Image page) {
   if (pages_in_memory_ == thread_count()) wait();  // limits the number of pages in memory
   ++pages_in_memory_;
   const auto png_file = add_file(stem + ".png");
@@ -69,7 +69,7 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8I
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
   index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
                     concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
-  write_beside(stem, std::move(page));
+  write_in_background(stem, std::move(page));
 }
 
 void SheetWriter::write_index(const std::string& number) {

@@ -29,7 +29,7 @@ class SheetWriter {
 
  private:
   /// Encodes and writes a page in the background.
-  void write_beside(const std::string& stem, Rgb8Image page);
+  void write_in_background(const std::string& stem, Rgb8Image page);
   void wait();
   std::filesystem::path add_file(const std::string& name);
   void write_index(const std::string& number);

@@ -124,11 +124,11 @@ void draw_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>
   if (!has_children || !has_tint) return;
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
-  const ColourShares shares(config, inputs);
-  draw_skin_of_children(
-      {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
-       [&](const Recipe& recipe) { return shares.of(recipe); }, twin_families(config)},
-      crowd);
+  const ColourShares colour_shares(config, inputs);
+  draw_skin_of_children({config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
+                         [&](const Recipe& recipe) { return colour_shares.shares_of(recipe); },
+                         twin_families(config)},
+                        crowd);
 }
 
 ColourDraw colour_draw(const Config& config) {
@@ -286,7 +286,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   if (config.output.contact_sheet || !config.groups.empty()) {
     result.points = std::move(crowd.points);
   }
-  result.kinds = std::move(crowd.kinds);
+  result.group_of_face = std::move(crowd.kinds);
   result.rejected = std::move(crowd.rejected);
   result.rejections = crowd.rejections;
   return result;

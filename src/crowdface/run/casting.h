@@ -53,7 +53,7 @@ struct FamilyReport {
 struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads
   std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours
-  std::vector<int> kinds;           ///< group of each sampled face, or −1
+  std::vector<int> group_of_face;   ///< group of each sampled face, or −1
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;

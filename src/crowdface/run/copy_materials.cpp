@@ -57,7 +57,7 @@ class MaterialCopies {
   void add(const std::vector<AttachmentLook>& looks) {
     std::map<std::pair<fs::path, std::string>, Dyed> all;
     for (const AttachmentLook& look : looks) {
-      for (const LookFile& file : files_of(look)) {
+      for (const AttachmentFile& file : files_of(look)) {
         const fs::path to = attachment_folder(look.item->name, look.label()) / file.file.relative;
         if (file.is_coloured) {
           Dyed& dyed = all[{file.file.from, look.label()}];

@@ -105,7 +105,7 @@ void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<Fa
                                           job.inputs.faces.topology.vertex_count);
     FinishedFace face(faces[i], positions);
     finisher.finish(face, busy);
-    write_files_of(face, lists.shown(faces[i]));
+    write_files_of(face, lists.shown_files(faces[i]));
     progress.step();
   });
 }

@@ -87,17 +87,17 @@ Positions FaceBuilder::build(const Recipe& recipe) const {
   return face;
 }
 
-Positions FaceBuilder::rebuild(const Recipe& recipe, Kept& kept) const {
+Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) const {
   if (!blender_) return build(recipe);
   // Clear the state before the update, so that an exception cannot leave an inconsistent state.
-  if (const auto before = std::exchange(kept.recipe, std::nullopt)) {
-    blender_->change(*before, recipe, kept.blended);
+  if (const auto before = std::exchange(previous.recipe, std::nullopt)) {
+    blender_->change(*before, recipe, previous.blended);
   } else {
-    kept.blended = blender_->blend(recipe);
+    previous.blended = blender_->blend(recipe);
   }
   require_whole(prepared_);
-  kept.recipe = recipe;
-  Positions face = kept.blended;
+  previous.recipe = recipe;
+  Positions face = previous.blended;
   finish(recipe, face);
   return face;
 }
@@ -108,14 +108,14 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   }
   correct_contacts(recipe, face);
   if (follower_) follower_->follow(recipe.target, face);
-  if (const auto turn = turning(recipe)) move_rows(*turn, face);
+  if (const auto turn = motion_to_body(recipe)) move_rows(*turn, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
   if (inputs_.neck) inputs_.neck->seam.fit(face);
 }
 
-std::optional<RigidMotion> FaceBuilder::turning(const Recipe& recipe) const {
+std::optional<RigidMotion> FaceBuilder::motion_to_body(const Recipe& recipe) const {
   if (!turns_) return std::nullopt;
-  return turns_->of(recipe, is_unmirrored(recipe) ? nullptr : &mirror().plane);
+  return turns_->motion_of(recipe, is_unmirrored(recipe) ? nullptr : &mirror().plane);
 }
 
 std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
@@ -151,7 +151,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   const Positions& target =
       mixed ? *mixed : inputs_.faces.heads[static_cast<std::size_t>(recipe.target)].positions;
   Positions judged = face;
-  const auto turn = turning(recipe);
+  const auto turn = motion_to_body(recipe);
   if (inputs_.neck) {  // the bend at the neck is no defect: undo it
     Positions like = target;
     if (turn) move_rows(*turn, like);

@@ -31,14 +31,14 @@ class FaceBuilder {
   Positions build(const Recipe& recipe) const;
 
   /// The face that the previous call of `rebuild` built, from which the next call starts.
-  struct Kept {
+  struct PreviousFace {
     std::optional<Recipe> recipe;
     Positions blended;
   };
   /// Gives the same result as `build` for one recipe, but is faster if the recipe differs from the
   /// previous one in few regions only.
-  /// \param kept  the state that the previous call left; initially empty
-  Positions rebuild(const Recipe& recipe, Kept& kept) const;
+  /// \param previous  the state that the previous call left; initially empty
+  Positions rebuild(const Recipe& recipe, PreviousFace& previous) const;
 
   /// Replaces the masks for blending, initially those of the inputs. Results that `rebuild` kept
   /// become invalid.
@@ -56,7 +56,7 @@ class FaceBuilder {
 
   /// The motion of a finished face, before it is mirrored, onto a body (config section `neck`); none
   /// if it needs none.
-  std::optional<RigidMotion> turning(const Recipe& recipe) const;
+  std::optional<RigidMotion> motion_to_body(const Recipe& recipe) const;
 
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;

@@ -37,7 +37,7 @@ std::vector<Index> targets_of(std::span<const FacePlan> crowd) {
 std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
                                        const Inputs& inputs) {
   const bool faces_have = any_format(formats, [](const MeshFormatTraits& format) {
-    return format.attachments == Beside::kOwnFiles && format.shapes == Beside::kOwnFiles;
+    return format.attachments == DataStorage::kOwnFiles && format.shapes == DataStorage::kOwnFiles;
   });
   if (item.moves != AttachmentMove::kBend || !faces_have) return {};
   return inputs.shapes.shapes;
@@ -61,7 +61,7 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
     }
   }
   if (any_format(formats_,
-                 [](const auto& format) { return format.attachments == Beside::kOwnFiles; })) {
+                 [](const auto& format) { return format.attachments == DataStorage::kOwnFiles; })) {
     for (const MeshLevel& level : levels_) {
       attachments_.emplace_back(inputs.attachments, level,
                                 [&](const Attachment& item, const DetailLevel* here) {
@@ -77,8 +77,9 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
 }
 
 bool FaceEncoders::holds_shapes() const {
-  return !inputs_.shapes.shapes.empty() &&
-         any_format(formats_, [](const auto& format) { return format.shapes != Beside::kNowhere; });
+  return !inputs_.shapes.shapes.empty() && any_format(formats_, [](const auto& format) {
+    return format.shapes != DataStorage::kNowhere;
+  });
 }
 
 bool FaceEncoders::needs_normals(MeshFormat format, std::size_t level, Index target) const {
@@ -115,7 +116,7 @@ void FaceEncoders::prepare(FinishedFace& face) const {
   if (need_normals) face.normals = normals_of(face.positions);
   if (points_) face.points = points_->carry(target, face.positions);
   if (joints_) face.joints = joints_->carry(target, face.positions);
-  if (holds_textures()) face.images = own_->of_mesh(*face.textures);
+  if (holds_textures()) face.images = own_->glb_images(*face.textures);
   face.image_names = own_texture_names(config_, inputs_, face.face.id);
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     face.meshes.push_back(mesh_on(level, face));
@@ -225,7 +226,7 @@ std::size_t FaceEncoders::encode_bytes() const {
   std::size_t bytes = (holds_shapes() ? 2 * displacement_bytes(inputs_.shapes) : 0) +
                       (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
   for (const auto& [format, encoders] : encoders_) {
-    const bool has_own_files = traits_of(format).shapes == Beside::kOwnFiles;
+    const bool has_own_files = traits_of(format).shapes == DataStorage::kOwnFiles;
     for (const MeshEncoder& encoder : encoders) {
       bytes += (has_own_files ? 1 + shapes : 1) * encoder.encode_bytes;
     }
@@ -236,7 +237,7 @@ std::size_t FaceEncoders::encode_bytes() const {
     });
   }
   for (const MeshLevel& level : levels_) {
-    if (!level.whole()) bytes += level.face->vertices.size() * 2 * 3 * sizeof(double);
+    if (!level.is_whole_mesh()) bytes += level.face->vertices.size() * 2 * 3 * sizeof(double);
   }
   return bytes + (own_ ? own_->encode_bytes() : 0);
 }

@@ -31,7 +31,7 @@ class MeshFileList {
       add(kFollowingPoints, {}, "following_points",
           [](const FinishedFace& face) { return face.encoders->points(face); });
     }
-    if (has([](const auto& format) { return format.attachments == Beside::kOwnFiles; })) {
+    if (has([](const auto& format) { return format.attachments == DataStorage::kOwnFiles; })) {
       for (std::size_t level = 0; level <= levels; ++level) add_attachments(level);
     }
     if (has_own_textures(inputs_)) add_textures();
@@ -74,13 +74,13 @@ class MeshFileList {
       if (level == 0 || traits_of(format).has_faces) add_mesh(format, level, {});
     }
     for (const MeshFormat format : options_.formats) {
-      const Beside shapes = traits_of(format).shapes;
-      if (shapes == Beside::kOneFile && level == 0 && this->shapes() > 0) {
+      const DataStorage shapes = traits_of(format).shapes;
+      if (shapes == DataStorage::kOneFile && level == 0 && this->shapes() > 0) {
         const std::string end = concat("shapes", extension_of(format));
         add(end, "shapes", end,
             [](const FinishedFace& face) { return encode_npy(face.moves, face.face.id); });
       }
-      if (shapes != Beside::kOwnFiles) continue;
+      if (shapes != DataStorage::kOwnFiles) continue;
       for (std::size_t s = 0; s < this->shapes(); ++s) add_mesh(format, level, s);
     }
   }
@@ -114,7 +114,7 @@ class MeshFileList {
   }
 
   void add_textures() {
-    if (!has([](const auto& format) { return format.textures != Beside::kInside; })) return;
+    if (!has([](const auto& format) { return format.textures != DataStorage::kInside; })) return;
     for (const OwnTextureFile& file : own_texture_files(config_, inputs_, face_.id)) {
       files_.push_back({options_.folder / file.name, {}, {}, [=](const FinishedFace& face) {
                           EncodedFile bytes;
@@ -157,7 +157,7 @@ FaceFileLists::FaceFileLists(const Config& config, const Inputs& inputs,
                              const CrowdDirectory& directory)
     : config_(config), inputs_(inputs), directory_(directory), has_gallery_(has_gallery(config)) {}
 
-std::vector<FaceFile> FaceFileLists::shown(const FacePlan& face) const {
+std::vector<FaceFile> FaceFileLists::shown_files(const FacePlan& face) const {
   std::vector<FaceFile> files;
   if (!config_.output.contact_sheet) return files;
   files.push_back({directory_.render(face.id), {}, {}, [](const FinishedFace& shown) {
@@ -171,11 +171,11 @@ std::vector<FaceFile> FaceFileLists::shown(const FacePlan& face) const {
   return files;
 }
 
-std::vector<FaceFile> FaceFileLists::of(const FacePlan& face) const {
+std::vector<FaceFile> FaceFileLists::all_files(const FacePlan& face) const {
   std::vector<FaceFile> files = mesh_files(
       config_, inputs_, face,
       {.formats = config_.output.meshes, .folder = directory_.meshes_of(face.id), .stem = face.id});
-  std::ranges::move(shown(face), std::back_inserter(files));
+  std::ranges::move(shown_files(face), std::back_inserter(files));
   return files;
 }
 
@@ -183,7 +183,7 @@ void FaceFileLists::make_folders(std::span<const FacePlan* const> faces) const {
   std::set<fs::path> made;
   for (const FacePlan* face : faces) {
     if (!made.insert(directory_.folder_of(face->id)).second) continue;
-    for (const FaceFile& file : of(*face)) make_directories(file.path.parent_path());
+    for (const FaceFile& file : all_files(*face)) make_directories(file.path.parent_path());
   }
 }
 

@@ -52,10 +52,10 @@ class FaceFileLists {
   FaceFileLists(const Config& config, const Inputs& inputs, const CrowdDirectory& directory);
 
   /// All files of a face.
-  std::vector<FaceFile> of(const FacePlan& face) const;
+  std::vector<FaceFile> all_files(const FacePlan& face) const;
   /// Only the files that show the face, which `sheet` can make again: its image and its mesh in the
   /// gallery.
-  std::vector<FaceFile> shown(const FacePlan& face) const;
+  std::vector<FaceFile> shown_files(const FacePlan& face) const;
   /// Creates the folders for the files of these faces.
   void make_folders(std::span<const FacePlan* const> faces) const;
   const CrowdDirectory& directory() const { return directory_; }
@@ -69,7 +69,7 @@ class FaceFileLists {
 
 /// The results for a face whose files have been written.
 struct FaceResult {
-  std::vector<FileDigest> files;    ///< one per file of FaceFileLists::of
+  std::vector<FileDigest> files;    ///< one per file of FaceFileLists::all_files
   std::optional<SkinDefects> skin;  ///< compared with the target, if the mesh was judged
   /// intersecting triangles, see FaceShapes::of_face; empty if there are no shapes
   std::vector<Index> crossing;

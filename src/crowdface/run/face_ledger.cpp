@@ -71,7 +71,7 @@ SkinDefects noted_skin(const Json& json) {
 std::size_t carried_shapes(const Job& job) {
   const bool is_carried =
       has_gallery(job.config) || any_format(job.config.output.meshes, [](const auto& format) {
-        return format.shapes != Beside::kNowhere;
+        return format.shapes != DataStorage::kNowhere;
       });
   return is_carried ? job.inputs.shapes.shapes.size() : 0;
 }
@@ -97,7 +97,7 @@ LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result)
   key.add(common_).add(judges_skin_).add(shapes_ > 0);
   key.add(format_recipe(recipe, job_.names, job_.settings));
   LedgerEntry entry{item_of(face), {}, {}, {}};
-  const std::vector<FaceFile> files = lists_.of(face);
+  const std::vector<FaceFile> files = lists_.all_files(face);
   for (std::size_t f = 0; f < files.size(); ++f) {
     entry.files.push_back({lists_.directory().relative(files[f].path),
                            f < result.files.size() ? result.files[f] : FileDigest{}});

@@ -237,7 +237,7 @@ class FaceStages::Output {
     std::vector<ReadyFile> ready;
     {
       const StageTimer timer(busy_.encode);
-      for (FaceFile& file : lists_.of(face)) {
+      for (FaceFile& file : lists_.all_files(face)) {
         EncodedFile bytes = file.make(finished);
         bytes.keep(finished.textures);
         result.files.push_back({bytes.size(), bytes.digest()});

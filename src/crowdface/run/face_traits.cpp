@@ -142,12 +142,12 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
     face.row(samples_[s]) = at.row(static_cast<Index>(s));
   }
   builder_.correct_contacts(plain, face);
-  if (const auto turn = neck == Neck::kBent ? builder_.turning(recipe) : std::nullopt) {
+  if (const auto turn = neck == Neck::kBent ? builder_.motion_to_body(recipe) : std::nullopt) {
     for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
   }
   if (recipe.mirrored) mirror_wanted(face);
   if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.fit(face);
-  return landmarks_.on(face, mm_per_unit_);
+  return landmarks_.points_on(face, mm_per_unit_);
 }
 
 void FaceTraits::mirror_wanted(Positions& face) const {

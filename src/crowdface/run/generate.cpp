@@ -128,12 +128,12 @@ std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& o
   if (!planned) {
     if (options.plan_from == PlanFrom::kFolderOrCasting) return nullptr;
     throw MissingInput(
-        concat(directory.planned().string(),
+        concat(directory.plan_marker().string(),
                ": does not record a complete plan of this config; run crowdface plan first"));
   }
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->plan_files = std::move(planned->files);
-  if (options.shard.whole()) {
+  if (options.shard.is_whole_crowd()) {
     crowd->crowd_plan = timed(stages, "cast", [&] {
       return cast_as_planned(job, directory, crowd->prepared, std::move(planned->faces),
                              options.cache);
@@ -214,13 +214,13 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   const std::vector<Eigen::Array3d> neck_colours = planned.neck_colours(job);
   if (planned.planned()) {
     for (const LedgerEntry::File& file : planned.plan_files) ledger.keep(file);
-    if (options.shard.whole()) {
+    if (options.shard.is_whole_crowd()) {
       write(directory.table(), table_text(crowd, job.names, neck_colours, table_facts(job.config)));
     }
   } else {
     write_plan(job, directory, crowd_plan, planned.casting, neck_colours, write);
   }
-  const bool has_whole_crowd = options.shard.whole() || !planned.planned();
+  const bool has_whole_crowd = options.shard.is_whole_crowd() || !planned.planned();
 
   const auto& sheet = job.config.output.contact_sheet;
   const FaceFileLists lists(job.config, job.inputs, directory);
@@ -235,7 +235,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   });
   const std::size_t built = so_far.todo.size();
   if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
-  if (!options.shard.whole()) {
+  if (!options.shard.is_whole_crowd()) {
     progress.emplace(directory.progress(options.shard), so_far.owned, so_far.owned - built);
   }
 
@@ -259,7 +259,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     if (built == 0) return built;
     const CrowdRenders* renders = sheet ? &pictures.get().renders() : nullptr;
     BackgroundTasks beside;
-    if (renders != nullptr && options.shard.whole()) {
+    if (renders != nullptr && options.shard.is_whole_crowd()) {
       beside.run([&] { pictures.get().write_heads(); });
     }
     std::vector<const FacePlan*> faces;
@@ -273,7 +273,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     return built;
   });
   face_stages.release();
-  if (!options.shard.whole()) {
+  if (!options.shard.is_whole_crowd()) {
     ledger.require_files();
     progress->end(ShardState::kDone);
     return concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
@@ -302,8 +302,9 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
 
 /// Whether an earlier run may have made all faces of this shard.
 bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
-  return path_exists(directory.ledger()) || (shard.whole() ? !directory.shard_ledgers().empty()
-                                                           : path_exists(directory.ledger(shard)));
+  return path_exists(directory.ledger()) ||
+         (shard.is_whole_crowd() ? !directory.shard_ledgers().empty()
+                                 : path_exists(directory.ledger(shard)));
 }
 
 /// Whether this run is certain to make faces. A resumed crowd may already be complete, and a new
@@ -354,7 +355,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
 /// \param load  reads the job
 template <class Load>
 void generate_loaded(const Load& load, const GenerateOptions& options) {
-  if (!options.shard.whole() && options.replace == Replace::kForce) {
+  if (!options.shard.is_whole_crowd() && options.replace == Replace::kForce) {
     throw UsageError(
         "--force cannot be combined with --shard, because one shard would remove the files of "
         "another; replace the old crowd with crowdface plan --force first");

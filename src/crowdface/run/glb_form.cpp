@@ -162,7 +162,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared,
                        const MeshLevel& level) {
   GlbOptions options = glb_options(config, inputs, shared);
-  if (level.whole()) return options;
+  if (level.is_whole_mesh()) return options;
   const DetailLevel& detail = *level.face;
   options.face_materials = at_rows(options.face_materials, detail.faces);
   for (std::size_t t = 0; t < options.targets.size(); ++t) {

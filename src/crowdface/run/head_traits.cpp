@@ -42,7 +42,7 @@ std::string HeadLandmarks::reason_against(const Measurement& measurement) const 
   return {};
 }
 
-Positions HeadLandmarks::on(const Positions& mesh, double mm_per_unit) const {
+Positions HeadLandmarks::points_on(const Positions& mesh, double mm_per_unit) const {
   Positions points = Positions::Zero(static_cast<Index>(places.size()), 3);
   for (std::size_t l = 0; l < places.size(); ++l) {
     if (!places[l]) continue;
@@ -101,7 +101,7 @@ std::vector<std::vector<double>> named_head_traits(const Config& config, const I
   require_named_traits(config, landmarks);
   std::vector<std::vector<double>> values;
   for (const Head& head : inputs.faces.heads) {
-    const Positions points = landmarks.on(head.positions, mm_per(config.faces.units));
+    const Positions points = landmarks.points_on(head.positions, mm_per(config.faces.units));
     std::vector<double>& own = values.emplace_back();
     for (const std::size_t trait : named) own.push_back(measure(measurements()[trait], points));
   }
@@ -120,7 +120,7 @@ void require_named_traits(const Config& config, const HeadLandmarks& landmarks) 
 
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit) {
-  const Positions points = landmarks.on(mesh, mm_per_unit);
+  const Positions points = landmarks.points_on(mesh, mm_per_unit);
   std::vector<std::optional<double>> values;
   for (const Measurement& measurement : measurements()) {
     values.push_back(landmarks.allow(measurement) ? std::optional(measure(measurement, points))

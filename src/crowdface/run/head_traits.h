@@ -23,7 +23,7 @@ struct HeadLandmarks {
   /// Why a measurement is not available: "no hairline (…)". \pre `allow` is false.
   std::string reason_against(const Measurement& measurement) const;
   /// The landmarks on a mesh, #landmarks by 3, in millimetres. Rows without a place are zero.
-  Positions on(const Positions& mesh, double mm_per_unit) const;
+  Positions points_on(const Positions& mesh, double mm_per_unit) const;
 };
 
 /// Finds the landmarks on the mean of the heads, or takes them from the file of the config.

@@ -31,7 +31,7 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
 std::vector<const Attachment*> MeshLevel::items(const AttachmentSet& set) const {
   std::vector<const Attachment*> items;
   for (const Attachment& item : set.items) {
-    if (whole() || find(item) != nullptr) items.push_back(&item);
+    if (is_whole_mesh() || find(item) != nullptr) items.push_back(&item);
   }
   if (body != nullptr) items.push_back(body);
   return items;

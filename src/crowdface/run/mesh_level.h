@@ -28,12 +28,12 @@ struct MeshLevel {
   std::map<const Attachment*, DetailLevel> attachments;
   const Attachment* body = nullptr;  ///< the body in the files; null: none
 
-  bool whole() const { return face == nullptr; }
+  bool is_whole_mesh() const { return face == nullptr; }
   const Topology& topology(const Inputs& inputs) const {
-    return whole() ? inputs.faces.topology : face->topology;
+    return is_whole_mesh() ? inputs.faces.topology : face->topology;
   }
   const TextureCoordinates& uvs(const Inputs& inputs) const {
-    return whole() ? inputs.faces.uvs : face->uvs;
+    return is_whole_mesh() ? inputs.faces.uvs : face->uvs;
   }
   /// The attachments that files at this level may contain, and the body. Reduced levels contain
   /// only attachments that some face wears.

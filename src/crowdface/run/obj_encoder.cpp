@@ -137,7 +137,7 @@ MeshEncoders obj_encoders(const MeshSource& source) {
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
     MeshEncoder encoder =
-        level.whole() ? whole_encoder(source) : level_encoder(source, *level.face);
+        level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face);
     encoder.encode = [encode = std::move(encoder.encode),
                       others = other_libraries(source)](const FaceMesh& face) {
       EncodedFile file = encode(face);

@@ -184,7 +184,7 @@ std::vector<std::string> OwnTextures::encode(std::size_t number,
   return encoded;
 }
 
-std::vector<std::string_view> OwnTextures::of_mesh(const Encoded& encoded) const {
+std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) const {
   std::vector<std::string_view> held;
   for (const auto& [picture, format] : glb_pictures(config_, inputs_)) {
     const std::vector<TextureFormat> formats = formats_of(config_, pictures_[picture]);

@@ -56,7 +56,7 @@ class OwnTextures {
   /// Encodes an image in each of its formats. Thread-safe. \param number  index into own_pictures
   std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
   /// The images that a GLB file contains (see glb_pictures).
-  std::vector<std::string_view> of_mesh(const Encoded& encoded) const;
+  std::vector<std::string_view> glb_images(const Encoded& encoded) const;
   /// The target's material file, with the face's textures in place of the target's.
   EncodedFile material_file(const FacePlan& face) const;
 

@@ -69,7 +69,7 @@ std::vector<FacePlan> read_faces(const Job& job, const std::filesystem::path& pl
 
 /// A report marks a folder as complete, so it must be removed when the plan changes.
 void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
-  if (!path_exists(directory.report()) || holds(directory.plan(), digest_of(plan))) return;
+  if (!path_exists(directory.report()) || has_content(directory.plan(), digest_of(plan))) return;
   remove_if_exists(directory.report());
 }
 
@@ -85,7 +85,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
                 const nlohmann::ordered_json& casting,
                 const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write) {
   const TextPieces plan =
-      told_plan_text(crowd_plan.crowd, job.names, job.settings, table_facts(job.config));
+      annotated_plan_text(crowd_plan.crowd, job.names, job.settings, table_facts(job.config));
   remove_report_of_other_plan(directory, plan);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   const auto write_and_mark = [&](const std::filesystem::path& path, const TextPieces& text) {
@@ -102,13 +102,13 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
   }
   write_and_mark(directory.casting(), [&](const TakePiece& take) { take(casting.dump(2) + "\n"); });
   const nlohmann::ordered_json mark = {{"job", key_of(job, directory).hex()}, {"files", files}};
-  write_file(directory.planned(), mark.dump() + "\n");
+  write_file(directory.plan_marker(), mark.dump() + "\n");
 }
 
 std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
                                           const Shard& shard) {
-  if (!is_file(directory.planned()) || !is_file(directory.plan())) return std::nullopt;
-  const auto mark = parse_shallow_json(read_file(directory.planned()));
+  if (!is_file(directory.plan_marker()) || !is_file(directory.plan())) return std::nullopt;
+  const auto mark = parse_shallow_json(read_file(directory.plan_marker()));
   if (!mark.is_object() || !mark.contains("files")) return std::nullopt;
   const auto files = files_from_json(mark["files"]);
   if (!files || files->empty() ||
@@ -116,8 +116,9 @@ std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& 
     return std::nullopt;
   }
   // A shard checks only the plan, which it reads; `gather` checks the other files.
-  for (const LedgerEntry::File& file : std::span(*files).first(shard.whole() ? files->size() : 1)) {
-    if (!holds(directory.root / file.name, file.content)) return std::nullopt;
+  for (const LedgerEntry::File& file :
+       std::span(*files).first(shard.is_whole_crowd() ? files->size() : 1)) {
+    if (!has_content(directory.root / file.name, file.content)) return std::nullopt;
   }
   return PlannedFaces{read_faces(job, directory.plan(), shard), *files};
 }
@@ -139,7 +140,7 @@ CrowdPlan cast_as_planned(const Job& job, const CrowdDirectory& directory, const
   CrowdPlan crowd_plan;
   crowd_plan.anchors = casting.anchors;
   crowd_plan.crowd = std::move(crowd);
-  crowd_plan.kinds = schedule_groups(casting.groups, casting.count);
+  crowd_plan.group_of_face = schedule_groups(casting.groups, casting.count);
   crowd_plan.founders = read_founders(job, directory);
   if (job.config.output.contact_sheet) {
     crowd_plan.points.resize(crowd_plan.crowd.size());

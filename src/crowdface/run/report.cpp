@@ -245,7 +245,7 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan
     text_of_items(faces.size(), [&](std::size_t i) {
       const FacePlan& face = crowd_plan.crowd[i];
       return concat(i > 0 ? ",\n    " : "\n    ",
-                    indented(face_to_json(face.id, lists.of(face), faces[i],
+                    indented(face_to_json(face.id, lists.all_files(face), faces[i],
                                           neck_colours.empty() ? nullptr : &neck_colours[i]),
                              2));
     })(take);

@@ -69,7 +69,7 @@ void write_shared_files(const Config& config, const Inputs& inputs, const CrowdD
 
 std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const Shard& shard) {
   std::vector<fs::path> ledgers = directory.ledgers();
-  if (shard.whole()) return ledgers;
+  if (shard.is_whole_crowd()) return ledgers;
   const std::string same_count = concat("of", shard.count, ".jsonl");
   std::erase_if(ledgers, [&](const fs::path& path) {
     return path != directory.ledger(shard) && path.filename().string().ends_with(same_count);
@@ -79,7 +79,7 @@ std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const
 
 void remove_notes_of_shards(const CrowdDirectory& directory) {
   for (const fs::path& path : directory.all_progress()) remove_if_exists(path);
-  remove_if_exists(directory.planned());
+  remove_if_exists(directory.plan_marker());
 }
 
 void gather_logs(const CrowdDirectory& directory) {

@@ -94,31 +94,31 @@ std::string few_heads(const Config& config, const Group& group) {
 
 }  // namespace
 
-void ScarcityWarning::face_joined(const Rejections& thrown) {
+void ScarcityWarning::face_joined(const Rejections& rejected) {
   ++cast_;
-  if (foreseen_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
-  forecast_.add(thrown.of(Reason::kMinDistance),
+  if (has_warned_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
+  forecast_.add(rejected.of(Reason::kMinDistance),
                 static_cast<std::uint64_t>(casting_.diversity.candidates_for(cast_)));
   const auto faces = forecast_.faces();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {
-    foreseen_ = true;
+    has_warned_ = true;
     log_warning(concat("about ", rounded_estimate(*faces), " faces fit at diversity.min_distance ",
                        casting_.diversity.min_distance_mm,
                        " mm (estimate, to a factor of three), but ", casting_.count,
                        " were requested: choose a smaller min_distance (crowdface plan --estimate "
                        "shows how many faces fit)"));
-  } else if (!scarce_ && thrown.total() >= attempts / 5) {
-    scarce_ = true;
+  } else if (!has_told_scarcity_ && rejected.total() >= attempts / 5) {
+    has_told_scarcity_ = true;
     log_info(concat("candidates are getting scarce: face ", cast_, " of ", casting_.count, " took ",
-                    thrown.total(),
+                    rejected.total(),
                     " candidates; the crowd may need a smaller diversity.min_distance"));
   }
 }
 
 void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall,
                     const std::vector<std::string>& about_traits) {
-  const std::uint64_t thrown = shortfall.rejections.total();
+  const std::uint64_t rejected = shortfall.rejections.total();
   const std::uint64_t by_main = shortfall.rejections.of(remedy.binding);
   std::string message = concat(config.file.string(), ": ");
   if (!shortfall.family.empty()) {
@@ -142,7 +142,7 @@ void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall&
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
       shortfall.recipe.empty()) {
-    message += concat(" (for the next face ", by_main, " of ", thrown,
+    message += concat(" (for the next face ", by_main, " of ", rejected,
                       " candidates were rejected for this reason)");
   }
   if (shortfall.kind >= 0) {

@@ -17,15 +17,15 @@ class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
-  /// \param thrown  candidates rejected before this face was accepted
-  void face_joined(const Rejections& thrown);
+  /// \param rejected  candidates rejected before this face was accepted
+  void face_joined(const Rejections& rejected);
 
  private:
   const CastingOptions& casting_;
   CapacityForecast forecast_;
   std::uint64_t cast_ = 0;
-  bool foreseen_ = false;
-  bool scarce_ = false;
+  bool has_warned_ = false;
+  bool has_told_scarcity_ = false;
 };
 
 /// \throws Unsatisfiable; the message names the binding constraint, the number of faces cast, and a

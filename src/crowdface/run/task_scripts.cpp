@@ -60,7 +60,7 @@ std::uint64_t tasks_for(double seconds, double seconds_a_task, std::uint64_t mos
 }
 
 std::filesystem::path script_of(const TaskJob& job) {
-  return job.directory.submitted() / "task.sh";
+  return job.directory.task_folder() / "task.sh";
 }
 
 constexpr std::string_view kTask = R"sh(
@@ -182,7 +182,7 @@ std::string task_script(const TaskJob& job) {
   std::string script(kHead);
   script += "# task.sh STAGE NUMBER: one task of the crowd, on the machine that it is started on\n";
   script += "set -uo pipefail\n";
-  script += assign("folder", job.directory.submitted().string());
+  script += assign("folder", job.directory.task_folder().string());
   script += assign("directory", job.directory.root.string());
   script += assign("program", job.program.string());
   script += concat("config=(", shell_words(job.config), ")\n");
@@ -209,7 +209,7 @@ std::string slurm_script(const TaskJob& job, const EngineOptions& options) {
   common.insert(common.end(), options.more.begin(), options.more.end());
   std::string script(kHead);
   script += "set -euo pipefail\n";
-  script += assign("folder", job.directory.submitted().string()) + assign("crowd", job.crowd);
+  script += assign("folder", job.directory.task_folder().string()) + assign("crowd", job.crowd);
   script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
   script += concat("common=(", shell_words(common), ")\n");
   return script + std::string(kSlurm);
@@ -218,7 +218,7 @@ std::string slurm_script(const TaskJob& job, const EngineOptions& options) {
 std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   std::string script(kHead);
   script += "set -euo pipefail\n";
-  script += assign("folder", job.directory.submitted().string());
+  script += assign("folder", job.directory.task_folder().string());
   // The command that the shell of any machine runs.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
   script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
@@ -252,7 +252,7 @@ std::string_view name_of(Engine engine) {
 
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                          const EngineOptions& options) {
-  const std::filesystem::path folder = job.directory.submitted();
+  const std::filesystem::path folder = job.directory.task_folder();
   refuse_folder_elsewhere(job.directory, folder);
   refuse_folder_elsewhere(job.directory, folder / "log");
   make_directories(folder / "log");

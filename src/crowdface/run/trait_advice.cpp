@@ -90,7 +90,7 @@ std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs
     std::vector<double> of_heads;
     for (const Head& head : inputs.faces.heads) {
       of_heads.push_back(
-          measure(measurement, landmarks.on(head.positions, mm_per(config.faces.units))));
+          measure(measurement, landmarks.points_on(head.positions, mm_per(config.faces.units))));
     }
     const double percent = 100.0 * static_cast<double>(drawn.size() - above - below) /
                            static_cast<double>(drawn.size());

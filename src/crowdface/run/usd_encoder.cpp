@@ -111,7 +111,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
   for (const MeshLevel& level : source.levels) {
     // Levels of detail are not subdivided: they are coarse on purpose.
     const Subdivision subdivision =
-        level.whole() ? source.config.output.subdivision : Subdivision::kNone;
+        level.is_whole_mesh() ? source.config.output.subdivision : Subdivision::kNone;
     encoders.push_back(make_encoder(
         std::make_shared<const Form>(Form{
             UsdaTemplate(level.topology(inputs), level.uvs(inputs),

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// Copies the material files that the face's attachments refer to.
 void write_attachment_materials(const Job& job, const FacePlan& face, const fs::path& folder) {
   for (const AttachmentLook& look : job.inputs.attachments.looks(face)) {
-    for (const LookFile& file : files_of(look)) {
+    for (const AttachmentFile& file : files_of(look)) {
       const fs::path to =
           folder / attachment_folder(look.item->name, look.label()) / file.file.relative;
       make_directories(to.parent_path());

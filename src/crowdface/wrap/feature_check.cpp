@@ -112,7 +112,7 @@ std::vector<double> relief_agreements(const WrapTemplate& shape,
                                       const std::vector<FaceFeature>& features,
                                       const Positions& wrapped) {
   const SkinMesh& skin = shape.skin;
-  const Positions before = skin.of(shape.positions), after = skin.of(wrapped);
+  const Positions before = skin.rows_of(shape.positions), after = skin.rows_of(wrapped);
   const Positions normals_before = vertex_normals_or_zero(skin.triangles, before),
                   normals_after = vertex_normals_or_zero(skin.triangles, after);
   const Eigen::VectorXd areas = areas_at_vertices(skin, before);

@@ -36,7 +36,7 @@ void GrowingPatch::grow() {
 }
 
 PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
-    : skin_(skin), around_(topology_of(skin.triangles, skin.vertex_count())) {
+    : skin_(skin), triangles_of_vertex_(topology_of(skin.triangles, skin.vertex_count())) {
   double area = 0;
   for (const Triangle& t : skin.triangles) area += area_vector(rest, t).norm();
   const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
@@ -59,7 +59,7 @@ void PatchMender::mend_around(const Triangle& triangle,
   const auto count_bad = [&] {
     std::vector<std::uint32_t> bad;
     for (const std::uint32_t v : patch.vertices()) {
-      for (const std::uint32_t t : around_.of(v)) {
+      for (const std::uint32_t t : triangles_of_vertex_.of(v)) {
         if (is_bad(skin_.triangles[t])) bad.push_back(t);
       }
     }

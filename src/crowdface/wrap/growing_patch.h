@@ -57,7 +57,7 @@ class PatchMender {
                    const PatchChange& change) const;
 
   const SkinMesh& skin_;
-  VertexFaces around_;  ///< triangles around each vertex of the skin
+  VertexFaces triangles_of_vertex_;  ///< triangles around each vertex of the skin
   int max_rings_ = 0;
 };
 

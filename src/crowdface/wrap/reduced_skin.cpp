@@ -19,14 +19,15 @@ namespace {
 /// the reduced vertex that is nearest along the surface, or around one of its neighbours. Distances
 /// in space would fail, because lips touch and nostrils have thin walls: the nearest point may be
 /// on the other side.
-std::vector<ReducedSkin::Place> find_places(const SkinMesh& skin, const Positions& positions,
-                                            const SkinMesh& small) {
+std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
+                                                       const Positions& positions,
+                                                       const SkinMesh& small) {
   const Positions corners = small.of(positions);
   const VertexFaces around(topology_of(small.triangles, small.vertex_count()));
   const std::vector<std::uint32_t> source =
       nearest_along_edges(skin.adjacency, positions, small.vertices);
   const SurfaceTree tree(corners, small.triangles);
-  std::vector<ReducedSkin::Place> places(skin.vertices.size());
+  std::vector<ReducedSkin::BarycentricPoint> places(skin.vertices.size());
   parallel_for_each(positions.rows(), 1024, [&](Index v) {
     const Eigen::Vector3d point = row3(positions, v);
     SurfaceHit best;

@@ -13,12 +13,12 @@ struct ReducedSkin {
   SkinMesh mesh;  ///< the reduced mesh; its `vertices` are rows of the original skin
   /// Position of a vertex of the original skin on the reduced skin: triangle and barycentric
   /// coordinates.
-  struct Place {
+  struct BarycentricPoint {
     std::uint32_t triangle;
     std::array<float, 3> shares;
   };
-  std::vector<Place> places;  ///< #vertices of the original skin
-  int smoothings = 0;         ///< number of smoothing steps after interpolation
+  std::vector<BarycentricPoint> places;  ///< #vertices of the original skin
+  int smoothings = 0;                    ///< number of smoothing steps after interpolation
 
   /// Interpolates values at the reduced skin's vertices (one row of three each) to the vertices of
   /// the original skin, and smooths them so that the edges of the reduced skin do not show.

@@ -111,7 +111,7 @@ std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const Wrap
   if (std::ranges::none_of(result.features, &FeatureAgreement::doubtful)) return std::nullopt;
   Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(shape.topology.vertex_count);
   for (const FeatureAgreement& feature : result.features) {
-    if (!feature.doubtful()) continue;
+    if (!feature.is_doubtful()) continue;
     for (const std::uint32_t v : feature.skin) doubtful(shape.skin.vertices[v]) = 1;
   }
   return mask_colours(doubtful, heat_colour(1));
@@ -137,7 +137,7 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
 std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result) {
   std::vector<std::string> warnings;
   for (const FeatureAgreement& feature : result.features) {
-    if (!feature.doubtful()) continue;
+    if (!feature.is_doubtful()) continue;
     warnings.push_back(concat("the ", feature.name,
                               " is doubtful: on the wrapped head it does not look like the "
                               "template's (agreement ",

@@ -82,7 +82,8 @@ void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const Sk
 
 void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const SkinRegions& regions,
                   std::vector<std::string>& faults) {
-  const Positions rest = shape.skin.of(shape.positions), wrapped = shape.skin.of(result.positions);
+  const Positions rest = shape.skin.rows_of(shape.positions),
+                  wrapped = shape.skin.rows_of(result.positions);
   std::vector<std::uint32_t> face, skull;
   for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
     if (shape.skin.openness[v] <= kSeen || result.without_data[v]) continue;

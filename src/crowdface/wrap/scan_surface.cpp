@@ -23,8 +23,8 @@ ScanSurface::ScanSurface(const Scan& scan)
       rim_(build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
       tree_(scan_.positions, scan_.triangles) {}
 
-ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
-  Place place;
+ScanSurface::ClosestPoint ScanSurface::closest_point_of(const SurfaceHit& hit) const {
+  ClosestPoint place;
   if (hit.triangle == kNoIndex) return place;
   const Triangle& corners = scan_.triangles[hit.triangle];
   place.triangle = hit.triangle;
@@ -41,15 +41,15 @@ ScanSurface::Place ScanSurface::place_of(const SurfaceHit& hit) const {
   return place;
 }
 
-ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
-                                        double min_cosine, double reach,
-                                        std::uint32_t guess) const {
-  return place_of(tree_.nearest_facing(point, facing, min_cosine, reach, guess));
+ScanSurface::ClosestPoint ScanSurface::nearest(const Eigen::Vector3d& point,
+                                               const Eigen::Vector3d& facing, double min_cosine,
+                                               double reach, std::uint32_t guess) const {
+  return closest_point_of(tree_.nearest_facing(point, facing, min_cosine, reach, guess));
 }
 
-ScanSurface::Place ScanSurface::nearest(const Eigen::Vector3d& point, double reach,
-                                        std::uint32_t guess) const {
-  return place_of(tree_.nearest(point, reach, guess));
+ScanSurface::ClosestPoint ScanSurface::nearest(const Eigen::Vector3d& point, double reach,
+                                               std::uint32_t guess) const {
+  return closest_point_of(tree_.nearest(point, reach, guess));
 }
 
 Similarity inverse(const Similarity& motion) {

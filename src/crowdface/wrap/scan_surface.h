@@ -20,7 +20,7 @@ class ScanSurface {
   ScanSurface(const ScanSurface&) = delete;
   ScanSurface& operator=(const ScanSurface&) = delete;
 
-  struct Place {
+  struct ClosestPoint {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     /// Interpolated from the vertex normals, unit.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -31,17 +31,18 @@ class ScanSurface {
   };
   /// The closest point whose surface normal is within `min_cosine` of the unit vector `facing`.
   /// \param guess  a triangle that is probably the closest, or kNoIndex.
-  Place nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing, double min_cosine,
-                double reach, std::uint32_t guess = kNoIndex) const;
+  ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
+                       double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
   /// The closest point regardless of the surface normal.
-  Place nearest(const Eigen::Vector3d& point, double reach, std::uint32_t guess = kNoIndex) const;
+  ClosestPoint nearest(const Eigen::Vector3d& point, double reach,
+                       std::uint32_t guess = kNoIndex) const;
 
   const Scan& scan() const { return scan_; }
   const Positions& normals() const { return normals_; }
   const std::vector<bool>& rim() const { return rim_; }
 
  private:
-  Place place_of(const SurfaceHit& hit) const;
+  ClosestPoint closest_point_of(const SurfaceHit& hit) const;
 
   Scan scan_;
   Positions normals_;

@@ -30,7 +30,7 @@ std::array<Eigen::Vector3f, kRays> directions() {
 
 }  // namespace
 
-Positions SkinMesh::of(const Positions& positions) const {
+Positions SkinMesh::rows_of(const Positions& positions) const {
   return positions(vertices, kAllColumns);
 }
 

@@ -21,7 +21,7 @@ struct SkinMesh {
 
   Index vertex_count() const { return static_cast<Index>(vertices.size()); }
   /// The rows of the template's positions that belong to the skin.
-  Positions of(const Positions& positions) const;
+  Positions rows_of(const Positions& positions) const;
 };
 
 /// Returns, for each vertex, the fraction of rays into its outer hemisphere that hit nothing: 0

@@ -34,7 +34,7 @@ SurfaceTree::SurfaceTree(const Positions& positions, const std::vector<Triangle>
   std::vector<std::uint32_t> rows;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    facing_.push_back((row3(normals, a) + row3(normals, b) + row3(normals, c)).normalized());
+    mean_normals_.push_back((row3(normals, a) + row3(normals, b) + row3(normals, c)).normalized());
     centres.row(t) = positions.row(a) + positions.row(b) + positions.row(c);
     if (!area_vector(positions, triangles[t]).normalized().isZero()) rows.push_back(t);
   }
@@ -101,7 +101,7 @@ SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,
 
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                        double min_cosine, double reach, std::uint32_t guess) const {
-  const auto accept = [&](std::uint32_t t) { return facing_[t].dot(facing) >= min_cosine; };
+  const auto accept = [&](std::uint32_t t) { return mean_normals_[t].dot(facing) >= min_cosine; };
   if (guess != kNoIndex && !accept(guess)) guess = kNoIndex;
   return search(point, on_triangle(guess, point, reach), accept);
 }

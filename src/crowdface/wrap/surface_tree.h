@@ -54,7 +54,7 @@ class SurfaceTree {
   const Positions& positions_;
   const std::vector<Triangle>& triangles_;
   /// for each triangle, the mean of its corners' normals
-  std::vector<Eigen::Vector3d> facing_;
+  std::vector<Eigen::Vector3d> mean_normals_;
   MedianSplitTree tree_;                    ///< over the triangles with an area
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
 };

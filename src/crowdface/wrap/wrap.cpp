@@ -152,8 +152,8 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
       find_mirror(shape.topology, shape.components, heads.mean, shape.axes.side());
   const ShapeModel both =
       mirror.share() < kMirroredShare ? heads : with_mirror_images(heads, mirror.map);
-  ShapeModel of_skin{shape.skin.of(both.mean), {}};
-  for (const Positions& mode : both.modes) of_skin.modes.push_back(shape.skin.of(mode));
+  ShapeModel of_skin{shape.skin.rows_of(both.mean), {}};
+  for (const Positions& mode : both.modes) of_skin.modes.push_back(shape.skin.rows_of(mode));
   return of_skin;
 }
 
@@ -164,7 +164,7 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   const SkinMesh& skin = shape.skin;
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
   std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
-  const Positions rest = skin.of(shape.positions);
+  const Positions rest = skin.rows_of(shape.positions);
   WrapResult result;
   ShapeFit fit;
   std::optional<Small> small;
@@ -267,7 +267,7 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = place_in(shape.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {
-      return feature.doubtful() && std::ranges::binary_search(feature.skin, row);
+      return feature.is_doubtful() && std::ranges::binary_search(feature.skin, row);
     });
   };
   std::vector<WrapLandmark> landmarks = all_landmarks;

@@ -32,7 +32,7 @@ struct FeatureAgreement {
   std::string name;
   double agreement = 1;
   std::vector<std::uint32_t> skin;  ///< rows of the skin, ascending
-  bool doubtful() const { return agreement < kDoubtfulAgreement; }
+  bool is_doubtful() const { return agreement < kDoubtfulAgreement; }
 };
 
 struct WrapResult {

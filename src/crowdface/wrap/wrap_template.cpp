@@ -23,7 +23,7 @@ void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
     skin.openness = vertex_visibility(shape.positions, normals, solid, skin.vertices);
     return;
   }
-  shape.reduced = reduce_skin(skin, skin.of(shape.positions), options.reduced_vertices);
+  shape.reduced = reduce_skin(skin, skin.rows_of(shape.positions), options.reduced_vertices);
   std::vector<std::uint32_t> rows;
   for (const std::uint32_t v : shape.reduced->mesh.vertices) rows.push_back(skin.vertices[v]);
   shape.reduced->mesh.openness = vertex_visibility(shape.positions, normals, solid, rows);

@@ -80,7 +80,7 @@ fs::path picture_beside(const fs::path& file, const std::string& name) {
   return file.parent_path() / relative;
 }
 
-Positions FittedMesh::on(const Positions& base) const {
+Positions FittedMesh::fitted_to(const Positions& base) const {
   Positions out = offsets;
   for (Index v = 0; v < out.rows(); ++v) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ Positions FittedMesh::on(const Positions& base) const {
   return out;
 }
 
-void FittedMesh::hold_to(const std::vector<std::uint32_t>& rows, const Positions& base) {
+void FittedMesh::anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base) {
   require(rows.size() >= 3, "fitted mesh: ", rows.size(),
           " vertices to hold to, at least 3 needed");
   const Positions places = on(base);
@@ -117,7 +117,7 @@ void FittedMesh::hold_to(const std::vector<std::uint32_t>& rows, const Positions
   }
 }
 
-void FittedMesh::keep(const std::vector<bool>& faces) {
+void FittedMesh::keep_faces(const std::vector<bool>& faces) {
   Topology kept;
   for (Index f = 0; f < topology.face_count(); ++f) {
     if (faces[static_cast<std::size_t>(f)]) kept.add_face(topology.face(f), topology.face_uvs(f));

@@ -42,14 +42,14 @@ struct FittedMesh {
 
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.
-  Positions on(const Positions& base) const;
+  Positions fitted_to(const Positions& base) const;
   /// Replaces the anchors of each vertex by the three nearest of the given base-mesh vertices. The
   /// mesh fitted to `base` does not change.
   /// \param rows  base-mesh vertices, at least three.
-  void hold_to(const std::vector<std::uint32_t>& rows, const Positions& base);
+  void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
   /// Keeps the marked faces; removes all others, and vertices that no kept face uses.
   /// \param faces  #F, true to keep.
-  void keep(const std::vector<bool>& faces);
+  void keep_faces(const std::vector<bool>& faces);
 };
 
 /// Reads a fitted mesh. \param base_vertices  number of vertices of the base mesh.

@@ -134,7 +134,7 @@ std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
   return rows;
 }
 
-void MakeHumanHeads::wear(std::vector<ClothingPart> parts) {
+void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
   // Keep the faces of the skin, the first material.
   const Topology& naked = mesh_.head.topology;
   Topology topology;
@@ -172,7 +172,7 @@ void MakeHumanHeads::wear(std::vector<ClothingPart> parts) {
 Positions MakeHumanHeads::dressed(const Positions& base) const {
   Positions head = base(skin_, kAllColumns);
   for (const ClothingPart& part : placed_) {
-    const Positions more = part.mesh.on(base);
+    const Positions more = part.mesh.fitted_to(base);
     head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
     head.bottomRows(more.rows()) = more;
   }
@@ -180,7 +180,7 @@ Positions MakeHumanHeads::dressed(const Positions& base) const {
 }
 
 Positions MakeHumanHeads::on_neutral(const FittedMesh& mesh) const {
-  return in_frame(mesh.on(mesh_.file_positions), mesh_.file_positions);
+  return in_frame(mesh.fitted_to(mesh_.file_positions), mesh_.file_positions);
 }
 
 Mesh MakeHumanHeads::body() const {

