@@ -37,7 +37,7 @@ struct CacheOption {
   std::string cache;
 
   void add_to(CLI::App& command);
-  /// Returns that folder, or the default one.
+  /// Returns `cache`, or the default folder if `cache` is empty.
   std::filesystem::path cache_path() const;
 };
 

@@ -75,7 +75,7 @@ ScanBake::ScanBake(const BakeTemplate& target, const Positions& wrapped, const S
     : target_(target),
       surface_(surface),
       colours_(colours),
-      positions_(target.shape().skin.of(wrapped)),
+      positions_(target.shape().skin.rows_of(wrapped)),
       normals_(vertex_normals_or_zero(target.shape().skin.triangles, positions_)),
       spacing_mm_(spacing_of(surface.scan())) {
   Positions densities = Positions::Zero(positions_.rows(), 3);

@@ -45,7 +45,7 @@ enum class Gallery {
 };
 
 /// The weights with which a face's textures are blended: the weights of its shape (`kRecipe`), or
-/// independently drawn weights (`kDrawn`).
+/// independently sampled weights (`kDrawn`).
 enum class ColourWeights { kRecipe, kDrawn };
 
 /// Which textures a face gets.
@@ -70,7 +70,7 @@ enum class Levels {
   kCubic,  ///< the paper's cubic polynomial in the level L per vertex (§5.1)
 };
 
-/// How pictures show a material. Overrides the kind that its name suggests.
+/// How pictures show a material. Overrides the kind that the material's name suggests.
 struct SurfaceChoice {
   SurfaceKind kind = SurfaceKind::kSkin;
   std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the colour of `kind`
@@ -169,7 +169,7 @@ struct Config {
     bool mean = false;                   ///< all faces get the mean of the heads' necks
     std::filesystem::path rim;           ///< file of the ring's vertices; empty: the open rim
     std::filesystem::path body_rim;      ///< file of the body's vertices there; empty: an open rim
-    double falloff_mm = 60;              ///< how far up from the ring faces are bent
+    double falloff_mm = 60;              ///< height above the ring up to which faces are bent
     std::filesystem::path body_texture;  ///< the body's colours, tinted for each face; empty: none
     bool show_body = false;              ///< whether pictures show the body
     bool write_body = false;             ///< whether GLB and USD files contain the body

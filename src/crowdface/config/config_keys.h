@@ -81,7 +81,7 @@ struct Key {
     key.shapes_faces = false;
     return key;
   }
-  /// Marks a key that may change in a finished crowd, because its faces stay who they are.
+  /// Marks a key that may change in a finished crowd, because no recipe depends on the key.
   Key after_casting() const {
     Key key = *this;
     key.decides_faces = false;
@@ -275,7 +275,8 @@ Key<Config> changes_key();
 std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
 /// Writes changes as a mapping from faces.
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context);
-/// Reads a list of regions, bands or bands of regions: region · #bands + band, ascending.
+/// Reads a list of regions, bands or bands of regions, as ascending part numbers: region · #bands +
+/// band.
 std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft);
 /// Whether a sampled face (any face) of this config's crowd has this id.
 bool is_sampled_face(const std::string& id, const Config& config);

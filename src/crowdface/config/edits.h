@@ -7,10 +7,11 @@
 
 namespace crowdface {
 
-/// Appends the heads of `also` in the section `faces` of the edits to those of a config's section.
+/// Appends the heads of `also` in the section `faces` of the edits to the heads of a config's
+/// section.
 void merge_faces(const YamlNode& faces, YamlNode& own);
 
-/// Replaces each section of `root` by the one in `edits`, except `faces`, see merge_faces, and
+/// Replaces each section of `root` by the section in `edits`, except `faces`, see merge_faces, and
 /// `recipes`: each edited recipe replaces the recipe with the same id, or is appended.
 void merge_edits(const YamlNode& edits, YamlNode& root);
 

@@ -54,7 +54,7 @@ class Descriptor {
 /// Whether a call failed because of the machine (disk, memory, too many open files), not because of
 /// the file.
 bool is_system_error(int error);
-/// \throws IoError if a look at `path` failed because of the machine.
+/// \throws IoError if the machine failed to read the status of `path`.
 void require_stat(const std::filesystem::path& path, const std::error_code& error);
 
 /// Whether `path`, with links followed, still names the open file `file`. False after the file was

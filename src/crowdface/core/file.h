@@ -36,7 +36,7 @@ struct FileDigest {
 
 /// Reads the file in pieces. \throws MissingInput, IoError like read_file.
 FileDigest hash_file(const std::filesystem::path& path);
-/// Whether the file has this size and hash. Returns false if the file cannot be read.
+/// Whether the file at `path` has this size and hash. Returns false if the file cannot be read.
 bool has_content(const std::filesystem::path& path, const FileDigest& content);
 
 /// After this call, each new MappedFile maps its file instead of copying it, and a SIGBUS handler

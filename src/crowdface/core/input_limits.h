@@ -19,7 +19,7 @@ struct InputLimits {
   std::uint64_t yaml_depth = 64;             ///< nesting depth of lists and mappings
 };
 
-/// The limits in force.
+/// The current limits.
 const InputLimits& input_limits();
 
 /// Sets one limit by its field name, such as "vertices=2000000". Call it at program start, before

@@ -17,10 +17,9 @@ namespace crowdface {
 using SecondsClock = std::function<double()>;
 SecondsClock steady_seconds();
 
-/// Shows the progress of a stage: done/total, and, once they are known, rate and time left (see
-/// StepRate). A terminal shows one line that is
-/// updated in place; otherwise a line is logged every ten seconds. Silent if the log level is
-/// kQuiet. `step` is thread-safe.
+/// Shows the progress of a stage: done/total and, once known, rate and remaining time (see
+/// StepRate). A terminal shows one line that is updated in place; otherwise a line is logged every
+/// ten seconds. Silent if the log level is kQuiet. `step` is thread-safe.
 class Progress {
  public:
   /// \param stage  name of the stage, such as "reading heads".

@@ -15,7 +15,7 @@ struct RandomKey {
   std::uint64_t seed = 0;
   std::uint64_t index = 0;        ///< number of the face or head
   std::string_view purpose = {};  ///< what the number is used for, such as "position/top"
-  std::uint32_t attempt = 0;      ///< number of earlier draws for this face that were rejected
+  std::uint32_t attempt = 0;      ///< number of rejected earlier samples for this face
 };
 
 /// Two independent numbers in [0, 1), multiples of 2⁻⁵³.

@@ -4,7 +4,7 @@
 namespace crowdface {
 
 // Version numbers of algorithms. When the output bytes of an algorithm change, raise its constant
-// and regenerate tests/golden. Results of an older version then count as not done.
+// and regenerate tests/golden. Results of an older version are then made again.
 
 /// Skin positions of a face; in the `settings` of every recipe.
 inline constexpr int kBlendVersion = 7;

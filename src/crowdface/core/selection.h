@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// At most `most` items, evenly spaced, in their original order.
+/// At most `most` of the items in `all`, evenly spaced, in their original order.
 template <class Items>
 std::vector<std::ranges::range_value_t<Items>> evenly_spaced_items(const Items& all,
                                                                    std::size_t most) {

@@ -44,8 +44,7 @@ struct CrowdDirectory {
   std::filesystem::path log() const { return root / "crowdface.log"; }
   std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
-  /// Identifies the job to which the plan belongs, for shards that reuse the plan; see
-  /// planned_faces.
+  /// Identifies the job to which the plan belongs, for shards that use the plan; see planned_faces.
   std::filesystem::path plan_marker() const { return root / "planned.json"; }
   /// Progress of a shard, for `crowdface status` and other observers.
   std::filesystem::path progress(const Shard& shard) const {

@@ -16,7 +16,7 @@ namespace crowdface {
 
 inline const std::vector<Eigen::Array3d> kNoNeckColours;
 
-/// What heads and attachments are, for the columns that tell who a face is.
+/// Tags of heads and kinds of attachments, for the columns that describe the person.
 struct TableFacts {
   HeadTags tags;                   ///< #heads, or empty
   std::vector<std::string> kinds;  ///< #attachments, or empty
@@ -30,9 +30,9 @@ TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names
                       const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours,
                       const TableFacts& facts = {});
 
-/// The text of plan.jsonl: that of plan_text, and who each face is: `sex` and `tags` if the heads have
-/// tags, and the `family_role` of parents and children (the `family` names the other members). `crowd`
-/// and `names` must outlive the text.
+/// The text of plan.jsonl: the text of plan_text with additional keys for each face: `sex` and
+/// `tags` if the heads have tags, and the `family_role` of parents and children (the `family` names
+/// the other members). `crowd` and `names` must outlive the text.
 TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                                const Digest& settings, const TableFacts& facts);
 

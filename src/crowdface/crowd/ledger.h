@@ -59,8 +59,8 @@ LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item
 /// Whether all files of an entry exist in the folder with the recorded content.
 bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
 
-/// Removes a file of a crowd if its content is still as recorded, and then its parent folders that
-/// are empty. Keeps altered files and files outside the crowd's folder.
+/// Removes a file of a crowd if its content is still as recorded; then removes the file's empty
+/// parent folders. Keeps altered files and files outside the crowd's folder.
 /// \throws IoError.
 void remove_recorded(const std::filesystem::path& root, const LedgerEntry::File& file);
 

@@ -27,7 +27,7 @@ std::filesystem::path put_regions(const std::filesystem::path& config,
                                   const std::vector<std::string>& names,
                                   const std::vector<std::filesystem::path>& masks);
 
-/// Saves heads, after all heads that the config has.
+/// Adds heads after the config's heads, and saves the edits.
 /// \param config  file of the config.
 /// \param heads   files of meshes.
 /// \return the file of the edits.
@@ -40,7 +40,7 @@ std::filesystem::path put_heads(const std::filesystem::path& config,
 std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
                                             const std::string& section);
 
-/// Puts back what section_in_edits returned earlier.
+/// Restores a value that section_in_edits returned.
 /// \return the file of the edits.
 /// \throws Error as put_recipe does, or if `value` is more than one value.
 std::filesystem::path restore_section(const std::filesystem::path& config,

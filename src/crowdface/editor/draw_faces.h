@@ -11,18 +11,19 @@
 
 namespace crowdface {
 
-/// A request to draw faces for the user to choose from.
+/// A request to sample faces from which the user chooses.
 struct DrawRequest {
-  FacePlan from;  ///< the face to redraw: supplies the id and all locked parts
+  FacePlan from;  ///< the face to sample anew: supplies the id and all locked parts
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
-  std::optional<FacePlan> like;  ///< draw variations of this face
-  double amount = 1;  ///< how far variations move from `like` towards a freely drawn face, 0 to 1
-  std::size_t count = 1;            ///< number of faces to draw
+  std::optional<FacePlan> like;  ///< sample variations of this face
+  double amount =
+      1;  ///< how far variations move from `like` towards an independently sampled face, 0 to 1
+  std::size_t count = 1;            ///< number of faces to sample
   std::uint32_t first_attempt = 0;  ///< a different number yields different faces
 };
 
-/// Draws faces that satisfy the limits of the config. Without `like`, the faces also keep the
+/// Samples faces that satisfy the limits of the config. Without `like`, the faces also keep the
 /// minimum distance from the crowd.
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.

@@ -22,12 +22,13 @@ class DroppedFiles {
   DroppedFiles(const DroppedFiles&) = delete;
   DroppedFiles& operator=(const DroppedFiles&) = delete;
 
-  /// Begins anew. \param sizes  the bytes of each file, by name
+  /// Begins anew. \param sizes  size in bytes of each file, by name
   /// \throws UsageError if a name is unsafe, there is no mesh, or the files are too large.
   void begin(const std::map<std::string, std::uint64_t>& sizes);
   /// Adds the next piece of a file.
   /// \param offset  bytes before the piece
-  /// \throws UsageError if another piece is missing, or the file would become larger than told.
+  /// \throws UsageError if another piece is missing, or the file would become larger than its size
+  /// in `begin`.
   void add(const std::string& name, std::uint64_t offset, std::string_view bytes);
   /// Moves all files to a new folder. \return the meshes, in the order of their names.
   /// \throws UsageError if a file is incomplete.

@@ -34,10 +34,10 @@ class EditAttachments {
 
   /// The attachments of a face; nothing while one of them is being bound to the heads for the first
   /// time, which takes seconds if there are expressions.
-  /// \param face    the edited face; determines the attachments that are drawn for it
+  /// \param face    the edited face; determines the attachments that are sampled for the face
   /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
   ///                keeps; or empty
-  /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are drawn
+  /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are sampled
   /// \param moves      displacements of the face, which the attachments follow
   /// \throws UsageError if a kind or a name does not exist.
   std::optional<std::vector<PlacedAttachment>> attachments_of(const FacePlan& face,

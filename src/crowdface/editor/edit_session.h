@@ -67,7 +67,7 @@ class EditSession {
   /// The heads' textures, in the layout of the preview's texture coordinates.
   const TextureAtlas& textures() const { return textures_; }
 
-  /// The data that the page needs before all else.
+  /// The data that the page needs first.
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
   std::string mesh() const;

@@ -28,8 +28,8 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
 bool needs_rigid_alignment(const HeadSet& faces, const Components& components);
 
 /// Warns about heads that are rotated, shifted or scaled relative to the others, because blending
-/// would treat that as detail. With `check`, heads stay as they are; with `rigid`, each head is
-/// first aligned with the first head.
+/// would treat the difference in pose as detail. With `check`, heads stay as they are; with
+/// `rigid`, each head is first aligned with the first head.
 /// \throws InvalidInput if a head is mirrored, has another unit or, with `check`, is rotated by more than 45
 ///         degrees.
 std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align);

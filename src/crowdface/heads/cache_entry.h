@@ -125,8 +125,8 @@ class ArrayWriter {
 void write_entry(const std::filesystem::path& cache, const CacheKey& key,
                  const std::vector<EntryArray>& arrays);
 
-/// Whether all numbers are finite and within the limit for mesh coordinates, with a margin for what
-/// smoothing adds.
+/// Whether all numbers are finite and within the limit for mesh coordinates, with a margin for the
+/// displacements that smoothing adds.
 bool are_coordinates(std::span<const float> values);
 bool are_coordinates(std::span<const double> values);
 /// `all_below`: whether all numbers are below `end`. `are_rows` also accepts kNoIndex.

@@ -18,9 +18,9 @@
 
 namespace crowdface {
 
-/// Opens an entry. If the cache trusts seen files, an entry that nobody has written to since its
-/// last reading is not hashed again. \return nothing if there is no such entry or no cache. \throws
-/// InvalidInput like CacheEntry::open.
+/// Opens an entry. If the cache trusts seen files, an unchanged entry is not hashed again (see
+/// FileFingerprint). \return nothing if there is no such entry or no cache. \throws InvalidInput
+/// like CacheEntry::open.
 std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& key);
 
 /// Warns that a value is computed again because its entry cannot be used.

@@ -23,10 +23,10 @@ std::optional<std::vector<std::uint32_t>> vertices_of_corners(const Topology& ex
                                                               const Topology& found,
                                                               const Positions& there);
 
-/// Gives heads one mesh if their meshes differ only by their export: in the order of vertices and
-/// polygons, by triangulation, or by vertices that are split at seams or joined where they touch.
-/// The mesh is that of most heads, with the vertices at seams joined if any head joins them.
-/// Logs each change.
+/// Gives heads a common mesh if their meshes differ only by their export: in the order of vertices
+/// and polygons, by triangulation, or by vertices that are split at seams or joined where they
+/// touch. The common mesh is the mesh of most heads; its vertices at seams are joined if any head
+/// joins them. Logs each change.
 void give_common_mesh(std::vector<HeadFile>& heads);
 
 }  // namespace crowdface

@@ -19,8 +19,8 @@ class FaceShapes {
   FaceShapes(const Config& config, const Inputs& inputs);
 
   /// The shapes of a face built from a recipe: one per shape of the inputs, or none if there are no
-  /// shapes. If the heads have shapes of their own, each region blends those of the recipe's source
-  /// heads with the recipe's weights.
+  /// shapes. If the heads have shapes of their own, each region blends the shapes of the recipe's
+  /// source heads with the recipe's weights.
   /// \param crossing  passed to ShapeTransfer::carry
   std::vector<Displacements> of_face(const Recipe& recipe, const Positions& face,
                                      std::vector<Index>* crossing = nullptr) const;

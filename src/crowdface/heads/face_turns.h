@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// The poses of faces on a body (config section `neck`), if some heads have another pose than the
-/// others. A face has its target's pose only in part: the detail of its sources keeps their poses,
-/// and more so the more the target is smoothed.
+/// others. A face has its target's pose only in part, because the detail of its sources keeps the
+/// sources' poses. The smoother the target, the smaller its part.
 class FaceTurns {
  public:
   /// \param inputs  must outlive this object; its heads are placed on a body

@@ -26,14 +26,14 @@ struct StoredLevels {
   BasisError error;        ///< `levels: basis`
 };
 
-/// What is computed once per head and kept: how the sample points move during smoothing and, unless
+/// The cached data of a head: the trajectories of the sample points during smoothing and, unless
 /// `levels: exact`, the fitted levels.
 struct PreparedHead {
   Trajectory trajectory;
   StoredLevels levels;
 };
 
-/// The sizes that an entry must have to be used.
+/// The sizes that a usable entry must have.
 struct HeadCacheSizes {
   Index vertices = 0;
   Index samples = 0;

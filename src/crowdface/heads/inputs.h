@@ -49,7 +49,7 @@ struct AttachmentLook {
   std::string label() const { return colour ? label_of(*colour) : std::string(); }
   /// The attachment's name, in a colour "NAME+LABEL".
   std::string name() const;
-  /// The factors on the light of its textures.
+  /// Factors on the linear RGB values of the attachment's textures.
   std::array<float, 3> tint() const {
     return colour ? tint_factors(*colour) : std::array<float, 3>{1, 1, 1};
   }
@@ -69,7 +69,7 @@ struct AttachmentSet {
   /// The attachments that a face wears.
   std::vector<AttachmentLook> looks(const FacePlan& face) const;
   AttachmentLook look(const std::string& name, const std::optional<HairColour>& hair) const;
-  /// The attachments that some of these faces wear, each look once, by name.
+  /// The looks that some of these faces wear, without duplicates, sorted by name.
   std::vector<AttachmentLook> looks(std::span<const FacePlan> faces) const;
 };
 
@@ -82,7 +82,7 @@ struct Rig {
   bool empty() const { return skin.joints.empty(); }
 };
 
-/// A level of detail, and its deviation from the whole mesh.
+/// A level of detail, and its distance from the whole mesh.
 struct MeasuredLevel {
   DetailLevel level;
   LevelError heads;   ///< over all heads, mm

@@ -30,7 +30,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
     const CacheFolder& cache, Problems& problems, Winding winding = Winding::kOutward);
 
-/// Reads heads like read_mesh_files. \return those that could be read, in order; the others are
+/// Reads heads like read_mesh_files. \return the readable heads, in order; unreadable heads are
 /// added as problems.
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,
                                  const CacheFolder& cache, Problems& problems);

@@ -16,7 +16,7 @@ class SeamColours {
   /// \param blended  blends the faces' colour textures; null if faces have none of their own.
   SeamColours(const Inputs& inputs, const TextureBlender* blended);
 
-  /// Whether any head has colours there.
+  /// Whether any head has colours in the band.
   bool any() const;
   /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
   /// \param weights  #heads; heads without colours are left out. All zero: equal weights

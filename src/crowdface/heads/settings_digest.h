@@ -11,8 +11,8 @@ namespace crowdface {
 /// smoothing settings. Each recipe of a plan contains this hash.
 Digest settings_digest(const Config& config, const Inputs& inputs);
 
-/// Hash of the heads' material files and of those textures that no other hash covers: everything
-/// that determines a surface's look except its colours. Zero if there are no such files.
+/// Hash of the heads' material files and of the textures that no other hash covers. These files
+/// determine everything about a surface's look except its colours. Zero if there are no such files.
 Digest materials_digest(const Inputs& inputs);
 
 }  // namespace crowdface

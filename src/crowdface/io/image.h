@@ -81,7 +81,7 @@ class DamagedImage : public InvalidInput {
 /// together would exceed the memory limit.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// Size and type of the image that `read_image` would return, without decoding.
+/// Size and value type of the image that `read_image` would return; reading them needs no decoding.
 struct ImageSize {
   int width = 0;
   int height = 0;

@@ -30,7 +30,7 @@ struct PictureToEncode {
       nullptr;  ///< row-major; floats for OpenEXR, 16 bits for kWordPng, else bytes
 };
 
-/// Reads and writes some file formats. image.cpp, not the codec, checks the limits. The struct
+/// Decodes and encodes image files of some formats. image.cpp checks the limits. The struct
 /// consists of function pointers and has no virtual functions, because OpenImageIO is behind a
 /// shared library and type identity across libraries is unreliable.
 struct ImageCodec {

@@ -46,8 +46,8 @@ bool is_texture_statement(std::string_view word);
 /// follows the options. Limited to the last 32 words.
 std::vector<std::string_view> word_suffixes(std::string_view text);
 
-/// Finds the material files that a mesh names, and the textures that those name; for names with
-/// <UDIM> all existing tiles. Problems become warnings, not errors: files that are missing or
+/// Finds the material files that a mesh names, and the textures that these files name; for names
+/// with <UDIM> all existing tiles. Problems become warnings, not errors: files that are missing or
 /// unreadable, paths that lead out of the mesh's folder (which are not followed), names that a mesh
 /// may have (see `mesh_format_of`), names in `topology` or `blended`, and more names than
 /// `input_limits().textures`.

@@ -22,7 +22,7 @@ enum class MeshFormat {
 };
 inline constexpr std::size_t kMeshFormats = 5;
 
-/// Where data other than the mesh (shapes, attachments, textures) is stored.
+/// Where a format stores shapes, attachments or textures.
 enum class DataStorage {
   kNowhere,
   kInside,    ///< in the face's own file

@@ -43,7 +43,7 @@ ObjOutline outline_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  kAllButMesh,  ///< all but `f` and `vt`, which equal those of a text checked before
+  kAllButMesh,  ///< all but `f` and `vt` lines, which equal those of an already checked text
 };
 
 /// Checks an OBJ text line by line, because the loader accepts errors: words in place of numbers,

@@ -26,8 +26,8 @@ class ObjTemplate {
   /// the target is not needed afterwards.
   /// \param topology  the faces, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  vertices with given normals. Files have these in the `vn` lines that no other
-  ///                vertex uses.
+  /// \param fixed  vertices with given normals. Files have the given normals in the `vn` lines that
+  ///               no other vertex uses.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const FixedNormals& fixed = {});
 

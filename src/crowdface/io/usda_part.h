@@ -33,7 +33,7 @@ class UsdaPart {
   /// \param materials  at least one.
   /// \param face_materials  #F indices into `materials`.
   /// \param targets  names of the faces' targets.
-  /// \param fixed  normals that do not follow from the mesh.
+  /// \param fixed  vertices with given normals.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
            const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
            const std::vector<std::string>& targets, FixedNormals fixed = {});

@@ -22,7 +22,7 @@ struct LandmarkFile {
   std::map<std::string, Place> of_template, of_scan;
 };
 
-/// The mesh that the landmarks belong to if the file does not say it.
+/// The mesh to which the landmarks belong if the file does not say.
 enum class LandmarksOf { kTemplate, kScan };
 
 /// Reads a landmark file: YAML with the keys `template: {chin: 966}` and `scan: {chin: [x, y, z]}`,

@@ -12,8 +12,8 @@ namespace crowdface {
 struct LandmarkName {
   std::string_view name;
   std::string_view where;  ///< description for the user
-  /// Whether find_landmarks looks for it on scans: its place is marked by edges or grooves of the
-  /// skin. Heads differ too much at the places that are only the widest or the highest of the head.
+  /// Whether find_landmarks searches the landmark on scans: edges or grooves of the skin mark its
+  /// place. A landmark that is only the widest or highest point varies too much.
   bool is_found_on_scans = false;
 };
 

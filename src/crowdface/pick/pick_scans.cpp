@@ -32,8 +32,8 @@ void PickScans::open(std::size_t number) {
   PickInputs inputs = read_(entries_[number]);
   const std::lock_guard lock(mutex_);
   // Template landmarks picked for the previous scan are reused for the next.
-  if (inputs.of_template.empty() && current_ && is_picked(number_)) {
-    inputs.of_template = entries_[number_].landmarks;
+  if (inputs.template_landmarks.empty() && current_ && is_picked(number_)) {
+    inputs.template_landmarks = entries_[number_].landmarks;
   }
   current_ = std::make_shared<OpenScan>(std::move(inputs));
   number_ = number;

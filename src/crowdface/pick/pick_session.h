@@ -42,7 +42,7 @@ class PickSession {
   const PickInputs& inputs() const { return inputs_; }
   const PickableMesh& of_template() const { return template_; }
   const PickableMesh& of_scan() const { return scan_; }
-  /// Up and front direction of the head on the scan: given or estimated.
+  /// Up and front direction of the head on the scan, given or estimated.
   const PoseHint& scan_orientation() const { return scan_orientation_; }
   /// The landmarks read from the file or saved last.
   std::vector<PickedLandmark> landmarks() const;

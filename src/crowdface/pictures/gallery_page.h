@@ -20,8 +20,8 @@ std::optional<std::filesystem::path> find_gallery_page();
 /// Whether a crowd with this config gets a gallery with this installation.
 bool has_gallery(const Config& config);
 
-/// The hash of the gallery page that a crowd with this config gets; the hash of no data if it gets
-/// none.
+/// The hash of the gallery page that a crowd with this config gets; the hash of no data if the
+/// crowd gets no page.
 Digest gallery_page_digest(const Config& config);
 
 }  // namespace crowdface

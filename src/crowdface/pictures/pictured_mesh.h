@@ -14,9 +14,9 @@
 
 namespace crowdface {
 
-/// The mesh in pictures: that of the faces or, with `neck.show_body`, one mesh of face and body. The
-/// body's rim is joined to the ring of the face, so that both have the same normals there. The body
-/// is cut at the chest. Vertices and polygons of the face come first.
+/// The mesh that pictures show: the faces' mesh or, with `neck.show_body`, a joint mesh of face and
+/// body. The body's rim is joined to the ring of the face, so that both have the same normals
+/// there. The body is cut at the chest. Vertices and polygons of the face come first.
 class PicturedMesh {
  public:
   /// Height of the body in pictures of faces, below the heads, as a fraction of the heads' height.

@@ -64,7 +64,7 @@ struct CrowdPlan {
       points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
 };
 
-/// Options for drawing the attachments of a crowd, from the config.
+/// Options for sampling the attachments of a crowd, from the config.
 AttachmentDraw attachment_draw(const Config& config);
 
 /// Casts the crowd.

@@ -54,8 +54,8 @@ class FaceBuilder {
   /// is mirrored. \param face  #V by 3; only contact_vertices() need positions
   void correct_contacts(const Recipe& recipe, Positions& face) const;
 
-  /// The motion of a finished face, before it is mirrored, onto a body (config section `neck`); none
-  /// if it needs none.
+  /// The rigid motion that moves a finished face, before mirroring, onto a body (config section
+  /// `neck`); nothing if the face stays in place.
   std::optional<RigidMotion> motion_to_body(const Recipe& recipe) const;
 
   /// Defects in the skin of a face built from this recipe, compared with its target head.

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// Computes everything beyond the blended positions that a face's files need.
+/// Computes the data of a face's files that blending does not give.
 struct FaceFinisher {
   const FaceTextures& textures;
   const FaceAttachments& attachments;

@@ -30,7 +30,7 @@ class FaceTraits {
 
  private:
   /// Whether landmarks are those of the written face, or of the face without a body: casting judges
-  /// the latter, so that a body does not change who the faces are.
+  /// the face without a body, so that a body does not change the recipes.
   enum class Neck { kBent, kAsBlended };
   Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
   /// Replaces the rows of wanted_ by those of the mirrored face.

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Options for this crowd's GLB files: axes and units, materials, textures, shapes.
+/// Options for the crowd's GLB files: axes and units, materials, textures, shapes.
 /// \param shared  see MeshSource
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared = {});
 

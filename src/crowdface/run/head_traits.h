@@ -26,7 +26,7 @@ struct HeadLandmarks {
   Positions points_on(const Positions& mesh, double mm_per_unit) const;
 };
 
-/// Finds the landmarks on the mean of the heads, or takes them from the file of the config.
+/// Finds the landmarks on the mean of the heads, or reads them from the config's landmark file.
 /// \throws UsageError if a place in the file is not on the heads, or a name is not of a landmark.
 HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
 

@@ -20,7 +20,7 @@ namespace crowdface {
 /// Writes a file of the crowd's folder. \return the hash of its bytes.
 using WriteFile = std::function<FileDigest(const std::filesystem::path& path, const TextPieces&)>;
 
-/// What the table tells of heads and attachments.
+/// The tags of heads and kinds of attachments, for the table.
 TableFacts table_facts(const Config& config);
 
 /// Writes the plan of a cast crowd, the table, and the files that go with them; then a marker file,

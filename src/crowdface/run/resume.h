@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps that let a run resume where another one stopped.
+// The steps with which a run resumes a stopped run.
 #pragma once
 
 #include <cstddef>

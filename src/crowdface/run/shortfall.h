@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages to the user about crowds that cannot be cast, or perhaps cannot.
+// Messages to the user about crowds that certainly or possibly
+// cannot be cast.
 #pragma once
 
 #include <cstdint>

@@ -27,8 +27,8 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_heads);
 
-/// Those of the warnings that say that the head may be wrong in a place: features, found landmarks
-/// and the place of the face.
+/// The warnings about places where the head may be wrong: features, found landmarks and the place
+/// of the face.
 std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result);
 
 /// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
@@ -44,7 +44,7 @@ struct WrapFacts {
   std::map<std::string, double> left_out_mm;
   /// See `unseen_landmarks`; empty: not requested.
   std::map<std::string, double> unseen_mm = {};
-  /// Share of the textures, 0 to 1, that is filled because the scan does not show it.
+  /// Share of the textures, 0 to 1, that the scan does not show and that is therefore filled.
   std::optional<double> filled_share = {};
 };
 

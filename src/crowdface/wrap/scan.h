@@ -27,9 +27,9 @@ void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept)
 /// #V: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
 
-/// How much of a surface is missing that would close it: the length of the sum of the triangles' area
-/// vectors, as a share of the area. 0 for a closed surface, less than 0.2 for a head with its neck,
-/// about 0.5 for half a head, 0.8 for a face alone.
+/// How far a surface is from being closed: the length of the sum of the triangles' area vectors, as
+/// a share of the area. 0 for a closed surface, less than 0.2 for a head with its neck, about 0.5
+/// for half a head, 0.8 for a face alone.
 double missing_share(const Scan& scan);
 
 /// The vertices at which the surface ends, ascending: the vertices of all boundary loops that are

@@ -55,7 +55,7 @@ class ScanSurface {
 /// \param distances  not negative; may be empty
 double outlier_distance(std::vector<double> distances, double reach);
 
-/// The inverse of y = s R x + t: x = Rᵀ (y − t) / s.
+/// The inverse of the similarity y = s R x + t: x = Rᵀ (y − t) / s.
 Similarity inverse(const Similarity& motion);
 
 }  // namespace crowdface

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// Uncertainty of a picked landmark, which includes that people's faces differ there.
+/// Uncertainty of a picked landmark, including the variation between people's faces.
 inline constexpr double kPickedErrorMm = 3;
 
 /// A landmark marked on both template and scan.

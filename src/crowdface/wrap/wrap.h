@@ -27,7 +27,8 @@ struct LandmarkResidual {
 /// A feature with less agreement is doubtful.
 inline constexpr double kDoubtfulAgreement = 0.7;
 
-/// How well a feature of the wrapped template agrees with the template's, see `relief_agreements`.
+/// Agreement of a feature's relief on the wrapped template with the relief on the template; see
+/// `relief_agreements`.
 struct FeatureAgreement {
   std::string name;
   double agreement = 1;

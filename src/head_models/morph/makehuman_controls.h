@@ -20,12 +20,12 @@ struct MakeHumanPerson {
   std::array<double, 3> ancestry{};   ///< shares of kAncestries; sum 1
   double muscle = 0.5, weight = 0.5;  ///< 0 (least) … 1 (most)
 };
-/// Draws the person of head `index` of a seed.
+/// Samples the person of head `index` of a seed.
 MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index);
 
-/// Returns the weighted morph targets of head `index`: those of the person (sex, age, ancestry,
-/// build), then those of about a hundred random measures of head, forehead, brows, eyes, nose,
-/// mouth, chin, cheeks, ears, neck and asymmetry. Targets of weight zero are omitted.
+/// Returns the weighted morph targets of head `index`: the targets of the person (sex, age,
+/// ancestry, build), then the targets of about a hundred random measures of head, forehead, brows,
+/// eyes, nose, mouth, chin, cheeks, ears, neck and asymmetry. Targets of weight zero are omitted.
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index);
 

@@ -26,12 +26,12 @@ std::vector<SkinShare> makehuman_skin(const std::filesystem::path& package,
 /// Returns the pigment density of a person's skin relative to the textures: 0.75 to 1.25.
 double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
 
-/// Draws a person's eye colour, the name of a material of the package's eyes. "brown" has a
+/// Samples a person's eye colour: the name of a material of the package's eyes. "brown" has a
 /// probability of 0.9 for African, 0.85 for Asian and 0.25 for Caucasian ancestry.
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index);
 
-/// Draws a person's hair colour in young years, a name of named_hair_colours. Light and red hair
+/// Samples a person's hair colour in young years: a name of named_hair_colours. Light and red hair
 /// have a probability above zero for Caucasian ancestry only.
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index);
