@@ -63,7 +63,7 @@ std::vector<WrapLandmark> find_landmarks(
   // Estimate the pose of the template on the scan.
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
   Positions rest = shape.skin.rows_of(shape.positions);
-  if (shape.reduced) rest = bent.of(rest);
+  if (shape.reduced) rest = bent.rows_of(rest);
   const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face);
   const Positions placed = inverse(pose).apply(scan.positions);
   std::optional<ReliefMatch> face = hint.face;

@@ -102,10 +102,10 @@ struct Small {
 Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
              const std::vector<WrapLandmark>& landmarks, const Similarity& pose) {
   const SkinMesh& mesh = shape.reduced->mesh;
-  Small small{mesh.of(rest), std::nullopt, landmarks};
+  Small small{mesh.rows_of(rest), std::nullopt, landmarks};
   if (model != nullptr) {
-    small.model = ShapeModel{mesh.of(model->mean), {}};
-    for (const Positions& mode : model->modes) small.model->modes.push_back(mesh.of(mode));
+    small.model = ShapeModel{mesh.rows_of(model->mean), {}};
+    for (const Positions& mode : model->modes) small.model->modes.push_back(mesh.rows_of(mode));
   }
   for (WrapLandmark& landmark : small.landmarks) {
     Index nearest = 0;
@@ -131,7 +131,7 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
                               "(--scan-up, --scan-front), found ",
                               landmarks.size(), " landmarks"));
   }
-  return guess_pose(bent, shape.reduced ? bent.of(rest) : rest, shape.axes, surface, *hint,
+  return guess_pose(bent, shape.reduced ? bent.rows_of(rest) : rest, shape.axes, surface, *hint,
                     shape.face);
 }
 
