@@ -47,7 +47,7 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// Keeps the heads that are in `others` or, if `own` is false, those that are not.
+/// Keeps the heads that are in `others` or, if `own` is false, the heads that are not in `others`.
 /// \param head  returns the head of an item.
 template <class Heads, class Head>
 Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, const Head& head) {

@@ -19,7 +19,7 @@ YamlNode option_node(const char* option, const std::string& text) {
   return node;
 }
 
-/// Inserts the reviews stored in the crowd's folder before those that the config names.
+/// Inserts the reviews stored in the crowd's folder before the reviews that the config names.
 void put_first(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
   YamlNode reviews;
   reviews.kind = YamlNode::Kind::kList;

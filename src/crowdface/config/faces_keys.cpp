@@ -80,7 +80,7 @@ void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
 }
 
-/// Reads a list of heads. \return whether all of them are files that may be heads.
+/// Reads a list of heads. \return whether all entries are files that may be heads.
 bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
                     std::vector<const YamlNode*>& nodes, ConfigDraft& draft) {
   bool sound = true;

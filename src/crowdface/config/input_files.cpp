@@ -89,7 +89,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
       if (count > counts[kind]) kind = ending;
     }
   }
-  // Remove files of other formats, and those with the stem of an OBJ file.
+  // Remove files of other formats, and files with the stem of an OBJ file.
   std::set<std::string> named;
   for (const fs::path& file : files) {
     if (is_obj(file)) named.insert(file.stem().string());

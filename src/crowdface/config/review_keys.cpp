@@ -17,7 +17,7 @@ using Verdict = ReviewMark::Verdict;
 constexpr std::size_t kLongestNote = 2000;
 constexpr std::uint64_t kMostFaces = 1'000'000;
 
-/// Returns every id of this config's crowd except those of sampled faces.
+/// Returns every id of this config's crowd except the ids of sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
   std::vector<std::string> ids;
   for (const ManualRecipe& recipe : config.recipes) ids.push_back(recipe.id);
@@ -143,9 +143,9 @@ std::string completed(std::string text, const Review& review, const Review& kept
   return text;
 }
 
-/// Adds a review file, unless an earlier one is a copy of it. A review that does not state the
-/// number of faces that it is about gets this number; a kept review also gets the smallest distance
-/// that its faces have, if the crowd's changes.
+/// Adds a review file, unless it is a copy of an earlier review file. A review that does not state
+/// the number of faces that it is about gets this number; a kept review also gets the smallest
+/// distance that its faces have, if the crowd's changes.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;

@@ -26,7 +26,7 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   return json;
 }
 
-/// The first band's values stand directly in the object, those of the other bands under their
+/// The first band's values stand directly in the object, the values of the other bands under their
 /// names.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether the weights are exactly those that the position determines.
+/// Whether the weights exactly equal the weights that the position determines.
 bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                          const CastingOptions& casting) {
   return band.position &&
@@ -42,7 +42,7 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
   return json;
 }
 
-/// The first band's values stand directly in the object, those of the other bands under their
+/// The first band's values stand directly in the object, the values of the other bands under their
 /// names.
 Json region_to_json(const RegionRecipe& region, Index target, const CastingOptions& casting,
                     const std::vector<std::string>& heads) {

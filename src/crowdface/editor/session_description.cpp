@@ -50,7 +50,7 @@ std::string hex_colour(const Eigen::Vector3f& colour) {
   return text;
 }
 
-/// The range of smoothness from which casting draws, as fractions of L_max.
+/// The range of smoothness from which casting samples, as fractions of L_max.
 Range fractions_of(const SmoothnessDistribution& smoothness, const LevelScale& scale) {
   const auto fraction = [&](double value) {
     double share = value;

@@ -75,7 +75,7 @@ void hold_ring(const Inputs& inputs, Displacements& moves) {
   if (inputs.neck) inputs.neck->seam.hold(moves);
 }
 
-/// Loads the template's shapes; skips those that the template lacks.
+/// Loads the template's shapes; skips shapes that the template lacks.
 ShapeSet load_template(const Source& source, const Inputs& inputs, double extent,
                        Problems& problems) {
   const Config::Shapes& asked = source.config.shapes;

@@ -182,7 +182,7 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
     if (inputs.parts.classes[c] == PartClass::kSkin) add(lines[0], c);
   }
   for (const Part& part : inputs.parts.parts) {
-    // There may be dozens of eyelash components: those of one material share a line.
+    // There may be dozens of eyelash components; components of the same material share a line.
     const bool again = part.part_class == PartClass::kBound && lines.back().what == "bound" &&
                        label(lines.back().components[0]) == label(part.components[0]);
     if (!again) lines.push_back({part_name(part), {}, 0});

@@ -242,7 +242,7 @@ void finish_reading(HeadReading& reading, MeshShelf& shelf) {
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
 }
 
-/// Gives heads without polygons those of the first mesh with as many vertices.
+/// Gives heads without polygons the polygons of the first mesh with as many vertices.
 void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
                           std::vector<std::optional<Error>>& errors) {
   for (std::size_t i = 0; i < files.size(); ++i) {

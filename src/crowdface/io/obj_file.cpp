@@ -72,7 +72,8 @@ void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
   clear_if_all_none(result.corner_normals);
 }
 
-/// Checks that the loader and the scan agree on the file; otherwise one of them has an error.
+/// Checks that the loader and the scan agree on the file; otherwise the loader or the scan has an
+/// error.
 void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
   const Topology& topology = result.topology;
   const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);

@@ -21,7 +21,8 @@ std::vector<float> leading_numbers(std::string_view text) {
   return numbers;
 }
 
-/// The texture whose name ends a statement; among several the one with the longest name.
+/// The texture whose name ends a statement; among several textures, the texture with the longest
+/// name.
 std::filesystem::path texture_at_end(std::string_view rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
   for (const std::string_view suffix : word_suffixes(rest)) {

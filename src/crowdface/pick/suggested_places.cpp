@@ -67,7 +67,7 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   return residuals;
 }
 
-/// Returns the index of the pair whose residual is far larger than those of the other pairs, or
+/// Returns the index of the pair whose residual is far larger than the other pairs' residuals, or
 /// residuals.size() if there is no such pair.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
   // Corresponding points of two faces differ by about 5 mm after a similarity fit.

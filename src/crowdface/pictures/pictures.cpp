@@ -29,7 +29,8 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
   return page;
 }
 
-/// Removes scripts whose name is not in `names`, such as those of faces no longer in the crowd.
+/// Removes scripts whose name is not in `names`, such as scripts of faces that are no longer in the
+/// crowd.
 void remove_others(const fs::path& folder, const std::set<std::string>& names) {
   for (const fs::path& path : list_files(folder, has_ending(".js"))) {
     if (!names.contains(path.stem().string())) remove_if_exists(path);

@@ -47,7 +47,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
   return line;
 }
 
-/// Memory of all forms together, and the maximum for encoding one of them, in bytes.
+/// Memory of all forms together, and the maximum for encoding one form, in bytes.
 template <class Forms, class FormOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
   std::size_t memory = 0, encode = 0;

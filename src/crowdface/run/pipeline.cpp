@@ -50,7 +50,8 @@ void check_smoothness(const SmoothnessDistribution& distribution, const std::str
   }
 }
 
-/// Adds a problem unless each band begins below the previous one for all values that can be drawn.
+/// Adds a problem unless each band begins below the previous one for all values that can be
+/// sampled.
 /// \param where  prefix of the config keys in messages
 void check_sampling(const SamplingOptions& sampling, const std::string& where, const Config& config,
                     const Inputs& inputs, Problems& problems) {

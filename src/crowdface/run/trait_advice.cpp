@@ -30,7 +30,7 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
   return join(names);
 }
 
-/// A face of the kind that could not be found, with the limits that hold for it.
+/// A face of the kind that could not be found, with this kind's limits.
 FacePlan draw_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
                            std::uint32_t attempt) {
   const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);

@@ -286,7 +286,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
              result.dropped.empty() ? "" : concat("; wrong and not used: ", join(result.dropped))));
 }
 
-/// Writes the page over all scans of the batch, also those of other shards.
+/// Writes the page over all scans of the batch, including the scans of other shards.
 void write_page(const WrapOptions& options, const std::vector<Task>& tasks) {
   std::vector<WrappedScan> scans;
   for (const Task& task : tasks) scans.push_back({task.scan, task.report, task.picture});

@@ -68,7 +68,7 @@ std::string WrapTextures::materials_text(const TextureFiles& files) const {
   return OwnMaterials(inputs_.file.material_path(), inputs_.file.material_libraries).text(textures);
 }
 
-/// Copies the textures that the head keeps, such as those of the eyes.
+/// Copies the textures that the head keeps, such as the eyes' textures.
 void WrapTextures::copy_other_textures(const fs::path& folder) const {
   const ObjFile& file = inputs_.file;
   NamedTextures named = find_textures(file.material_path(), file.material_libraries);

@@ -130,7 +130,7 @@ bool turns_over(const Positions& rest, const Positions& before, const Positions&
   return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
-/// Triangles that the offsets flip, among those with a changed vertex.
+/// Triangles that the offsets flip, among the triangles with a changed vertex.
 std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& rest,
                                        const Positions& before, const Positions& normals,
                                        const Eigen::VectorXd& along,
