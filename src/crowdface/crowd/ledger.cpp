@@ -179,7 +179,7 @@ Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& 
   };
   for (const fs::path& other : others) {
     if (other == own) continue;
-    others_.push_back(other);
+    other_ledgers_.push_back(other);
     add(read_ledger(other));
   }
   LedgerLines lines = read_ledger(own);
@@ -359,7 +359,7 @@ void Ledger::settle() {
   remove_outdated_files();
   const TextPieces text = [&](const TakePiece& take) { give_text(take); };
   if (has_appended_ || !has_content(own_, digest_of(text))) write_file(own_, text);
-  for (const fs::path& other : others_) {
+  for (const fs::path& other : other_ledgers_) {
     std::error_code error;
     if (!fs::remove(other, error) && error) {
       throw IoError(concat(other.string(), ": cannot be removed: ", error.message()));

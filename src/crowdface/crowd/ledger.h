@@ -128,7 +128,7 @@ class Ledger {
   void give_text(const TakePiece& take) const;
 
   std::filesystem::path root_, own_;
-  std::vector<std::filesystem::path> others_;
+  std::vector<std::filesystem::path> other_ledgers_;
   std::map<std::string, Item> items_;
   std::vector<LedgerEntry::File> replaced_;  ///< files of lines that newer lines replaced
   bool has_appended_ = false;                ///< whether this run has appended lines

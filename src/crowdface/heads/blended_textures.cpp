@@ -183,7 +183,7 @@ void choose_sizes(const HeadsTextures& found, const std::map<fs::path, ImageSize
   }
 }
 
-/// What the maps of an image contain, according to its kind and the first of its files.
+/// The content and channels of an image's maps, by its kind and its first file.
 /// \param channels  largest number of channels of its files
 NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
   switch (kind) {

@@ -33,7 +33,7 @@ class BodyPainter {
   TextureCoordinates uvs_;
   std::shared_ptr<const TextureMap> map_;
   std::unique_ptr<const SurfaceTexels> texels_;
-  Positions own_at_ring_;  ///< optical densities of the body, #rim by 3
+  Positions body_at_ring_;  ///< optical densities of the body, #rim by 3
   NeckBend fade_;
 };
 

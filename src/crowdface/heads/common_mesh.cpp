@@ -282,7 +282,7 @@ const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& m
   return read.empty() ? find_separate_mesh(joined, made) : find_whole_mesh(read, made);
 }
 
-/// What the export of a head did with its vertices; empty if nothing.
+/// How the export of a head changed its vertices, as a message; empty if it did not.
 std::string difference_made(const HeadFile& head, const Vertices& vertices) {
   const auto found = static_cast<std::size_t>(head.file.positions.rows());
   if (found > vertices.size()) {

@@ -40,12 +40,12 @@ FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs,
 void FaceAttachments::bind(const Config& config, const std::vector<bool>& wanted) {
   const AttachmentSet& set = inputs_.attachments;
   std::vector<const Attachment*> meshes;
-  of_item_.resize(set.items.size());
+  bound_of_item_.resize(set.items.size());
   for (std::size_t i = 0; i < set.items.size(); ++i) {
     if (!wanted[i]) continue;
     const auto known = std::ranges::find_if(
         meshes, [&](const Attachment* mesh) { return equal_meshes(*mesh, set.items[i]); });
-    of_item_[i] = static_cast<std::size_t>(known - meshes.begin());
+    bound_of_item_[i] = static_cast<std::size_t>(known - meshes.begin());
     if (known == meshes.end()) meshes.push_back(&set.items[i]);
   }
   if (meshes.empty()) return;
@@ -69,7 +69,7 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
   for (const AttachmentLook& look : inputs_.attachments.looks(face)) {
-    const Bound& bound = bound_[of_item_[inputs_.attachments.index(look.item->name)]];
+    const Bound& bound = bound_[bound_of_item_[inputs_.attachments.index(look.item->name)]];
     placed.push_back({look.item, look.colour, bound.carrier->carry(positions, normals)});
     PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {

@@ -63,7 +63,7 @@ class FaceAttachments {
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments
   std::vector<Bound> bound_;
-  std::vector<std::size_t> of_item_;  ///< #items, index into `bound_`
+  std::vector<std::size_t> bound_of_item_;  ///< #items, index into `bound_`
 };
 
 }  // namespace crowdface

@@ -113,7 +113,7 @@ struct Poses {
   }
 };
 
-/// What the heads are placed on.
+/// The body on which the heads are placed, and the heads' rotation.
 struct Goal {
   NeckBody body;
   Matrix3d rotation = Matrix3d::Identity();  ///< of all heads, from their common pose

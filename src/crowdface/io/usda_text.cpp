@@ -39,7 +39,7 @@ std::string usda_name(std::string_view text) {
 std::string UsdaNames::add(std::string_view text) {
   const std::string plain = usda_name(text);
   std::string name = plain;
-  for (std::size_t number = 2; !known_.insert(name).second; ++number) {
+  for (std::size_t number = 2; !used_names_.insert(name).second; ++number) {
     name = concat(plain, '_', number);
   }
   return name;

@@ -20,7 +20,7 @@ class UsdaNames {
   std::string add(std::string_view text);
 
  private:
-  std::set<std::string> known_;
+  std::set<std::string> used_names_;
 };
 
 /// Formats a list: "[1, 2, 3]".

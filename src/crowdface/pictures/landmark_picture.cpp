@@ -22,7 +22,7 @@ struct Pixel {
   double x, y;
 };
 
-/// Where a camera shows a point.
+/// The pixel at which a camera shows a point.
 Pixel project(const Camera& camera, const Eigen::Vector3d& point, int width) {
   const Eigen::Vector3d away = point - camera.target;
   const double depth = camera.distance - away.dot(camera.back);

@@ -26,7 +26,7 @@ constexpr std::string_view kHead = R"(<!doctype html>
 <h1>Wrapped scans, the most doubtful first</h1>
 )";
 
-/// What the page says of one scan.
+/// The content of a scan's row on the page.
 struct ScanRow {
   std::string name, picture;
   std::string worst;       ///< the feature that agrees least
