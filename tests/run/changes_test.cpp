@@ -149,7 +149,8 @@ TEST_F(Changes, OfAgeAndLooksTouchOneFaceAndAreTold) {
 
 TEST_F(Changes, OfTheAgeMoveWeightsToOldHeads) {
   run("{mob_0002: {age: 1}}");
-  for (const auto& region : line("mob_0002").at("regions")) {
+  const json aged = line("mob_0002");
+  for (const auto& region : aged.at("regions")) {
     EXPECT_EQ(region.at("weights"), json({{"bob", 1.0}}));
   }
   run("{mob_0002: {wears: []}}");
@@ -325,6 +326,16 @@ TEST_F(Changes, OfReviewsMadeAtTheSameTimeAreMerged) {
 
   review("c.yaml", "after: 2\nfaces: {mob_0002: reject}");  // of the redrawn face
   EXPECT_NE(line("mob_0002").at("regions"), second.at("regions"));
+}
+
+TEST_F(Changes, HairColoursThatAgeTurnsGreyAreTold) {
+  testing::run(folder_, {"attachments.hair_colours={red: 1}", "sampling.targets=[bob]"},
+               Replace::kForce);
+  const json report = testing::read_json(folder_.out() / "report.json");
+  std::vector<std::string> warnings;
+  for (const json& text : report.at("warnings")) warnings.push_back(text);
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::ContainsRegex(
+                            "attachments.hair_colours.red: .* of them grey with age")));
 }
 
 // What tags, quotas, groups and later reviews take precedence over is told, with the faces.

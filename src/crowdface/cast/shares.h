@@ -30,8 +30,8 @@ std::vector<int> scatter_shares(const std::vector<double>& shares, std::uint64_t
                                 std::uint64_t seed, const std::string& purpose);
 
 /// Like scatter_shares, but a share gets ⌊q·n⌋ of the first n faces or one more, also if the shares
-/// sum to 1. For each face, a share (or none) is chosen
-/// at random among those after which all shares can still get their faces.
+/// sum to 1. For each face, a share (or none) is chosen at random among those after which all
+/// shares can still get their faces.
 std::vector<int> scatter_exactly(std::vector<double> shares, std::uint64_t count,
                                  std::uint64_t seed, const std::string& purpose);
 

@@ -19,9 +19,6 @@
 namespace crowdface {
 namespace {
 
-/// Raised when the same config gives another plan: plans of an older version are cast again.
-constexpr int kCastVersion = 1;
-
 /// Hash of everything that a plan depends on.
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;

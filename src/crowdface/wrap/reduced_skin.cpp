@@ -22,7 +22,7 @@ namespace {
 std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
                                                        const Positions& positions,
                                                        const SkinMesh& small) {
-  const Positions corners = small.of(positions);
+  const Positions corners = small.rows_of(positions);
   const VertexFaces around(topology_of(small.triangles, small.vertex_count()));
   const std::vector<std::uint32_t> source =
       nearest_along_edges(skin.adjacency, positions, small.vertices);

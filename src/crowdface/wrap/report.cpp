@@ -108,7 +108,7 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
 
 /// Paints the doubtful features red. Nothing if there are none.
 std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const WrapResult& result) {
-  if (std::ranges::none_of(result.features, &FeatureAgreement::doubtful)) return std::nullopt;
+  if (std::ranges::none_of(result.features, &FeatureAgreement::is_doubtful)) return std::nullopt;
   Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(shape.topology.vertex_count);
   for (const FeatureAgreement& feature : result.features) {
     if (!feature.is_doubtful()) continue;
