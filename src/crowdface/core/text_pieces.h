@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions that make, write and read texts in pieces, because
-// the texts of a large crowd may not fit in memory.
+// Functions that make, write and read texts in pieces, because the texts of a large crowd may not
+// fit in memory.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages to the user about crowds that certainly or possibly
-// cannot be cast.
+// Messages to the user about crowds that certainly or possibly cannot be cast.
 #pragma once
 
 #include <cstdint>
