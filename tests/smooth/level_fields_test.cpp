@@ -139,7 +139,7 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
           choose_fewest_functions(values.data(), kFields, functions.data(), kFields, kLevelCount,
                                   static_cast<float>(missed[kept] * 1.001));
       EXPECT_EQ(found.kept, kept);
-      EXPECT_NEAR(static_cast<double>(found.squared), missed[kept], 1e-5 * missed[kept]);
+      EXPECT_NEAR(static_cast<double>(found.squared_error), missed[kept], 1e-5 * missed[kept]);
       EXPECT_EQ(found.level, where[kept]);
     }
   }

@@ -64,14 +64,14 @@ TEST_F(LeafBoxesTest, HoldTheirTrianglesWithTheMargin) {
 
 TEST_F(LeafBoxesTest, WhereThereAreFewerTheRestOverlapsNothing) {
   const LeafBoxes few(corners(3), points_, 0.1), all(corners(8), points_, 10);
-  EXPECT_EQ(overlapping(few, all), 0x0000'0000'00ff'ffffU);
-  EXPECT_EQ(overlapping(all, few), 0x0707'0707'0707'0707U);
+  EXPECT_EQ(overlap_mask(few, all), 0x0000'0000'00ff'ffffU);
+  EXPECT_EQ(overlap_mask(all, few), 0x0707'0707'0707'0707U);
 }
 
 TEST_F(LeafBoxesTest, BitsAreThoseOfEachPair) {
   const LeafBoxes boxes(corners(8), points_, 0.01);
   const LeafNormals normals(corners(8), points_);
-  const std::uint64_t near = overlapping(boxes, boxes),
+  const std::uint64_t near = overlap_mask(boxes, boxes),
                       alike = facing_alike(normals, normals, 0.3F);
   for (std::size_t i = 0; i < 8; ++i) {
     for (std::size_t j = 0; j < 8; ++j) {

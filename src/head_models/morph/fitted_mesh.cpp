@@ -95,7 +95,7 @@ Positions FittedMesh::fitted_to(const Positions& base) const {
 void FittedMesh::anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base) {
   require(rows.size() >= 3, "fitted mesh: ", rows.size(),
           " vertices to hold to, at least 3 needed");
-  const Positions places = on(base);
+  const Positions places = fitted_to(base);
   for (Index v = 0; v < places.rows(); ++v) {
     std::vector<std::pair<double, std::uint32_t>> near;
     for (const std::uint32_t row : rows) {

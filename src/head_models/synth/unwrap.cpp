@@ -56,30 +56,30 @@ Eigen::Vector2d disc_centre() {
 }
 
 /// Half-axes of the edge of an opening and of its hole, relative to the opening.
-struct Opening {
+struct HalfAxes {
   Eigen::Vector2d edge, hole;
 };
-Opening opening_of(Sheet sheet) {
+HalfAxes half_axes_of(Sheet sheet) {
   if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};
   if (sheet == Sheet::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
   if (sheet == Sheet::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
   return {{0.4, 0.4}, {0.4, 0.4}};
 }
 
-Eigen::Vector2d in_window(const Address& address) {
-  const Opening opening = opening_of(address.sheet);
+Eigen::Vector2d in_opening(const Address& address) {
+  const HalfAxes axes = half_axes_of(address.sheet);
   if (address.sheet == Sheet::kEarCore) {
-    return {opening.edge.x() * (2 * address.a - 1), opening.edge.y() * (1 - 2 * address.b)};
+    return {axes.edge.x() * (2 * address.a - 1), axes.edge.y() * (1 - 2 * address.b)};
   }
   const Eigen::Vector2d start = on_square(address.a);
   const Eigen::Vector2d round = address.sheet == Sheet::kEar ? start : start / start.norm();
-  const Eigen::Vector2d edge = round.cwiseProduct(opening.edge);
+  const Eigen::Vector2d edge = round.cwiseProduct(axes.edge);
   if (address.b <= 1) return start + (edge - start) * address.b;
-  return edge + (round.cwiseProduct(opening.hole) - edge) * (address.b - 1);
+  return edge + (round.cwiseProduct(axes.hole) - edge) * (address.b - 1);
 }
 
 /// Maps a point q in the square [−1, 1]² of an opening to texture coordinates.
-Eigen::RowVector2d unwrap_window(Sheet sheet, double side, const Eigen::Vector2d& q) {
+Eigen::RowVector2d unwrap_opening(Sheet sheet, double side, const Eigen::Vector2d& q) {
   const Opening& w = opening_of(sheet);
   const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
   const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
@@ -116,7 +116,7 @@ double strip_v(double unit) {
 }
 
 Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place) {
-  return unwrap_window(sheet, side, place.cwiseProduct(opening_of(sheet).hole));
+  return unwrap_opening(sheet, side, place.cwiseProduct(half_axes_of(sheet).hole));
 }
 
 Eigen::RowVector2d unwrap(const Address& address) {
@@ -126,7 +126,7 @@ Eigen::RowVector2d unwrap(const Address& address) {
     return scaled(across(address.a), -kCapHeight * address.b / deep);
   }
   const Sheet sheet = address.sheet == Sheet::kEarCore ? Sheet::kEar : address.sheet;
-  return unwrap_window(sheet, address.side, in_window(address));
+  return unwrap_opening(sheet, address.side, in_opening(address));
 }
 
 }  // namespace crowdface::synth
