@@ -165,7 +165,7 @@ TEST(Sheets, ManyPagesHaveSeveralIndicesAndBooks) {
   EXPECT_FALSE(fs::exists(sheets / "index_003.png"));
   EXPECT_THAT(read_file(sheets / "sheets_001.pdf"), HasSubstr("/Count 65"));
   EXPECT_THAT(read_file(sheets / "sheets_002.pdf"), HasSubstr("/Count 8"));
-  EXPECT_TRUE(verify_crowd(folder.out()).good());
+  EXPECT_TRUE(verify_crowd(folder.out()).is_intact());
   folder.folder().write("out/sheets/index_of_cast.png", "mine");
   folder.folder().write("out/sheets/sheets_for_us.pdf", "mine");
   remake_sheets(folder.out(), {"output.contact_sheet.rows=4"}, folder.cache());
@@ -273,10 +273,10 @@ TEST(Sheets, MadeAnewTheyAreVerifiedAndGivenBackAsTheConfigHasThem) {
   for (const char* change : {"output.contact_sheet.columns=1", "output.contact_sheet.cell=64"}) {
     remake_sheets(folder.out(), {change});
     EXPECT_NE(read_file(sheet), before) << change;
-    EXPECT_TRUE(verify_crowd(folder.out()).good()) << change;
+    EXPECT_TRUE(verify_crowd(folder.out()).is_intact()) << change;
     run(folder);
     EXPECT_EQ(read_file(sheet), before) << change;
-    EXPECT_TRUE(verify_crowd(folder.out()).good()) << change;
+    EXPECT_TRUE(verify_crowd(folder.out()).is_intact()) << change;
   }
 }
 

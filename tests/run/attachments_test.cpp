@@ -172,7 +172,7 @@ TEST_F(AttachmentsOfACrowd, LieBesidePlyFilesAsObj) {
   EXPECT_TRUE(fs::exists(mesh("herself.ply")));
   EXPECT_TRUE(fs::exists(mesh("herself+cap.obj")));
   EXPECT_TRUE(fs::exists(mesh("attachments/cap/cap.mtl")));
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 TEST_F(AttachmentsOfACrowd, GoAlongWithExpressionsInFilesOfTheirOwn) {
@@ -263,7 +263,7 @@ TEST_F(AttachmentsOfACrowd, AreReducedOnLevelsOfDetailUnlessTheyAreSmall) {
                   .at(0)
                   .at("lods")
                   .contains("LOD1+veil.obj"));
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
   fs::remove(mesh("herself+LOD2+veil.obj"));
   EXPECT_THAT(verify_crowd(folder_.out()).missing,
               ::testing::ElementsAre("meshes/herself+LOD2+veil.obj"));
@@ -392,7 +392,7 @@ TEST_F(AttachmentsOfACrowd, HaveTheHairColourOfEachFace) {
   EXPECT_GE(labels.size(), 2U);
   EXPECT_TRUE(fs::exists(mesh("attachments/cap")));
   EXPECT_FALSE(fs::exists(mesh("attachments/cap/cap.mtl"))) << "the neutral files are not copied";
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 TEST_F(AttachmentsOfACrowd, AreTheSameInALargerCrowdAndWithAnyThreads) {

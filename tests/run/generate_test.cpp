@@ -361,7 +361,7 @@ TEST(Generate, NamesOfMaterialFilesMayHoldAnyBytes) {
                           }),
             3)
       << warnings.dump();
-  EXPECT_TRUE(verify_crowd(folder.out()).good());
+  EXPECT_TRUE(verify_crowd(folder.out()).is_intact());
 }
 
 // Heads of several folders may name different files alike; one crowd has room for one.

@@ -152,7 +152,7 @@ TEST_F(NeckColour, TheBodysTextureAgreesWithTheFaceAtTheRing) {
     return value_at(image, Eigen::RowVector2d(0.94, 0.5));
   };
   EXPECT_NE(far("a"), far("b")) << "each face its own";
-  EXPECT_TRUE(verify_crowd(out).good());
+  EXPECT_TRUE(verify_crowd(out).is_intact());
 }
 
 TEST_F(NeckColour, TheBodyInFilesHasTheFacesTexture) {
@@ -172,7 +172,7 @@ TEST_F(NeckColour, TheBodyInFilesHasTheFacesTexture) {
     }
   }
   EXPECT_FALSE(fs::exists(out / "meshes/attachments/body")) << "no file names these";
-  EXPECT_TRUE(verify_crowd(out).good());
+  EXPECT_TRUE(verify_crowd(out).is_intact());
 }
 
 TEST_F(NeckColour, PicturesShowTheBodyInTheFacesColour) {
@@ -198,7 +198,7 @@ TEST_F(NeckColour, PicturesShowTheBodyInTheFacesColour) {
     return rows;
   };
   EXPECT_NE(skin_rows(shown), skin_rows(alone));
-  EXPECT_TRUE(verify_crowd(folder_ / "shown").good());
+  EXPECT_TRUE(verify_crowd(folder_ / "shown").is_intact());
   EXPECT_EQ(testing::read_text(folder_ / "alone/meshes/mob_0002.obj"),
             testing::read_text(folder_ / "shown/meshes/mob_0002.obj"));
 }

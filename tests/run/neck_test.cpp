@@ -52,7 +52,7 @@ TEST_F(Neck, EveryFileOfEveryFaceEndsInTheBodysRing) {
     }
     EXPECT_EQ(files, 6 * (5 + 2 * 4)) << "six faces in five formats, levels of detail in four";
     EXPECT_GT(mirrored, 0U);
-    EXPECT_TRUE(verify_crowd(out).good());
+    EXPECT_TRUE(verify_crowd(out).is_intact());
   }
 }
 
@@ -221,7 +221,7 @@ TEST_F(Neck, GlbAndUsdFilesContainTheBody) {
             static_cast<std::size_t>(body_.positions.rows()));
   EXPECT_LT(body_in(out / "meshes/mob_0001+LOD1.glb").points.size(),
             static_cast<std::size_t>(body_.positions.rows()));
-  EXPECT_TRUE(verify_crowd(out).good());
+  EXPECT_TRUE(verify_crowd(out).is_intact());
   // Faces are those of a crowd without the body.
   const auto plain = run("{body: body.obj}", "", ", meshes: [obj]", "plain");
   EXPECT_EQ(testing::read_text(out / "meshes/mob_0004.obj"),

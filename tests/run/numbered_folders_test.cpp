@@ -108,7 +108,7 @@ TEST_F(NumberedFolders, VerifyMissesAFileAndTheNextRunMakesItAgain) {
   const fs::path out = folder_.out();
   run({kThreePerFolder}, out);
   const auto whole = crowd_files(out);
-  EXPECT_TRUE(verify_crowd(out).good());
+  EXPECT_TRUE(verify_crowd(out).is_intact());
   for (const char* name : {"meshes/001/mob_0004.npy", "renders/002/mob_0007.png"}) {
     fs::remove(out / name);
     EXPECT_THAT(verify_crowd(out).missing, ElementsAre(name));

@@ -82,7 +82,7 @@ TEST_F(OwnTextures, LieBesideMeshesThatNameThem) {
   EXPECT_TRUE(fs::exists(meshes() / "bump.png"));
   EXPECT_FALSE(fs::exists(meshes() / "ann.png"));
   EXPECT_FALSE(fs::exists(meshes() / "ann.mtl"));
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 // A variant had the skin of the people whose detail it got.
@@ -118,7 +118,7 @@ TEST_F(OwnTextures, AreMadeAgainIfTheyAreLostAndOnlyThen) {
   const fs::path kept = meshes() / "blended/mob_0001.png", lost = meshes() / "blended/mob_0003.png";
   const auto written = fs::last_write_time(kept);
   fs::remove(lost);
-  EXPECT_FALSE(verify_crowd(folder_.out()).good());
+  EXPECT_FALSE(verify_crowd(folder_.out()).is_intact());
   run(folder_, {"output.meshes=[obj, glb]"});
   EXPECT_TRUE(fs::exists(lost));
   EXPECT_EQ(fs::last_write_time(kept), written);
@@ -358,7 +358,7 @@ TEST_F(OwnMaps, OfAllKindsAreBlendedAndNamed) {
   }
   EXPECT_FALSE(fs::exists(meshes() / "ann_n.png"));
   EXPECT_TRUE(fs::exists(meshes() / "bump.png"));
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 TEST_F(OwnMaps, AreNeverBlurredByJpegAndCanAllBeExr) {

@@ -175,7 +175,7 @@ TEST_F(Planned, OneRunOfTheFoldersPlanWritesTheTableAnew) {
   folder_.folder().write("out/crowd.csv", "id\r\n");
   run_shard({}, PlanFrom::kFolderOrCasting);
   EXPECT_EQ(testing::read_text(folder_.out() / "crowd.csv"), table);
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 // A run that is stopped has left its plan to those that go on.

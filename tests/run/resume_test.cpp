@@ -134,7 +134,7 @@ TEST_F(Resume, VerifyMissesLinesOfTheLedger) {
   for (std::size_t begin = 0; begin < ledger.size(); ++lines) {
     const std::size_t end = ledger.find('\n', begin) + 1;
     folder_.folder().write("out/ledger.jsonl", ledger.substr(0, begin) + ledger.substr(end));
-    EXPECT_FALSE(verify_crowd(folder_.out()).good()) << "without line " << lines + 1;
+    EXPECT_FALSE(verify_crowd(folder_.out()).is_intact()) << "without line " << lines + 1;
     begin = end;
   }
   EXPECT_GT(lines, 12U);
@@ -143,7 +143,7 @@ TEST_F(Resume, VerifyMissesLinesOfTheLedger) {
 }
 
 TEST_F(Resume, VerifyNamesWhatIsMissingAndAltered) {
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
   EXPECT_EQ(verify_crowd(folder_.out()).files, whole_.size() - 1) << "all but the ledger itself";
   fs::remove(folder_.out() / "meshes/mob_0002.glb");
   folder_.folder().write("out/renders/mob_0003.png", "no picture");
@@ -295,14 +295,14 @@ TEST_F(Resume, SheetsOfACrowdWithoutFacesAreNone) {
   none.count = "0";
   generate(folder_.config(), none, {folder_.cache(), Replace::kForce, false});
   EXPECT_NO_THROW(remake_sheets(folder_.out(), {}, folder_.cache()));
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 TEST_F(Resume, AnotherConfigReplacesLedgerAndAll) {
   ConfigOverrides other;
   other.seed = "12";
   generate(folder_.config(), other, {folder_.cache(), Replace::kForce, false});
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
   run({}, Replace::kForce);
   expect_whole("and back");
 }

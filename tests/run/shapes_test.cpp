@@ -79,7 +79,7 @@ TEST_F(ShapesOfACrowd, ThatAreGoneLeaveNoFile) {
   EXPECT_FALSE(fs::exists(mesh(id + "+other.obj")));
   EXPECT_TRUE(fs::exists(mesh(id + ".obj")));
   EXPECT_TRUE(fs::exists(mesh("mine.obj")));
-  EXPECT_TRUE(verify_crowd(folder_.out()).good());
+  EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 TEST_F(ShapesOfACrowd, AreTheSameInEveryFormat) {
