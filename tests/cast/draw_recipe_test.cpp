@@ -65,8 +65,8 @@ TEST(Ageing, CanBeTakenBack) {
   casting.sampling.old_heads = {1, 4};
   const FacePlan young = draw_face(casting, 7, 0, kind_of_group(casting));
   FacePlan face = young;
-  apply_age(face, 0.4, casting, casting.sampling);
-  take_back_age(face, casting, casting.sampling);
+  apply_age(face, 0.4, {casting.anchors, casting.tags}, casting.sampling);
+  take_back_age(face, {casting.anchors, casting.tags}, casting.sampling);
   EXPECT_FALSE(face.age);
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     const auto &back = face.recipe.regions[k].weights, &before = young.recipe.regions[k].weights;
@@ -86,7 +86,7 @@ TEST(Ageing, DetailComesFromTheNearestOldHead) {
   const auto aged = [&](Index source, double age) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = {{source, 1}};
-    apply_age(face, age, casting, casting.sampling);
+    apply_age(face, age, {casting.anchors, casting.tags}, casting.sampling);
     return face.recipe.regions[0].weights;
   };
   EXPECT_EQ(aged(0, 0.25), (std::vector<SourceWeight>{{0, 0.75}, {1, 0.25}}));
@@ -181,7 +181,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
   casting.sampling.old_heads = {1};
   const FacePlan young = draw_any_face(casting, 7);
   FacePlan old = young;
-  apply_age(old, 0.8, casting, casting.sampling);
+  apply_age(old, 0.8, {casting.anchors, casting.tags}, casting.sampling);
   const auto share_of_old = [](const BandRecipe& band) {
     double share = 0;
     for (const SourceWeight& source : band.weights) share += source.head == 1 ? source.weight : 0;
@@ -198,7 +198,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
       EXPECT_FALSE(band_of(after, b).position);
     }
   }
-  take_back_age(old, casting, casting.sampling);
+  take_back_age(old, {casting.anchors, casting.tags}, casting.sampling);
   EXPECT_FALSE(old.age);
   for (std::size_t k = 0; k < 2; ++k) {
     for (std::size_t b = 0; b < 3; ++b) {

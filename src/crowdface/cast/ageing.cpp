@@ -26,8 +26,8 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
 /// The heads of an age class, from which the detail of all other heads ages.
 class Examples {
  public:
-  Examples(double age, const CastingOptions& casting, const SamplingOptions& sampling)
-      : heads_(age > 0 ? sampling.old_heads : sampling.young_heads), casting_(casting) {
+  Examples(double age, const HeadRelations& all, const SamplingOptions& sampling)
+      : heads_(age > 0 ? sampling.old_heads : sampling.young_heads), all_(all) {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
 
@@ -55,14 +55,14 @@ class Examples {
  private:
   std::tuple<bool, std::ptrdiff_t, double> rank(Index head, Index other) const {
     const auto a = static_cast<std::size_t>(head), b = static_cast<std::size_t>(other);
-    const double apart = (casting_.anchors[a] - casting_.anchors[b]).norm();
-    if (casting_.tags.empty()) return {false, 0, apart};
-    const auto &own = casting_.tags[a], &tags = casting_.tags[b];
+    const double apart = (all_.anchors[a] - all_.anchors[b]).norm();
+    if (all_.tags.empty()) return {false, 0, apart};
+    const auto &own = all_.tags[a], &tags = all_.tags[b];
     return {!same_sex(own, tags), -static_cast<std::ptrdiff_t>(common_tags(own, tags)), apart};
   }
 
   const std::vector<Index>& heads_;
-  const CastingOptions& casting_;
+  const HeadRelations& all_;
 };
 
 }  // namespace
@@ -79,10 +79,10 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
   return mixed;
 }
 
-void apply_age(FacePlan& face, double age, const CastingOptions& casting,
+void apply_age(FacePlan& face, double age, const HeadRelations& heads,
                const SamplingOptions& sampling) {
   if (age == 0) return;
-  const Examples examples(age, casting, sampling);
+  const Examples examples(age, heads, sampling);
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       const double share = share_of(age, sampling, b);
@@ -95,10 +95,10 @@ void apply_age(FacePlan& face, double age, const CastingOptions& casting,
   face.age = age;
 }
 
-void take_back_age(FacePlan& face, const CastingOptions& casting, const SamplingOptions& sampling) {
+void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
-  const Examples examples(*face.age, casting, sampling);
+  const Examples examples(*face.age, heads, sampling);
   bool known = true;
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {

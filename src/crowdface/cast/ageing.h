@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/sampling.h"
+#include "crowdface/cast/typical_head.h"
+#include "crowdface/plane/weights.h"
 
 namespace crowdface {
+
+/// Anchors and tags of all heads, by which the nearest head is found; see CastingOptions.
+struct HeadRelations {
+  const std::vector<PlanePoint>& anchors;  ///< #heads
+  const HeadTags& tags;                    ///< #heads, or empty
+};
 
 /// Ages a face: in every region, the fraction |age| of the weight of each head moves to the nearest
 /// head tagged old (age above 0) or young (below 0); weights of heads with this tag stay. The paper
@@ -17,13 +24,13 @@ namespace crowdface {
 ///
 /// \param sampling  of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.
-void apply_age(FacePlan& face, double age, const CastingOptions& casting,
+void apply_age(FacePlan& face, double age, const HeadRelations& heads,
                const SamplingOptions& sampling);
 
 /// Undoes apply_age, so that children do not inherit the age of this face. If age −1 or 1 moved the
 /// whole weight of a band, the band cannot be restored; the band and the face's age then stay as
 /// they are.
-void take_back_age(FacePlan& face, const CastingOptions& casting, const SamplingOptions& sampling);
+void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling);
 
 /// Returns (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

@@ -249,7 +249,8 @@ FacePlan draw_recipe(const CastingOptions& casting, const ManualRecipe& hand, co
     face.recipe.regions.push_back(draw_region(casting, kind, k, face.recipe.target, draws, region));
   }
   if (!hand.colours.empty()) face.recipe.colours = written_weights(hand.colours);
-  apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""), casting, sampling);
+  apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""),
+            {casting.anchors, casting.tags}, sampling);
   face.recipe.asymmetry = draws.in(hand.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
   face.recipe.mirrored = hand.mirrored.value_or(sampling.mirror == Mirroring::kDrawn &&
                                                 draws.unit("mirror", "") < 0.5);

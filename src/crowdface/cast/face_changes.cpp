@@ -141,7 +141,7 @@ class Changing {
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
     const SamplingOptions& sampling = sampling_of(other);
-    take_back_age(other, casting_, sampling);
+    take_back_age(other, {casting_.anchors, casting_.tags}, sampling);
     return [=, this, &sampling](std::uint32_t attempt) {
       ManualRecipe open;
       open.id = changed_.face.id;
@@ -154,7 +154,7 @@ class Changing {
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.scale);
         face.recipe.colours = other.recipe.colours;
         face.age = other.age;
-        if (!other.age) apply_age(face, age, casting_, sampling);
+        if (!other.age) apply_age(face, age, {casting_.anchors, casting_.tags}, sampling);
         return face;
       };
       const auto is_beyond = [&](const FacePlan& face) {
@@ -231,9 +231,9 @@ class Changing {
 
   void set_age(double age) {
     const SamplingOptions& sampling = sampling_of(changed_.face);
-    take_back_age(changed_.face, casting_, sampling);
+    take_back_age(changed_.face, {casting_.anchors, casting_.tags}, sampling);
     changed_.face.age.reset();
-    apply_age(changed_.face, age, casting_, sampling);
+    apply_age(changed_.face, age, {casting_.anchors, casting_.tags}, sampling);
   }
 
   /// Measures the distances of the changed face, for information.

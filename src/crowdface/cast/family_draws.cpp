@@ -102,7 +102,8 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
 
 void FamilyDraws::add_parent(std::size_t parent, std::string name, FacePlan face,
                              FaceSpace::Point point) {
-  take_back_age(face, casting_, sampling_of(face));  // children do not inherit a parent's age
+  take_back_age(face, {casting_.anchors, casting_.tags},
+                sampling_of(face));  // children do not inherit a parent's age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
@@ -262,7 +263,7 @@ FacePlan FamilyDraws::towards(const FacePlan& from, const Draft& draft, double t
   FacePlan face = draft.to;
   face.recipe = mixed(from.recipe, draft.to.recipe, t, casting_.scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
-  apply_age(face, draft.age, casting_, sampling_of(face));
+  apply_age(face, draft.age, {casting_.anchors, casting_.tags}, sampling_of(face));
   return face;
 }
 
