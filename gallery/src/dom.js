@@ -17,8 +17,8 @@ export function el(tag, properties = {}, ...children) {
   return node;
 }
 
-/// A slider. Letting go ends a move even where the browser tells no change: of a slider that comes back to where it was
-/// taken, or whose value the page has set meanwhile.
+/// A slider. Letting go ends a move even if the browser sends no `change` event, as for a slider that comes back to its
+/// start, or whose value the page has set during the move.
 /// \param moved  (number) while it is held; \param done  (number) once it is let go
 export function sliderNode(properties, moved, done) {
   let isHeld = false;

@@ -335,7 +335,7 @@ export class Stage {
     this.adaptRatio();
   }
 
-  /// In few steps: each makes a canvas of another size, which takes about as long as a frame.
+  /// Changes the resolution in few large steps, because a canvas of another size takes about as long as a frame.
   adaptRatio() {
     const { frameMs, movingRatio, fullRatio } = this;
     if (frameMs > slow) this.movingRatio = Math.max(Math.min(0.85, Math.max(0.6, Math.sqrt(slow / frameMs))) * movingRatio, fewest * fullRatio);

@@ -3,11 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace crowdface {
 namespace {
+
+/// Checks how many of the first n faces each share gets, for all n.
+/// \param limits  maps the exact number, share · n, to the lowest and the highest allowed.
+template <class Limits>
+void expect_between(const std::vector<int>& schedule, const std::vector<double>& shares,
+                    const Limits& limits) {
+  std::vector<double> got(shares.size(), 0);
+  for (std::size_t n = 1; n <= schedule.size(); ++n) {
+    if (schedule[n - 1] >= 0) ++got[static_cast<std::size_t>(schedule[n - 1])];
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      const auto [low, high] = limits(shares[j] * static_cast<double>(n));
+      EXPECT_GE(got[j], low) << j << " of " << n;
+      EXPECT_LE(got[j], high) << j << " of " << n;
+    }
+  }
+}
 
 TEST(Shares, OneIsMetExactlyAtEveryCount) {
   for (const double share : {0.0, 0.01, 0.1, 0.25, 0.3, 1. / 3, 0.5, 0.7, 0.9, 1.0}) {
@@ -28,15 +46,10 @@ TEST(Shares, SeveralAreNeverLateAndHardlyEarly) {
                                             {1. / 3, 1. / 3, 1. / 3},
                                             {0.05, 0.05, 0.05, 0.05, 0.7}}) {
     const auto schedule = schedule_shares(shares, 600);
-    std::vector<double> got(shares.size(), 0);
-    for (std::size_t n = 1; n <= schedule.size(); ++n) {
-      if (schedule[n - 1] >= 0) ++got[static_cast<std::size_t>(schedule[n - 1])];
-      for (std::size_t j = 0; j < shares.size(); ++j) {
-        const double due = shares[j] * static_cast<double>(n);
-        EXPECT_GE(got[j], std::floor(due + 1e-9)) << j << " of " << n;
-        EXPECT_LT(got[j], due + static_cast<double>(shares.size())) << j << " of " << n;
-      }
-    }
+    const auto kinds = static_cast<double>(shares.size());
+    expect_between(schedule, shares, [&](double due) {
+      return std::pair(std::floor(due + 1e-9), std::ceil(due + kinds - 1));
+    });
   }
 }
 
@@ -50,21 +63,15 @@ TEST(Shares, AreScatteredExactly) {
                                             {0.05, 0.05, 0.05, 0.05, 0.7},
                                             {0.0, 1.0}}) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      const auto schedule = scatter_exactly(shares, 300, seed, "test");
-      std::vector<double> got(shares.size(), 0);
-      for (std::size_t n = 1; n <= schedule.size(); ++n) {
-        if (schedule[n - 1] >= 0) ++got[static_cast<std::size_t>(schedule[n - 1])];
-        for (std::size_t j = 0; j < shares.size(); ++j) {
-          const double due = shares[j] * static_cast<double>(n);
-          EXPECT_GE(got[j], std::floor(due + 1e-9)) << j << " of " << n;
-          EXPECT_LE(got[j], std::ceil(due - 1e-9)) << j << " of " << n;
-        }
-      }
-      const auto few = scatter_exactly(shares, 77, seed, "test");
+      const auto schedule = scatter_shares(shares, 300, seed, "test");
+      expect_between(schedule, shares, [](double due) {
+        return std::pair(std::floor(due + 1e-9), std::ceil(due - 1e-9));
+      });
+      const auto few = scatter_shares(shares, 77, seed, "test");
       EXPECT_TRUE(std::equal(few.begin(), few.end(), schedule.begin()));
     }
   }
-  const auto fifth = scatter_exactly({0.2}, 300, 1, "test");
+  const auto fifth = scatter_shares({0.2}, 300, 1, "test");
   int periodic = 0;
   for (std::size_t n = 5; n < 300; ++n) periodic += fifth[n] == 0 && fifth[n - 5] == 0 ? 1 : 0;
   EXPECT_LT(periodic, 30) << "of sixty: no row of a sheet is all red";

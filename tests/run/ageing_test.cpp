@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// People who grow older stay who they are.
+// Ageing keeps people apart.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kPeople = 10;
 
-/// Thirty synthetic heads, and ten people made from the young ones.
+/// Ten people, made from the young heads among thirty synthetic heads.
 class TenPeople {
  public:
   TenPeople() {

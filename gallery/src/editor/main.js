@@ -29,7 +29,7 @@ import { toolbar, viewBar } from './toolbar.js';
 const page = crypto.randomUUID(); // of several pages, the one that was opened last keeps its steps
 const pages = new BroadcastChannel(`crowdface edit ${location.pathname}`);
 const patient = 250; // ms that a draft waits for the program's face before it is drawn in full
-const telling = 200; // ms between distances that are told while something moves
+const telling = 200; // ms between two answers about distances while something moves
 const judging = 400; // ms that a face rests before its whole mesh is judged
 const patience = 250; // ms that another page has to keep its last steps
 const mostKept = 3e6; // letters of steps that the program keeps for us

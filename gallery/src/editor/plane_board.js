@@ -228,7 +228,7 @@ export class PlaneBoard {
     this.showHandles();
   }
 
-  /// Nothing, if they stand there already: pictures in the plane are dear to draw.
+  /// Changes nothing if the heads already stand there, because pictures in the plane take long to draw.
   showHeads() {
     const { job, document } = this.editor;
     const places = anchorsOf(job, document.anchors).map((anchor) => this.frame.at(anchor));

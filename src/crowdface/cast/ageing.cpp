@@ -23,10 +23,10 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
          contains(one, "male") == contains(other, "male");
 }
 
-/// The heads of an age class, from which the detail of all other heads ages.
-class Examples {
+/// The old or the young heads, whose detail ages the other heads.
+class AgedHeads {
  public:
-  Examples(double age, const HeadRelations& all, const SamplingOptions& sampling)
+  AgedHeads(double age, const HeadRelations& all, const SamplingOptions& sampling)
       : heads_(age > 0 ? sampling.old_heads : sampling.young_heads), all_(all) {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
@@ -82,13 +82,13 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
 void apply_age(FacePlan& face, double age, const HeadRelations& heads,
                const SamplingOptions& sampling) {
   if (age == 0) return;
-  const Examples examples(age, heads, sampling);
+  const AgedHeads aged(age, heads, sampling);
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       const double share = share_of(age, sampling, b);
       if (share == 0) continue;
       BandRecipe& band = band_of(region, b);
-      band.weights = examples.with_moved(band.weights, share);
+      band.weights = aged.with_moved(band.weights, share);
       band.position.reset();
     }
   }
@@ -98,7 +98,7 @@ void apply_age(FacePlan& face, double age, const HeadRelations& heads,
 void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
-  const Examples examples(*face.age, heads, sampling);
+  const AgedHeads aged(*face.age, heads, sampling);
   bool known = true;
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
@@ -107,7 +107,7 @@ void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOpt
       if (share == 0 || share > 1 - kRounding) continue;
       // The weights outside the class were scaled by 1 − share.
       std::vector<SourceWeight>& weights = band_of(region, b).weights;
-      weights = examples.with_moved(weights, -share / (1 - share));
+      weights = aged.with_moved(weights, -share / (1 - share));
       std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });
     }
   }

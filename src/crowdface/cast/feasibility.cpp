@@ -18,9 +18,12 @@ double whole_hundredths(double mm) {
   return std::floor(mm * 100) / 100;
 }
 
-/// A smaller distance to try after one that only some of the faces kept. The number of faces that
-/// fit grows with a power of the distance between -2.5 and -5.
-double smaller(double fails, std::uint64_t reached, std::uint64_t count) {
+/// Number of trials in which meshes are judged, which take a hundred times as long as others.
+constexpr int kMaxMeshTrials = 4;
+
+/// Returns a distance to try after `fails`, at which only `reached` of the faces fit. The number of
+/// faces that fit is proportional to a power of the distance; the exponent is between −2.5 and −5.
+double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
   const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
   return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);
 }
@@ -57,20 +60,23 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
     return cast.shortfall;
   };
   double works = 0, fails = distance;
-  double next = smaller(fails, std::min(shortfall.reached, easier.count), easier.count);
+  double next = next_smaller(fails, std::min(shortfall.reached, easier.count), easier.count);
   while ((draws < kMaxDraws || works == 0) && fails >= kNearEnough * works) {
     const double mm = whole_hundredths(next);
     if (mm <= works) break;
     if (const auto missing = shortfall_at(mm, {})) {
       fails = mm;
-      next = works > 0 ? std::sqrt(works * fails) : smaller(fails, missing->reached, easier.count);
+      next = works > 0 ? std::sqrt(works * fails)
+                       : next_smaller(fails, missing->reached, easier.count);
     } else {
       works = mm;
       next = std::sqrt(works * fails);
     }
   }
-  // The trials above check only coarse meshes, because whole ones take a hundred times as long.
-  while (meshes && works > 0 && shortfall_at(works, meshes)) works = whole_hundredths(0.93 * works);
+  // The trials above check coarse meshes only.
+  for (int trial = 0; meshes && works > 0 && shortfall_at(works, meshes); ++trial) {
+    works = trial + 1 < kMaxMeshTrials ? whole_hundredths(0.93 * works) : 0;
+  }
   if (works > 0) remedy.largest_mm = works;
   return remedy;
 }

@@ -20,7 +20,8 @@ struct Remedy {
 /// crowd cast only its beginning.
 ///
 /// \param tried   Called after each trial.
-/// \param meshes  If given, the remedy also works if the meshes of candidates are judged.
+/// \param meshes  If given, the advised distance also works when the meshes of candidates are
+///                judged; if four tries find none, the remedy has no distance.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {},

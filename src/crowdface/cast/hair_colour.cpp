@@ -9,6 +9,9 @@
 namespace crowdface {
 namespace {
 
+// Numbers of steps of rounded colours.
+constexpr double kEumelaninSteps = 20, kPheomelaninSteps = 10, kGreySteps = 10;
+
 double to_step(double value, double steps) {
   return std::floor(std::clamp(value, 0.0, 1.0) * steps + 0.5) / steps;
 }
@@ -58,7 +61,14 @@ HairColour tinted(const HairColour& hair, Tint tint) {
 }
 
 HairColour rounded_colour(const HairColour& colour) {
-  return {to_step(colour.eumelanin, 20), to_step(colour.pheomelanin, 10), to_step(colour.grey, 10)};
+  return {to_step(colour.eumelanin, kEumelaninSteps),
+          to_step(colour.pheomelanin, kPheomelaninSteps), to_step(colour.grey, kGreySteps)};
+}
+
+bool is_shade_of(const HairColour& rounded, const HairColour& named) {
+  constexpr double kRounding = 1e-9;
+  return std::abs(rounded.eumelanin - named.eumelanin) < 1.0 / kEumelaninSteps + kRounding &&
+         std::abs(rounded.pheomelanin - named.pheomelanin) < 1.0 / kPheomelaninSteps + kRounding;
 }
 
 bool are_alike(const HairColour& a, const HairColour& b) {

@@ -38,6 +38,9 @@ HairColour tinted(const HairColour& hair, Tint tint);
 
 /// Rounds a colour to steps that are hardly visible, so that many faces share the same colour.
 HairColour rounded_colour(const HairColour& colour);
+/// Whether the pigments of a rounded colour are at most one step from those of `named`; grey may
+/// differ.
+bool is_shade_of(const HairColour& rounded, const HairColour& named);
 /// Whether two colours look the same at first sight.
 bool are_alike(const HairColour& a, const HairColour& b);
 

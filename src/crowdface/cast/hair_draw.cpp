@@ -89,7 +89,7 @@ std::optional<HairColour> HairDraw::asked(const FacePlan& face) {
     const auto [schedule, is_new] = schedules_.try_emplace(entry);
     if (is_new) {
       schedule->second =
-          scatter_exactly(parts, sizes_[entry], draw_.seed, concat("hair colours/", entry));
+          scatter_shares(parts, sizes_[entry], draw_.seed, concat("hair colours/", entry));
     }
     chosen = schedule->second[place->second.second];
   } else {

@@ -82,47 +82,19 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   return schedule;
 }
 
-std::vector<int> scatter_shares(const std::vector<double>& shares, std::uint64_t count,
-                                std::uint64_t seed, const std::string& purpose) {
-  struct Next {
-    std::uint64_t served = 0, place = 0, due = 0;
-  };
-  const auto next_after = [&](std::size_t j, std::uint64_t served) -> Next {
-    if (shares[j] <= 0) return {served, UINT64_MAX, UINT64_MAX};
-    const std::uint64_t before = served == 0 ? 0 : deadline(shares[j], served);
-    const std::uint64_t due = deadline(shares[j], served + 1);
-    const double drawn = random_pair({seed, served, concat(purpose, '/', j)})[0];
-    const auto steps = static_cast<std::uint64_t>(drawn * static_cast<double>(due - before));
-    return {served, before + 1 + steps, due};
-  };
-  std::vector<Next> next;
-  for (std::size_t j = 0; j < shares.size(); ++j) next.push_back(next_after(j, 0));
-  std::vector<int> schedule(count, -1);
-  for (std::uint64_t n = 1; n <= count; ++n) {
-    std::size_t first = shares.size();
-    for (std::size_t j = 0; j < shares.size(); ++j) {
-      if (next[j].place > n) continue;
-      if (first == shares.size() || next[j].due < next[first].due) first = j;
-    }
-    if (first == shares.size()) continue;
-    schedule[n - 1] = static_cast<int>(first);
-    next[first] = next_after(first, next[first].served + 1);
-  }
-  return schedule;
-}
-
-std::vector<int> scatter_exactly(std::vector<double> shares, std::uint64_t count,
-                                 std::uint64_t seed, const std::string& purpose) {
+std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count, std::uint64_t seed,
+                                const std::string& purpose) {
   struct Lack {
     std::size_t share = 0;
     double faces = 0;
   };
   const std::size_t none = shares.size();
   shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
-  // Beyond this number of faces, no share has more than it needs.
+  // Look ahead until the smallest share is due twice.
   double smallest = 1;
-  for (const double share : shares)
-    smallest = share > kRounding ? std::min(smallest, share) : smallest;
+  for (const double share : shares) {
+    if (share > kRounding) smallest = std::min(smallest, share);
+  }
   const auto horizon = static_cast<std::uint64_t>(std::ceil(std::min(2 / smallest, 1e3)));
   std::vector<std::uint64_t> served(shares.size(), 0);
   std::vector<int> schedule(count, -1);

@@ -21,19 +21,14 @@ namespace crowdface {
 /// \param shares  Sum to at most 1.
 std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_t count);
 
-/// Like schedule_shares, but each face of a share is drawn at random between the share's previous
-/// deadline and its next. A share may get one face more than ⌊q·n⌋ of the first n. If two shares
-/// draw the same face, the one with the later deadline gets the next free face.
+/// Like schedule_shares, but in random order: for each face, a share (or none) is chosen at random
+/// among those after which all shares can still get their faces. Of the first n faces, share q gets
+/// ⌊q·n⌋ or ⌈q·n⌉.
 ///
-/// \param purpose  Purpose of the random numbers; see random_pair.
-std::vector<int> scatter_shares(const std::vector<double>& shares, std::uint64_t count,
-                                std::uint64_t seed, const std::string& purpose);
-
-/// Like scatter_shares, but a share gets ⌊q·n⌋ of the first n faces or one more, also if the shares
-/// sum to 1. For each face, a share (or none) is chosen at random among those after which all
-/// shares can still get their faces.
-std::vector<int> scatter_exactly(std::vector<double> shares, std::uint64_t count,
-                                 std::uint64_t seed, const std::string& purpose);
+/// \param shares   Sum to at most 1.
+/// \param purpose  Purpose of the random numbers; see random_unit.
+std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count, std::uint64_t seed,
+                                const std::string& purpose);
 
 /// Returns the index of the group of each sampled face, or −1 if it has none; #count. Groups with a
 /// fixed count come first, in their order, then groups with a share. The first n entries do not

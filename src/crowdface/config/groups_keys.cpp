@@ -15,7 +15,8 @@ constexpr double kRounding = 1e-9;
 /// Marks a group that gives neither share nor count; such groups divide the remainder equally.
 constexpr double kOpenShare = -1;
 
-/// Keeps the old and young heads that are wanted, unless no such head is wanted.
+/// Removes the old and the young heads for which `wanted` is false; keeps all old (or young) heads if
+/// none would remain.
 template <class Wanted>
 void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
   for (auto* heads : {&sampling.old_heads, &sampling.young_heads}) {

@@ -129,11 +129,7 @@ class OverriddenPlan {
   void tell_missed_hair(const std::string& section, const std::string& name, double share,
                         const std::vector<const FacePlan*>& faces) {
     const HairColour colour = *hair_colour_named(name);
-    const auto has_it = [&](const FacePlan* face) {
-      constexpr double kScatter = 0.101;  // of HairDraw, rounded
-      return std::abs(face->hair->eumelanin - colour.eumelanin) < kScatter / 2 &&
-             std::abs(face->hair->pheomelanin - colour.pheomelanin) < kScatter;
-    };
+    const auto has_it = [&](const FacePlan* face) { return is_shade_of(*face->hair, colour); };
     const auto is_grey = [&](const FacePlan* face) {
       return has_it(face) && face->hair->grey > 0.5 && colour.grey == 0;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps with which a run resumes a stopped run.
+// The steps by which a run continues the work of a run that was stopped.
 #pragma once
 
 #include <cstddef>

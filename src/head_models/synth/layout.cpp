@@ -188,7 +188,7 @@ class Sewing {
     return out;
   }
 
-  /// Fills an opening with concentric rings of quads; an ear also gets a core.
+  /// Fills an opening with concentric rings of quads; inside the rings of an ear, a core of quads.
   void add_rings(const Opening& opening, int side) {
     const Span span = span_of(opening, side);
     const std::vector<Stitch> first = outline(span, side);
