@@ -95,6 +95,19 @@ TEST(HeadTextures, AMissingOneIsAWarning) {
   EXPECT_FALSE(find_attachment_textures(none.faces, none.files).front().any());
 }
 
+TEST(HeadTextures, OfMaterialsThatNoFaceUsesAreToldNotToBeShown) {
+  const TemporaryFolder folder;
+  write_png(folder, "a.png", 1, {255, 0, 0});
+  for (const char* materials :
+       {"newmtl face\nmap_Kd a.png\nnewmtl neck\n", "newmtl face\nmap_Kd a.png\n"}) {
+    const HeadTextures textures = load(read(folder, materials), 1024);
+    EXPECT_FALSE(textures.any() && textures.texture_sets[0].textures.size() > 0);
+    EXPECT_THAT(textures.warnings, ElementsAre(AllOf(
+                                       HasSubstr("no polygon uses their materials \"face\""),
+                                       HasSubstr("its materials are \"skin left\", \"right\" (head)"))));
+  }
+}
+
 TEST(HeadTextures, ADamagedOneIsRefusedByName) {
   const TemporaryFolder folder;
   folder.write("left.png", "no picture");

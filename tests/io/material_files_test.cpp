@@ -224,6 +224,17 @@ TEST(MaterialFiles, LibrariesOfOtherMachinesAreFoundBesideTheMesh) {
   EXPECT_FALSE(find_material_files(folder / "head.obj", {"tex/b.mtl"}).has_renamed_library);
 }
 
+// The table SHIFT_JIS reads a backslash as ¥, so that the path had no folders.
+TEST(MaterialFiles, OfAJapaneseMachineAreFoundBesideTheMesh) {
+  const testing::TemporaryFolder folder;
+  folder.write("素材.mtl", "newmtl a\nmap_Kd C:\\\x91\xbe\x98Y\\\x8a\xe7.png\n");
+  folder.write("顔.png", "x");
+  const MaterialFiles found =
+      find_material_files(folder / "head.obj", {"C:\\\x91\xbe\x98Y\\\x91\x66\x8d\xde.mtl"});
+  EXPECT_EQ(names(found), (std::vector<std::string>{"素材.mtl", "顔.png"}));
+  EXPECT_TRUE(found.warnings.empty());
+}
+
 TEST(MaterialFiles, MissingOnesAreWarnings) {
   const testing::TemporaryFolder folder;
   const MaterialFiles found = find_material_files(folder / "head.obj", {"none.mtl"});

@@ -241,6 +241,10 @@ TEST(RegionWeights, RowsOfVerticesNeedNoTextureCoordinates) {
   const auto plain = weights("w.txt", "# painted\n1 0\n0.5 0.5\n1 3\n");
   EXPECT_EQ(plain.alpha.row(2), Eigen::RowVector2d(0.25, 0.75));
   EXPECT_EQ(weights("w.csv", "rest,face\n0,1\n.5,.5\n3,1\n").alpha, plain.alpha);
+  EXPECT_EQ(weights("w.csv", "\xEF\xBB\xBFrest;face\r\n0;1\r\n0,5;0,5\r\n3;1\r\n").alpha,
+            plain.alpha);
+  EXPECT_EQ(plain.uncovered_vertices, 0);
+  EXPECT_EQ(weights("w.txt", "1 0\n0 0\n0 0\n").uncovered_vertices, 2);
   for (const char* bad : {"1 0\n1 0\n", "1 0\n1\n1 0\n", "1 0\n-1 0\n1 0\n", "1 0\nnan 0\n1 0\n"}) {
     EXPECT_THROW(weights("bad.txt", bad), RecoverableError) << bad;
   }

@@ -85,6 +85,27 @@ TEST_F(OwnTextures, LieBesideMeshesThatNameThem) {
   EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
+/// A text without its `usemtl` lines.
+std::string without_usemtl(const std::string& text) {
+  std::string kept;
+  for (const std::string_view line : split_lines(text)) {
+    if (!line.starts_with("usemtl")) kept += concat(line, '\n');
+  }
+  return kept;
+}
+
+// The material file still named the target's texture, and no face used it.
+TEST_F(OwnTextures, OfTheOnlyMaterialBelongToFacesWithoutOne) {
+  for (const std::string& name : folder_.names()) {
+    folder_.folder().write(concat("heads/", name, ".obj"),
+                           without_usemtl(read_text(folder_.head(name))));
+  }
+  run(folder_);
+  EXPECT_THAT(read_text(meshes() / "mob_0001.mtl"), HasSubstr("map_Kd blended/mob_0001.png\n"));
+  EXPECT_THAT(read_text(meshes() / "mob_0001.obj"),
+              HasSubstr("mtllib mob_0001.mtl\nusemtl skin\n"));
+}
+
 // A variant had the skin of the people whose detail it got.
 TEST_F(OwnTextures, OfAVariantAreThoseOfItsFace) {
   std::string config = read_text(folder_.config());

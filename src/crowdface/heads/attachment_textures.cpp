@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -21,6 +22,23 @@ namespace {
 namespace fs = std::filesystem;
 
 using TilePlace = std::array<std::int32_t, 2>;
+
+/// A warning if textures are not shown because no polygon uses the materials that name them.
+std::optional<std::string> unused_materials(const NamedTextures& named, const ObjFile& file,
+                                            Index face_count) {
+  const auto colours = named.of_kind.find(TextureKind::kColour);
+  if (colours == named.of_kind.end()) return std::nullopt;
+  std::vector<std::string> textured, used;
+  for (const auto& [material, path] : colours->second) {
+    if (!material.empty()) textured.push_back(quoted(material));
+  }
+  for (const std::string& material : face_materials(file.materials, face_count).names) {
+    if (colours->second.contains(material)) return std::nullopt;
+    if (!material.empty()) used.push_back(quoted(material));
+  }
+  return concat("the textures of its material files are not shown: no polygon uses their materials ",
+                join(textured), used.empty() ? " (usemtl)" : "; its materials are ", join(used));
+}
 
 /// Returns the UDIM tile of a polygon. The polygon's centroid determines it, so that corners may
 /// lie on a tile's border. Returns the first tile if the polygon has no texture coordinates or lies
@@ -159,6 +177,8 @@ std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
       const std::string head = files[h].path.stem().string();
       if (kind == TextureKind::kColour) {
         for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
+        const auto unused = unused_materials(*of_head[h], files[h], face_count);
+        if (unused) heads_of_warning[*unused].push_back(head);
       }
       std::vector<fs::path> missing;
       const auto named = of_head[h]->of_kind.find(kind);

@@ -80,8 +80,7 @@ std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
     }
     if (most == 0) {
       warnings.push_back(concat("the region ", names[r],
-                                " covers no skin: its mask is black wherever the texture "
-                                "coordinates of the skin lie"));
+                                " covers no skin: its mask is zero on the whole skin"));
     }
     constexpr double kNothing = 0.02;
     all_are_everywhere = all_are_everywhere && least > kNothing;

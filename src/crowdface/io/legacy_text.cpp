@@ -30,7 +30,7 @@ std::vector<std::string> legacy_readings(std::string_view bytes) {
   std::vector<std::string> readings;
   constexpr std::size_t kLongest = 4096;
   if (is_utf8(bytes) || bytes.size() > kLongest) return readings;
-  for (const char* encoding : {"GB18030", "SHIFT_JIS", "WINDOWS-1252"}) {
+  for (const char* encoding : {"GB18030", "CP932", "WINDOWS-1252"}) {
     std::string text = converted(bytes, encoding);
     if (!text.empty()) readings.push_back(std::move(text));
   }

@@ -82,14 +82,15 @@ class Collector {
     }
     return std::move(files_);
   }
-  std::map<TextureKind, std::map<std::string, fs::path>> take_textures() {
-    // With a single material, faces without a material use it.
-    for (auto& [kind, of_material] : of_kind_) {
-      if (materials_.size() == 1 && of_material.size() == 1) {
-        of_material.emplace("", of_material.begin()->second);
-      }
+  NamedTextures take_textures() {
+    NamedTextures named{std::move(of_kind_), {}, {}};
+    if (materials_.size() == 1) named.only_material = *materials_.begin();
+    for (auto& [kind, of_material] : named.of_kind) {
+      const auto only = of_material.find(named.only_material);
+      if (only != of_material.end()) of_material.emplace("", only->second);
     }
-    return std::move(of_kind_);
+    named.warnings = take_files().warnings;
+    return named;
   }
 
  private:
@@ -304,8 +305,7 @@ MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::s
 }
 
 NamedTextures find_textures(const fs::path& mesh, const std::vector<std::string>& libraries) {
-  Collector collector = collect(mesh, libraries);
-  return {collector.take_textures(), collector.take_files().warnings};
+  return collect(mesh, libraries).take_textures();
 }
 
 }  // namespace crowdface

@@ -61,6 +61,8 @@ struct NamedTextures {
   /// Texture paths by kind and material, relative to the mesh's folder; may contain <UDIM> in place
   /// of a tile number.
   std::map<TextureKind, std::map<std::string, std::filesystem::path>> of_kind;
+  /// The only material that the libraries define, or empty; faces without a material use it.
+  std::string only_material;
   /// Problems with libraries and paths, as in `MaterialFiles`.
   std::vector<std::string> warnings;
 };

@@ -56,10 +56,15 @@ OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
 }
 
 std::string OwnMaterials::text(const Replacements& textures) const {
+  std::set<std::string> defined;
+  for (const Line& line : lines_) {
+    if (line.word == "newmtl") defined.insert(line.material);
+  }
   const auto file_of = [&](TextureKind kind, const std::string& material) -> const std::string* {
     const auto of_kind = textures.find(kind);
     if (of_kind == textures.end()) return nullptr;
-    const auto file = of_kind->second.find(material);
+    auto file = of_kind->second.find(material);
+    if (file == of_kind->second.end() && defined.size() == 1) file = of_kind->second.find("");
     return file == of_kind->second.end() ? nullptr : &file->second;
   };
   std::map<std::string, std::string> old_colours;  // texture paths of each material so far

@@ -19,7 +19,8 @@ class OwnMaterials {
   OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
                const std::string& shared = {});
 
-  /// Replacement files by kind and by material; paths may contain <UDIM>.
+  /// Replacement files by kind and by material; paths may contain <UDIM>. The empty name means the
+  /// only material.
   using Replacements = std::map<TextureKind, std::map<std::string, std::string>>;
 
   /// The text of a material file to be written beside the mesh. Every `map_Kd` of a material with a

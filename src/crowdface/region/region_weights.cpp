@@ -358,12 +358,16 @@ bool normalised_mean(const std::vector<LoadedMask>& masks,
   return true;
 }
 
+bool all_hold_vertex_weights(const std::vector<MaskSource>& masks) {
+  return !masks.empty() && std::ranges::all_of(masks, [](const MaskSource& mask) {
+    return holds_vertex_weights(mask.path());
+  });
+}
+
 /// The texture coordinates of all vertices; empty groups if all masks are vertex weights.
 UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
                       const std::vector<MaskSource>& masks, const std::vector<bool>& needed) {
-  const bool by_vertex = std::ranges::all_of(
-      masks, [](const MaskSource& mask) { return holds_vertex_weights(mask.path()); });
-  if (by_vertex && !masks.empty()) {
+  if (all_hold_vertex_weights(masks)) {
     UvSamples none;
     none.offsets.assign(static_cast<std::size_t>(topology.vertex_count) + 1, 0);
     return none;
@@ -420,11 +424,13 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
 
   RegionWeights weights{RegionWeights::Alpha::Zero(topology.vertex_count, regions), 0};
   std::vector<std::uint8_t> uncovered(static_cast<std::size_t>(topology.vertex_count), 0);
+  const bool by_vertex = all_hold_vertex_weights(masks);
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
     const auto places = samples.of(i);
     if (normalised_mean(loaded, channels, i, places, weights.alpha.row(i))) return;
     weights.alpha(i, regions - 1) = 1;
-    uncovered[static_cast<std::size_t>(i)] = places.empty() || !is_needed(i) ? 0 : 1;
+    uncovered[static_cast<std::size_t>(i)] =
+        (places.empty() && !by_vertex) || !is_needed(i) ? 0 : 1;
   });
   weights.uncovered_vertices = std::ranges::count(uncovered, 1);
   return weights;

@@ -16,9 +16,13 @@ VertexWeights read_rows(const std::filesystem::path& path) {
   NpyArray& rows = weights.rows;
   std::size_t line_number = 0, count = 0, width = 0;
   const MappedFile file(path);
-  for (std::string_view line : split_lines(file.bytes())) {
+  std::string_view bytes = file.bytes();
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // a byte order mark
+  for (const std::string_view line : split_lines(bytes)) {
     ++line_number;
     std::string text(line.substr(0, line.find('#')));
+    // Spreadsheets that write decimal commas separate columns by semicolons.
+    if (text.find(';') != text.npos) std::ranges::replace(text, ',', '.');
     std::ranges::replace_if(
         text, [](char c) { return c == ',' || c == ';'; }, ' ');
     const std::vector<std::string> words = words_of(text);

@@ -72,6 +72,21 @@ std::map<Index, std::string> other_libraries(const MeshSource& source) {
   return lines;
 }
 
+/// Lines after the `mtllib` line of targets whose first polygons have no material, although their
+/// material files define a single one: a `usemtl` line. Programs ignore the material without it.
+std::map<Index, std::string> material_lines(const MeshSource& source) {
+  std::map<Index, std::string> lines;
+  for (const Index target : source.targets) {
+    const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
+    if (file.material_libraries.empty()) continue;
+    if (!file.materials.empty() && file.materials.front().first_face == 0) continue;
+    const std::string material =
+        find_textures(file.material_path(), file.material_libraries).only_material;
+    if (!material.empty()) lines[target] = concat("\nusemtl ", material);
+  }
+  return lines;
+}
+
 /// Writes each target's original file with other positions.
 MeshEncoder whole_encoder(const MeshSource& source) {
   const std::span<const Index> targets = source.targets;
@@ -139,11 +154,14 @@ MeshEncoders obj_encoders(const MeshSource& source) {
     MeshEncoder encoder =
         level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face);
     encoder.encode = [encode = std::move(encoder.encode),
-                      others = other_libraries(source)](const FaceMesh& face) {
+                      others = other_libraries(source),
+                      materials = material_lines(source)](const FaceMesh& face) {
       EncodedFile file = encode(face);
       const auto other = others.find(face.target);
       if (!face.material_file.empty()) {
-        file.replace_line("mtllib", concat("mtllib ", face.material_file));
+        const auto material = materials.find(face.target);
+        file.replace_line("mtllib", concat("mtllib ", face.material_file,
+                                           material == materials.end() ? "" : material->second));
       } else if (other != others.end() && !other->second.empty()) {
         file.replace_line("mtllib", other->second);
       }
