@@ -146,6 +146,8 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   auto units = single(landmarks_, out);
   units.insert(units.end(), {"--scan-units", "furlong"});
   crowdface(64, units, {"furlong", "mm, cm, m, in, or a length"});
+  units.back() = "m";
+  crowdface(64, units, {"100", "times as large as the template; expected cm, or none"});
   EXPECT_FALSE(fs::exists(out));
 }
 
@@ -189,6 +191,8 @@ TEST_F(Wrap, ASingleWrapSaysThatItUsesLandmarksBesideTheScan) {
   EXPECT_THAT(dry(""), ::testing::HasSubstr(said + beside));
   EXPECT_THAT(dry(beside), ::testing::Not(::testing::HasSubstr(said)));
   EXPECT_THAT(dry("none"), ::testing::Not(::testing::HasSubstr(said)));
+  // The file beside the scan took the place of the file that was given.
+  EXPECT_THAT(dry(landmarks_.string()), ::testing::Not(::testing::HasSubstr(said)));
 }
 
 TEST_F(Wrap, NoneTurnsOffPickedAndDetectedLandmarks) {

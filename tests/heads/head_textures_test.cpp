@@ -50,6 +50,14 @@ Read read(const TemporaryFolder& folder, const std::string& materials) {
   return read;
 }
 
+TEST(HeadTextures, WarningsNameHeadsAsTheCrowdDoes) {
+  const TemporaryFolder folder;
+  Read head = read(folder, "newmtl right\nmap_Kd gone.png\n");
+  head.faces.heads.push_back({"ann", {}});
+  EXPECT_THAT(find_attachment_textures(head.faces, head.files).front().warnings,
+              ElementsAre(HasSubstr("(ann)")));
+}
+
 HeadTextures load(const Read& read, int max_px) {
   return load_render_textures(find_attachment_textures(read.faces, read.files).front(), max_px);
 }

@@ -174,7 +174,8 @@ std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
     HeadsTextures result{kind, {}, tile, {}};
     std::map<std::string, std::vector<std::string>> heads_of_warning;
     for (std::size_t h = 0; h < files.size(); ++h) {
-      const std::string head = files[h].path.stem().string();
+      const std::string head =
+          h < faces.heads.size() ? faces.heads[h].name : files[h].path.stem().string();
       if (kind == TextureKind::kColour) {
         for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
         const auto unused = unused_materials(*of_head[h], files[h], face_count);

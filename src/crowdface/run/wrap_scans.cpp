@@ -64,13 +64,15 @@ std::vector<Task> tasks_without_textures(const WrapOptions& options) {
   return tasks;
 }
 
-std::vector<Task> tasks_of(const WrapOptions& options, const WrapTextures* textures) {
+std::vector<Task> tasks_of(const WrapOptions& options, const LandmarkFile& given,
+                           const WrapTextures* textures) {
   std::vector<Task> tasks = tasks_without_textures(options);
-  if (options.landmarks == kNoLandmarks) {
+  const bool has_given = options.batch.empty() && !given.of_scan.empty();
+  if (options.landmarks == kNoLandmarks || has_given) {
     for (Task& task : tasks) task.own_landmarks.clear();
   }
   if (const fs::path& beside = tasks.front().own_landmarks;
-      options.batch.empty() && !beside.empty() && beside != fs::path(options.landmarks)) {
+      options.batch.empty() && !beside.empty()) {
     log_info(concat(options.scan, ": uses the landmarks in ", beside.string(), ", beside the scan",
                     " (--landmarks none: no landmarks)"));
   }
@@ -169,14 +171,22 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
 /// the unit of the scan is not given. \throws UsageError if the factor is implausible.
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
-  const double scale = pose.scale * mm_per(unit_of("--scan-units", options.scan_units));
-  constexpr double kMax = 1.5;
-  if (scale > kMax || scale < 1 / kMax) {
-    throw UsageError(concat("--scan-units ", options.scan_units, ": the head would be ",
-                            format_fixed(scale, 3),
-                            " times as large as the template; expected another unit, or none"));
+  const auto scale_in = [&](const std::string& unit) {
+    return pose.scale * mm_per(unit_of("--scan-units", unit));
+  };
+  const auto fits = [](double scale) {
+    constexpr double kMax = 1.5;
+    return scale <= kMax && scale >= 1 / kMax;
+  };
+  const double scale = scale_in(options.scan_units);
+  if (fits(scale)) return scale;
+  std::string expected = "another unit";
+  for (const char* unit : {"mm", "cm", "m", "in"}) {
+    if (fits(scale_in(unit))) expected = unit;
   }
-  return scale;
+  throw UsageError(concat("--scan-units ", options.scan_units, ": the head would be ",
+                          format_fixed(scale, 3), " times as large as the template; expected ",
+                          expected, ", or none"));
 }
 
 /// Leave-one-out check: returns the distance of each landmark from the position that the other
@@ -310,7 +320,7 @@ void wrap_scans(const WrapOptions& options) {
   std::optional<WrapTextures> textures;
   if (shared.texture_size > 0) textures.emplace(options, shared);
   const WrapTextures* const wrap_textures = textures ? &*textures : nullptr;
-  const std::vector<Task> tasks = tasks_of(options, wrap_textures);
+  const std::vector<Task> tasks = tasks_of(options, shared.landmarks, wrap_textures);
   refuse_to_write_over_inputs(options, tasks);
   if (!options.dry_run && !options.batch.empty()) {
     make_directories(fs::path(options.out) / "reports");
