@@ -110,9 +110,9 @@ TEST(HeadTextures, OfMaterialsThatNoFaceUsesAreToldNotToBeShown) {
        {"newmtl face\nmap_Kd a.png\nnewmtl neck\n", "newmtl face\nmap_Kd a.png\n"}) {
     const HeadTextures textures = load(read(folder, materials), 1024);
     EXPECT_FALSE(textures.any() && textures.texture_sets[0].textures.size() > 0);
-    EXPECT_THAT(textures.warnings, ElementsAre(AllOf(
-                                       HasSubstr("no polygon uses their materials \"face\""),
-                                       HasSubstr("its materials are \"skin left\", \"right\" (head)"))));
+    EXPECT_THAT(textures.warnings,
+                ElementsAre(AllOf(HasSubstr("no polygon uses their materials \"face\""),
+                                  HasSubstr("its materials are \"skin left\", \"right\" (head)"))));
   }
 }
 

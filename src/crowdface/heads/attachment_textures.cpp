@@ -36,8 +36,9 @@ std::optional<std::string> unused_materials(const NamedTextures& named, const Ob
     if (colours->second.contains(material)) return std::nullopt;
     if (!material.empty()) used.push_back(quoted(material));
   }
-  return concat("the textures of its material files are not shown: no polygon uses their materials ",
-                join(textured), used.empty() ? " (usemtl)" : "; its materials are ", join(used));
+  return concat(
+      "the textures of its material files are not shown: no polygon uses their materials ",
+      join(textured), used.empty() ? " (usemtl)" : "; its materials are ", join(used));
 }
 
 /// Returns the UDIM tile of a polygon. The polygon's centroid determines it, so that corners may

@@ -79,8 +79,8 @@ std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
       most = std::max(most, weight);
     }
     if (most == 0) {
-      warnings.push_back(concat("the region ", names[r],
-                                " covers no skin: its mask is zero on the whole skin"));
+      warnings.push_back(
+          concat("the region ", names[r], " covers no skin: its mask is zero on the whole skin"));
     }
     constexpr double kNothing = 0.02;
     all_are_everywhere = all_are_everywhere && least > kNothing;

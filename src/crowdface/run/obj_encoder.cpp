@@ -153,8 +153,7 @@ MeshEncoders obj_encoders(const MeshSource& source) {
   for (const MeshLevel& level : source.levels) {
     MeshEncoder encoder =
         level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face);
-    encoder.encode = [encode = std::move(encoder.encode),
-                      others = other_libraries(source),
+    encoder.encode = [encode = std::move(encoder.encode), others = other_libraries(source),
                       materials = material_lines(source)](const FaceMesh& face) {
       EncodedFile file = encode(face);
       const auto other = others.find(face.target);
