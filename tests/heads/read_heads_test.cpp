@@ -9,11 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/core/input_limits.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/io/obj_template.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/generate.h"
 #include "crowdface/run/pipeline.h"
@@ -253,6 +255,20 @@ TEST_F(SideBySide, AMeshIsReadOnceAndIsThatOfEachText) {
   EXPECT_EQ(heads[1].mesh, heads[0].mesh);
   EXPECT_EQ(heads[2].mesh, heads[0].mesh);
   EXPECT_NE(heads[3].mesh, heads[0].mesh);
+}
+
+// Read first, it was flipped, and was said to have another mesh than the others.
+TEST_F(SideBySide, AMirroredHeadKeepsTheMeshOfTheOthers) {
+  const ObjFile plain = read_obj(paths_[0]);
+  Positions mirrored = plain.positions;
+  mirrored.col(0) *= -1;
+  write("ann", ObjTemplate(plain, plain.topology).encode(mirrored, "ann").text());
+  const ThreadLimit one(1);
+  const std::vector<HeadFile> heads = read();
+  ASSERT_EQ(heads.size(), 4U);
+  EXPECT_EQ(heads[0].mesh, heads[1].mesh);
+  EXPECT_EQ(heads[0].file.positions, mirrored);
+  EXPECT_TRUE(heads[0].file.notes.empty());
 }
 
 TEST_F(SideBySide, AHeadThatCannotBeReadLeavesTheOthersTheirMesh) {

@@ -25,6 +25,7 @@
 #include "crowdface/io/read_mesh.h"
 #include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/winding.h"
 
 namespace crowdface {
 namespace {
@@ -98,6 +99,24 @@ bool fits(const ObjFile& head, const HeadMesh& mesh) {
 
 bool is_worth_keeping(const ObjFile& file) {
   return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kMinKeptBytes;
+}
+
+/// Undoes the flip of mirrored heads: heads whose polygons were flipped, but were those of another
+/// head before. The alignment check then reports such heads.
+void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
+  for (std::optional<HeadFile>& head : files) {
+    if (!head || !head->mesh) continue;
+    const auto note = std::ranges::find(head->file.notes, kTurnedNote);
+    if (note == head->file.notes.end()) continue;
+    Topology as_read = head->mesh->topology;
+    turn_faces(as_read);
+    const auto other = std::ranges::find_if(files, [&](const auto& file) {
+      return file && file->mesh && first_difference(file->mesh->topology, as_read).empty();
+    });
+    if (other == files.end()) continue;
+    head->file.notes.erase(note);
+    give_mesh(*head, **other, obj_colours(head->file.file.bytes(), head->file.positions.rows()));
+  }
 }
 
 /// Logs the readers' notes on files; identical notes are merged.
@@ -296,6 +315,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
   for (const auto& error : errors) {
     if (error) problems.add(*error);
   }
+  restore_mirrored(files);
   tell_notes(files);
   return files;
 }

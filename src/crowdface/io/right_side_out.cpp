@@ -13,8 +13,6 @@
 namespace crowdface {
 namespace {
 
-constexpr std::string_view kTurned = "its faces pointed inward (inside out) and are flipped";
-
 /// The OBJ text with the corners of each face after the first in reverse order.
 std::string with_turned_faces(std::string_view text) {
   std::string turned;
@@ -47,7 +45,7 @@ std::string with_turned_faces(std::string_view text) {
 void turn_right_side_out(FileMesh& mesh) {
   if (!is_inside_out(mesh.topology, mesh.positions)) return;
   turn_faces(mesh.topology);
-  mesh.notes.emplace_back(kTurned);
+  mesh.notes.emplace_back(kTurnedNote);
 }
 
 ObjFile right_side_out(ObjFile file) {
@@ -56,7 +54,7 @@ ObjFile right_side_out(ObjFile file) {
   const ObjOutline outline = outline_obj(text.bytes());
   ObjFile turned = read_obj(file.path, std::move(text), outline);
   turned.notes = std::move(file.notes);
-  turned.notes.emplace_back(kTurned);
+  turned.notes.emplace_back(kTurnedNote);
   turned.is_mended = true;
   turned.textures_at = std::move(file.textures_at);
   return turned;

@@ -3,10 +3,16 @@
 // with the opposite winding.
 #pragma once
 
+#include <string_view>
+
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/obj_file.h"
 
 namespace crowdface {
+
+/// Note on a mesh whose faces were reversed.
+inline constexpr std::string_view kTurnedNote =
+    "its faces pointed inward (inside out) and are flipped";
 
 /// Reverses the faces of a mesh that is inside out, and adds a note.
 void turn_right_side_out(FileMesh& mesh);
