@@ -113,6 +113,22 @@ struct Seen {
   double face = 0;            ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 
+/// Leaves out heads that `check` refuses because of their pose, and logs warnings: a mean with them
+/// has no face.
+void leave_out_odd_heads(HeadSet& set, const Components& components) {
+  const std::vector<HeadPose> poses = head_poses(set, components);
+  std::vector<Head> kept;
+  for (std::size_t h = 0; h < poses.size(); ++h) {
+    const std::string objection = objection_to_pose(poses[h], set.heads[h].name);
+    if (objection.empty()) {
+      kept.push_back(std::move(set.heads[h]));
+    } else {
+      log_warning(objection);
+    }
+  }
+  set.heads = std::move(kept);
+}
+
 /// Analyses a sample of the heads. If no regions can be proposed, logs a warning and does not fail,
 /// because a config without regions is valid.
 Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
@@ -130,6 +146,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   }
   // The config aligns these heads; their mean has a face only then.
   const Components components = find_components(build_adjacency(set->topology));
+  leave_out_odd_heads(*set, components);
   const bool stands_apart = needs_rigid_alignment(*set, components);
   if (stands_apart) align_heads(*set, components, Align::kRigid);
   const HeadShape mean = shape_of_mean(*set);

@@ -8,6 +8,7 @@
 #include <signal.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/obj_template.h"
 #include "crowdface/run/generate.h"
 
 #include "cli/program_test.h"
@@ -178,6 +179,27 @@ TEST(Init, AlignsHeadsThatStandDifferently) {
   crowdface(0, {"init", heads, "-o", config, "--force"}, {"turned or moved", "align: rigid"});
   const Outcome checked = crowdface(0, {"check", config}, {"is fine"});
   EXPECT_THAT(checked.err, ::testing::Not(::testing::HasSubstr("is not aligned")));
+}
+
+// The mean of three heads of which one was mirrored, or ten times as large, had another unit and axes.
+TEST(Init, TellsHeadsThatCheckRefusesAndLeavesThemOut) {
+  const TemporaryFolder folder;
+  const std::string heads = (folder / "heads").string(), config = (folder / "c.yaml").string();
+  crowdface(0, {"synth", "-o", heads, "--count", "3", "--vertices", "5000"});
+  fs::rename(folder / "heads/synth_02.obj", folder / "plain.obj");
+  const ObjFile plain = read_obj(folder / "plain.obj");
+  const auto write_scaled = [&](double x, double all) {
+    Positions positions = all * plain.positions;
+    positions.col(0) *= x;
+    folder.write("heads/synth_02.obj",
+                 ObjTemplate(plain, plain.topology).encode(positions, "odd").text());
+  };
+  write_scaled(-1, 1);
+  crowdface(0, {"init", heads, "-o", config},
+            {"head synth_02 is mirrored", "assumed unit: cm", "along +Z with +Y up"});
+  write_scaled(1, 10);
+  crowdface(0, {"init", heads, "-o", config, "--force"},
+            {"head synth_02: expected heads in one unit", "assumed unit: cm"});
 }
 
 TEST(Init, TakesTheMaskAndTheTagsBesideTheHeads) {

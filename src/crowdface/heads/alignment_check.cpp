@@ -106,6 +106,21 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
   return poses;
 }
 
+std::string objection_to_pose(const HeadPose& pose, const std::string& head) {
+  if (pose.is_mirrored) {
+    return concat(
+        "head ", head,
+        " is mirrored: left and right are swapped relative to the others; mirror it back (scale "
+        "it by -1 along one axis and flip its faces; faces.align: none skips this check)");
+  }
+  if (pose.scale > kOtherUnit || pose.scale < 1 / kOtherUnit) {
+    return concat("head ", head, ": expected heads in one unit, found ",
+                  format_fixed(pose.scale, 2),
+                  " times the size of the others (faces.align: none skips this check)");
+  }
+  return {};
+}
+
 bool needs_rigid_alignment(const HeadSet& faces, const Components& components) {
   const std::vector<HeadPose> poses = head_poses(faces, components);
   return std::ranges::any_of(poses, is_off) && std::ranges::none_of(poses, is_of_other_size);
@@ -128,19 +143,9 @@ std::vector<std::string> align_heads(HeadSet& faces, const Components& component
   std::vector<std::string> warnings;
   const std::vector<HeadPose> poses = head_poses(faces, components);
   for (std::size_t h = 0; h < poses.size(); ++h) {
-    if (poses[h].is_mirrored) {
-      throw InvalidInput(concat(
-          "head ", faces.heads[h].name,
-          " is mirrored: left and right are swapped relative to the others; mirror it back (scale "
-          "it by -1 along one axis and flip its faces; faces.align: none skips this check)"));
-    }
+    const std::string objection = objection_to_pose(poses[h], faces.heads[h].name);
+    if (!objection.empty()) throw InvalidInput(objection);
     if (!is_off(poses[h])) continue;
-    if (poses[h].scale > kOtherUnit || poses[h].scale < 1 / kOtherUnit) {
-      throw InvalidInput(
-          concat("head ", faces.heads[h].name, ": expected heads in one unit, found ",
-                 format_fixed(poses[h].scale, 2),
-                 " times the size of the others (faces.align: none skips this check)"));
-    }
     if (align == Align::kCheck && poses[h].angle_degrees > kMaxTurn) {
       throw InvalidInput(concat("head ", faces.heads[h].name, " is turned by ",
                                 format_fixed(poses[h].angle_degrees, 1),

@@ -23,6 +23,10 @@ struct HeadPose {
 /// vertices count.
 std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& components);
 
+/// Why `align_heads` refuses a head even with `rigid`: it is mirrored or has another unit. Empty if
+/// neither is the case.
+std::string objection_to_pose(const HeadPose& pose, const std::string& head);
+
 /// Whether `align_heads` would warn about a head and a rigid motion would help: the heads have one
 /// size, and some head is rotated or shifted relative to the others.
 bool needs_rigid_alignment(const HeadSet& faces, const Components& components);
