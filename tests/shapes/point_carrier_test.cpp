@@ -6,6 +6,7 @@
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
+#include "crowdface/shapes/surface_points.h"
 #include "head_models/synth/synthetic_head.h"
 
 namespace crowdface {
@@ -93,6 +94,34 @@ TEST(PointCarrier, KeepsPivotsInTheMiddleOfEyes) {
     EXPECT_LT((row3(carried, 0) - heads.middle_of_eye(heads[face])).norm(), 1e-6);
     // Both heads know where the tip of their own nose is: a centimetre apart is another place.
     EXPECT_LT((row3(carried, 1) - row3(heads.points({face}).positions[0], 1)).norm(), 1);
+  }
+}
+
+// A point on the surface moved with the skin around it, and left its vertex by up to millimetres.
+TEST(SurfacePoints, StayOnTheirVerticesAndTriangles) {
+  const HeadsWithPoints heads;
+  const auto triangles = triangles_of(heads.faces.topology);
+  const Triangle corners = triangles[triangles.size() / 3];
+  PointSet points{{"vertex", "middle", "beside"}, {Positions(3, 3)}, {heads[0]}};
+  const auto place = [&](const Positions& head) {
+    Positions rows(3, 3);
+    rows.row(0) = head.row(corners[1]);
+    rows.row(1) =
+        0.2 * head.row(corners[0]) + 0.3 * head.row(corners[1]) + 0.5 * head.row(corners[2]);
+    rows.row(2) = head.row(corners[1]) * 1.01;
+    return rows;
+  };
+  points.positions[0] = place(heads[0]);
+  points.positions[0].array() += 1e-6;  // cm, as files round
+  const PointCarrier carrier(points, heads.parts, heads.skin);
+  const SurfacePoints on_surface(points, triangles);
+  for (const std::size_t face : {1, 2}) {
+    const Positions carried = carrier.carry(0, heads[face]);
+    Positions placed = carried;
+    on_surface.place(0, heads[face], placed);
+    EXPECT_LT((placed - place(heads[face])).topRows(2).norm(), 1e-5) << face;
+    EXPECT_GT((carried - place(heads[face])).topRows(2).norm(), 1e-3) << face;
+    EXPECT_EQ(placed.row(2), carried.row(2)) << face;
   }
 }
 

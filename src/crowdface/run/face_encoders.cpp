@@ -13,6 +13,7 @@
 #include "crowdface/io/single_precision.h"
 #include "crowdface/io/usda_text.h"
 #include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/triangles.h"
 
 namespace crowdface {
 namespace {
@@ -71,7 +72,10 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
   }
   if (has_own_textures(inputs)) own_.emplace(config, inputs, crowd, shared);
   if (need_normals) fans_.emplace(inputs.faces.topology);
-  if (!inputs.points.empty()) points_.emplace(inputs.points, inputs.parts, skin_vertices(inputs));
+  if (!inputs.points.empty()) {
+    points_.emplace(inputs.points, inputs.parts, skin_vertices(inputs));
+    surface_points_.emplace(inputs.points, triangles_of(inputs.faces.topology));
+  }
   if (!inputs.rig.empty() && encoders_.contains(MeshFormat::kGlb))
     joints_.emplace(inputs.rig.points, inputs.parts, skin_vertices(inputs));
 }
@@ -114,7 +118,10 @@ void FaceEncoders::prepare(FinishedFace& face) const {
     return needs_normals(format, levels_.size() - 1, target);
   });
   if (need_normals) face.normals = normals_of(face.positions);
-  if (points_) face.points = points_->carry(target, face.positions);
+  if (points_) {
+    face.points = points_->carry(target, face.positions);
+    surface_points_->place(target, face.positions, face.points);
+  }
   if (joints_) face.joints = joints_->carry(target, face.positions);
   if (holds_textures()) face.images = own_->glb_images(*face.textures);
   face.image_names = own_texture_names(config_, inputs_, face.face.id);
