@@ -113,6 +113,42 @@ TEST(GlbTemplate, HasOnePrimitiveAMaterial) {
   EXPECT_EQ(lashes.alphaMode, "BLEND");
 }
 
+// Validators complained that viewers had to guess the tangents of a normal map.
+TEST(GlbTemplate, HasTangentsWhereItHasANormalMap) {
+  // Two quads whose texture is mirrored at their common edge.
+  Topology topology = testing::make_topology(6, {{0, 1, 2, 3}, {1, 4, 5, 2}});
+  topology.corner_uvs = {0, 1, 2, 3, 1, 0, 3, 2};
+  TextureCoordinates uvs(4, 2);
+  uvs << 1, 0, 0, 0, 0, 1, 1, 1;
+  Positions positions(6, 3), normals(6, 3);
+  positions << -1, 0, 0, 0, 0, 0, 0, 1, 0, -1, 1, 0, 1, 0, 0, 1, 1, 0;
+  normals.rowwise() = Eigen::RowVector3d(0, 0, 1);
+  GlbOptions options;
+  options.materials = {{"skin"}};
+  const auto written = [&](std::span<const std::string_view> images) {
+    return testing::load_glb(
+        GlbTemplate(topology, uvs, options).encode(positions, normals, "m", {}, images).text());
+  };
+  EXPECT_FALSE(written({}).meshes[0].primitives[0].attributes.contains("TANGENT"));
+
+  options.materials[0].normal_image = 0;
+  options.images = {{"image/png", ".normal"}};
+  const std::string png = encode_png(1, 1, 3, std::vector<std::uint8_t>{128, 128, 255});
+  const std::string_view image = png;
+  const tinygltf::Model model = written({&image, 1});
+  // Each side has its own vertices at the edge.
+  EXPECT_EQ(attribute(model, "_VERTEX_ID"), (std::vector<float>{0, 1, 2, 3, 4, 5, 1, 2}));
+  const std::vector<float> tangents = attribute(model, "TANGENT");
+  ASSERT_EQ(tangents.size(), 32U);
+  for (std::size_t v = 0; v < 8; ++v) {
+    const float side = v < 4 ? -1 : 1;  // u grows away from the edge
+    EXPECT_EQ(std::vector<float>(tangents.begin() + static_cast<std::ptrdiff_t>(4 * v),
+                                 tangents.begin() + static_cast<std::ptrdiff_t>(4 * v + 4)),
+              (std::vector<float>{side, 0, 0, side}))
+        << v;
+  }
+}
+
 // Eyeballs of one material were blank.
 TEST(GlbTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   SmallMesh mesh;

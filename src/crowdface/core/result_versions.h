@@ -23,11 +23,11 @@ inline constexpr int kCastVersion = 1;
 /// Further cache entries: neighbours, masks at vertices, samples and their cells, mirror vertices.
 inline constexpr int kSharedVersion = 1;
 /// Pictures, measurements of a skin, and mesh files of unchanged positions.
-inline constexpr int kFaceFilesVersion = 24;
+inline constexpr int kFaceFilesVersion = 25;
 /// Shapes transferred to a face of unchanged positions, and their pictures.
 inline constexpr int kShapesVersion = 9;
 /// Points that follow a face of unchanged positions.
-inline constexpr int kPointsVersion = 1;
+inline constexpr int kPointsVersion = 2;
 /// Joints that follow the face, and the skin weights bound to them.
 inline constexpr int kRigVersion = 1;
 /// Placement of heads and faces on a body, and bending of necks to its ring.

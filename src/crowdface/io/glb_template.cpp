@@ -60,8 +60,8 @@ std::string places_on_overlay(const SplitVertices& split, const GlbOverlay& over
   return bytes;
 }
 
-Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, bool has_uvs,
-                     const std::vector<GlbSkinAttribute>& skin) {
+Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, bool has_tangents,
+                     bool has_uvs, const std::vector<GlbSkinAttribute>& skin) {
   Json attributes = Json::object();
   buffer.add_view(vertices * kVectorSize, kArrayBuffer);
   attributes["POSITION"] = buffer.add_accessor(kFloat, "VEC3", vertices);
@@ -70,6 +70,10 @@ Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, 
   if (has_colours) {
     buffer.add_view(vertices * kVectorSize, kArrayBuffer);
     attributes["COLOR_0"] = buffer.add_accessor(kFloat, "VEC3", vertices);
+  }
+  if (has_tangents) {
+    buffer.add_view(vertices * Tangents::kSize, kArrayBuffer);
+    attributes["TANGENT"] = buffer.add_accessor(kFloat, "VEC4", vertices);
   }
   if (has_uvs) {
     buffer.add_view(vertices * 2 * sizeof(float), kArrayBuffer);
@@ -166,7 +170,13 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
                               " vertices, found ", vertices_, " vertices and ",
                               topology.face_count(), " faces"));
   }
-  const SplitVertices split = split_vertices(topology);
+  const bool has_normal_map = !topology.corner_uvs.empty() &&
+                              std::ranges::any_of(options.materials, [](const GlbMaterial& one) {
+                                return one.normal_image.has_value();
+                              });
+  const SplitVertices split =
+      has_normal_map ? split_at_mirrored_uvs(topology, uvs) : split_vertices(topology);
+  if (has_normal_map) tangents_.emplace(split, uvs);
   split_.assign(split.vertices.begin() + vertices_, split.vertices.end());
   const std::vector<Triangles> groups = by_material(split, options);
 
@@ -185,8 +195,8 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   if (!options.skin.joints.empty()) {
     skin = skin_attributes(options.skin.influences, split.vertices);
   }
-  const Json attributes =
-      attributes_json(buffer, split.vertices.size(), options.colours, !split.uvs.empty(), skin);
+  const Json attributes = attributes_json(buffer, split.vertices.size(), options.colours,
+                                          has_normal_map, !split.uvs.empty(), skin);
   std::optional<std::size_t> places, picture;
   if (options.overlay) {
     require(options.overlay->places.size() == static_cast<std::size_t>(vertices_),
@@ -247,7 +257,8 @@ std::size_t GlbTemplate::vector_bytes() const {
 
 std::size_t GlbTemplate::memory_bytes() const {
   return shared_.size() + json_.size() + split_.size() * sizeof(split_[0]) +
-         target_bytes_ / kVectorSize * sizeof(std::uint32_t);
+         target_bytes_ / kVectorSize * sizeof(std::uint32_t) +
+         (tangents_ ? tangents_->memory_bytes() : 0);
 }
 
 EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& normals,
@@ -315,8 +326,11 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   char* vectors = file.reserve(encode_bytes());
   put_vectors(vectors, positions, split_);
   put_vectors(vectors + vector_bytes(), normals, split_);
-  char* const values = vectors + (colours_ ? 3 : 2) * vector_bytes();
+  char* const values = vectors + vertex_bytes();
   if (colours_) put_vectors(vectors + 2 * vector_bytes(), linear_light(colours), split_);
+  if (tangents_) {
+    tangents_->put(values - tangents_->count() * Tangents::kSize, positions, normals);
+  }
   file.refer_to({vectors, static_cast<std::size_t>(values - vectors)});
   file.refer_to(shared_);
   char* at = values;

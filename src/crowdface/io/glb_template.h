@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "crowdface/io/glb_options.h"
 #include "crowdface/io/glb_part.h"
 #include "crowdface/io/glb_scene.h"
+#include "crowdface/io/tangents.h"
 #include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/topology.h"
@@ -21,7 +23,7 @@ namespace crowdface {
 /// coordinates, triangles, the split of vertices at seams, see `SplitVertices`) is built once, and
 /// each file references it. Positions keep their unit and axes. The attribute `_VERTEX_ID` holds
 /// the original vertex of each split vertex, or the value given in the options. The first #V
-/// vertices are the original vertices in order.
+/// vertices are the original vertices in order. Files with a normal map have tangents.
 class GlbTemplate {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
@@ -50,12 +52,15 @@ class GlbTemplate {
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
   /// Memory needed for one encode, in bytes.
-  std::size_t encode_bytes() const {
-    return (colours_ ? 3 : 2) * vector_bytes() + target_bytes_ + skin_.matrix_bytes();
-  }
+  std::size_t encode_bytes() const { return vertex_bytes() + target_bytes_ + skin_.matrix_bytes(); }
 
  private:
   std::size_t vector_bytes() const;
+  /// Bytes of positions, normals, colours and tangents.
+  std::size_t vertex_bytes() const {
+    return (colours_ ? 3 : 2) * vector_bytes() +
+           (tangents_ ? tangents_->count() * Tangents::kSize : 0);
+  }
 
   Index vertices_;
   bool colours_;
@@ -63,6 +68,7 @@ class GlbTemplate {
   Index points_;
   /// Original vertices of the split vertices with index ≥ #V.
   std::vector<std::uint32_t> split_;
+  std::optional<Tangents> tangents_;    ///< if a material has a normal map
   std::string shared_;                  ///< the part of the buffer that all faces share
   std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices
   /// Accessor of the first target's displacements; those of further targets follow.
