@@ -75,6 +75,32 @@ TEST(CastingOptions, DistancesThatAreAskedForAreKept) {
   }
 }
 
+// Of 300 faces of 16 heads, 10 passed for a head if the config asked for nothing.
+TEST(CastingOptions, FacesKeepAwayFromHeadsByDefault) {
+  for (const char* mode : {"first_fit", "spread"}) {
+    SmallCrowd crowd = six_bowls();
+    crowd.count = 200;
+    crowd.more = concat("diversity: {mode: ", mode, "}\n");
+    const SmallCrowdFolder folder(crowd);
+    plan(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+    for (const json& line : plan_lines(folder.out())) {
+      EXPECT_GE(line.at("nearest").at("face_mm").get<double>(), 0.5) << mode << line.at("id");
+    }
+  }
+}
+
+TEST(CastingOptions, FacesNearHeadsAreMadeIfTheConfigGivesNoOthers) {
+  SmallCrowd crowd = six_bowls();
+  crowd.more = "groups: [{name: a, targets: [ann], sources: [ann]}]\n";
+  const SmallCrowdFolder folder(crowd);
+  plan(folder.config(), {}, {folder.cache(), Replace::kRefuse, false});
+  const auto lines = plan_lines(folder.out());
+  EXPECT_EQ(lines.size(), 12U);
+  for (const json& line : lines) {
+    EXPECT_LT(line.at("nearest").at("face_mm").get<double>(), 0.1) << line.at("id");
+  }
+}
+
 TEST(CastingOptions, GrowingTheCrowdMovesNoFace) {
   SmallCrowd crowd = six_bowls();
   crowd.more =

@@ -26,6 +26,11 @@ struct DiversityOptions {
   double max_weight = 1;  ///< largest weight of one head in one region
   /// number of draws for one face before casting gives up
   int max_attempts = 1000;
+  /// Below this distance, a face passes for a head.
+  static constexpr double kSamePersonMm = 0.5;
+  /// In its first draws, a face also keeps away from heads that it would pass for. Later draws do
+  /// not, because some configs only give faces near heads.
+  static constexpr std::uint32_t kDrawsAwayFromHeads = 100;
   /// kSpread: size of the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPool = 10;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "crowdface/cast/crowd_statistics.h"
+
 namespace crowdface {
 
 std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const SkinDefects& skin) {
@@ -31,6 +33,12 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
       skin_(skin),
       mesh_defects_(std::move(meshes)) {
   for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
+  std::vector<FaceSpace::Point> heads;
+  for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
+  // Heads may be alike or small, too.
+  constexpr double kShareOfMedian = 0.1;
+  same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
+                             kShareOfMedian * quartiles(pair_distances(heads)).median);
 }
 
 std::optional<Reason> FaceJudge::check_traits(const FacePlan& face) const {
@@ -53,6 +61,14 @@ std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
     return Reason::kImplausible;
   }
   return std::nullopt;
+}
+
+std::optional<Reason> FaceJudge::check_draw(const Recipe& recipe, const FaceSpace::Point& point,
+                                            std::uint32_t draw) const {
+  if (const auto why = check_recipe(recipe, point)) return why;
+  const bool passes_for_head = draw < DiversityOptions::kDrawsAwayFromHeads &&
+                               heads_.nearest(point, same_person_mm_).face >= 0;
+  return passes_for_head ? std::optional(Reason::kMinDistanceToFaces) : std::nullopt;
 }
 
 std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {

@@ -41,6 +41,12 @@ class FaceJudge {
   /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
 
+  /// Like `check_recipe`. The first draws of a face (DiversityOptions::kDrawsAwayFromHeads) also
+  /// fail if the face would pass for a head.
+  /// \param draw  number of earlier draws of this face
+  std::optional<Reason> check_draw(const Recipe& recipe, const FaceSpace::Point& point,
+                                   std::uint32_t draw) const;
+
   /// Checks the shape of the skin: flips, stretch, intersections. Takes a millisecond on the
   /// samples, a tenth of a second on a mesh of 28,000 triangles.
   ///
@@ -60,6 +66,7 @@ class FaceJudge {
   DiversityOptions diversity_;
   BelievabilityOptions believability_;
   FacePointIndex heads_;
+  double same_person_mm_;  ///< below this distance from a head, a face passes for the head
   Plausibility plausibility_;
   const ProxySkin* skin_;
   MeshDefects mesh_defects_;

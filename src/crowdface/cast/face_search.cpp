@@ -12,6 +12,7 @@ FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions
       judge_(judge),
       diversity_(diversity),
       wanted_(static_cast<std::size_t>(candidates)),
+      first_attempt_(first_attempt),
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
       usual_attempt_(last_attempt_) {}
@@ -59,10 +60,11 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
 void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   while (goes_on()) {
     Candidate candidate;
+    const std::uint32_t draw = next_attempt_ - first_attempt_;
     candidate.face = draw_(next_attempt_++);
     if (!meets_limits(candidate)) continue;
     candidate.point = judge_.space().point(candidate.face.recipe);
-    if (const auto reason = judge_.check_recipe(candidate.face.recipe, candidate.point)) {
+    if (const auto reason = judge_.check_draw(candidate.face.recipe, candidate.point, draw)) {
       rejections_.add(*reason);
     } else if (!compare_with_crowd(candidate, crowd)) {
       rejections_.add(Reason::kMinDistance);

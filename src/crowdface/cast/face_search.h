@@ -69,7 +69,7 @@ class FaceSearch {
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
   std::size_t wanted_;
-  std::uint32_t next_attempt_, last_attempt_, usual_attempt_;
+  std::uint32_t first_attempt_, next_attempt_, last_attempt_, usual_attempt_;
   Index compared_ = 0;  ///< number of faces that the candidates were compared with
   std::vector<Candidate> candidates_;
   Rejections rejections_;

@@ -66,7 +66,7 @@ CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
         continue;
       }
       FaceSpace::Point point = judge.space().point(face.recipe);
-      if (const auto reason = judge.check_recipe(face.recipe, point)) {
+      if (const auto reason = judge.check_draw(face.recipe, point, key.attempt)) {
         rejections[at].add(*reason);
         continue;
       }

@@ -19,7 +19,7 @@ inline constexpr int kPatchVersion = 1;
 /// Coordinates of faces in the space that casting samples, and the plans made from them.
 inline constexpr int kFaceSpaceVersion = 1;
 /// Plans of the same config and the same heads.
-inline constexpr int kCastVersion = 1;
+inline constexpr int kCastVersion = 2;
 /// Further cache entries: neighbours, masks at vertices, samples and their cells, mirror vertices.
 inline constexpr int kSharedVersion = 1;
 /// Pictures, measurements of a skin, and mesh files of unchanged positions.

@@ -155,11 +155,11 @@ Json trait_to_json(const TraitReport& report) {
 
 std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
                                     const std::vector<std::string>& heads) {
-  constexpr double kSamePersonMm = 0.5;  // see docs/casting.md
   constexpr std::size_t kMaxNamed = 8;
   std::vector<std::string> near;
   for (const FacePlan& face : crowd_plan.crowd) {
-    if (!face.index || !face.notes.nearest || face.notes.nearest->head_mm >= kSamePersonMm)
+    if (!face.index || !face.notes.nearest ||
+        face.notes.nearest->head_mm >= DiversityOptions::kSamePersonMm)
       continue;
     near.push_back(concat(face.id, " (", heads[static_cast<std::size_t>(face.notes.nearest->head)],
                           ", ", format_fixed(face.notes.nearest->head_mm, 2), " mm)"));
