@@ -153,7 +153,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   Seen seen{set->heads[0].positions, find_orientation(set->topology, mean), {}};
   if (const auto marks = find_face_marks(
           set->topology, mean, axes_of(seen.orientation.value_or(Orientation{{1, 1}, {2, 1}})))) {
-    seen.face = marks->face();
+    seen.face = marks->eye_to_mouth();
   }
   seen.has_uvs = set->uvs.rows() > 0;
   seen.stands_apart = stands_apart;

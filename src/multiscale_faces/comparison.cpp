@@ -52,8 +52,8 @@ std::vector<double> band_energies(const Topology& topology, const FrontPatch& pa
   return energies;
 }
 
-double largest_at(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
-                  const Positions& b) {
+double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
+                            const Positions& b) {
   double largest = 0;
   for (const auto& rim : rims) {
     for (const std::uint32_t v : rim) largest = std::max(largest, (a.row(v) - b.row(v)).norm());

@@ -23,8 +23,8 @@ std::vector<double> band_energies(const Topology& topology, const FrontPatch& pa
                                   const Positions& positions, const std::vector<double>& bounds_mm);
 
 /// The largest distance between the vertices of two faces along some rims.
-double largest_at(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
-                  const Positions& b);
+double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
+                            const Positions& b);
 
 /// By how many degrees the largest crease of a face exceeds what its heads have there: the largest,
 /// over the edges inside of region borders, of the angle between the normals of both triangles, less

@@ -177,10 +177,11 @@ class Report {
     table_ << std::fixed;
     table_.precision(2);
     table_ << "| " << name << " | " << settings << " | " << d.rms << " | " << d.rms_to_surface
-           << " | " << d.largest << " | " << largest_at(patch.holes, a, before) << ", "
-           << largest_at(patch.holes, b, before) << " | " << largest_at({patch.border}, a, before)
-           << ", " << largest_at({patch.border}, b, before) << " | " << kept(ours, lender) << " | "
-           << kept(theirs, lender) << " |\n";
+           << " | " << d.largest << " | " << largest_rim_distance(patch.holes, a, before) << ", "
+           << largest_rim_distance(patch.holes, b, before) << " | "
+           << largest_rim_distance({patch.border}, a, before) << ", "
+           << largest_rim_distance({patch.border}, b, before) << " | " << kept(ours, lender)
+           << " | " << kept(theirs, lender) << " |\n";
     const Eigen::VectorXd apart = (ours - theirs).rowwise().norm();
     const VertexColours colours = heat_colours(apart, kScaleMm);
     cells_.push_back({heads_.picture(ours), name + ", ours"});

@@ -66,7 +66,7 @@ void BM_Scene(benchmark::State& state) {
     const auto face = s.heads.topology().face(f);
     quads.push_back({face[0], face[1], face[2], face[3]});
   }
-  RayScene moving(device, to_camera(s.other, s.camera), quads, RayScene::Tree::kForMoves);
+  RayScene moving(device, to_camera(s.other, s.camera), quads, RayScene::Tree::kMovable);
   for (auto _ : state) {
     std::vector<float> points = to_camera(s.positions, s.camera);
     if (state.range(0) == 0) {

@@ -27,8 +27,8 @@ class KeptStatistics : public ::testing::Test {
       std::mt19937 random(5);
       SurfaceStatistics statistics;
       for (std::size_t h = 0; h < heads; ++h) {
-        statistics.coarse.emplace_back(SurfaceStatistics::Colours(kMeshVertices, 3));
-        for (float& value : statistics.coarse.back().reshaped()) {
+        statistics.coarse_values.emplace_back(SurfaceStatistics::Colours(kMeshVertices, 3));
+        for (float& value : statistics.coarse_values.back().reshaped()) {
           value = static_cast<float>(random() % 1000);
         }
       }
@@ -41,7 +41,8 @@ class KeptStatistics : public ::testing::Test {
     });
   }
   static bool alike(const SurfaceStatistics& a, const SurfaceStatistics& b) {
-    return a.coarse == b.coarse && a.covariances == b.covariances && a.pairs == b.pairs;
+    return a.coarse_values == b.coarse_values && a.covariances == b.covariances &&
+           a.pairs == b.pairs;
   }
 
   testing::TemporaryFolder folder_;
@@ -64,7 +65,7 @@ TEST_F(KeptStatistics, AreMadeAnewWhereAnEntryIsDamagedOrOfOtherHeads) {
   fs::resize_file(entry, fs::file_size(entry) - 1);
   EXPECT_TRUE(alike(kept(), first));
   EXPECT_EQ(made_, 2);
-  EXPECT_EQ(kept({1, 2}, kTexturedHeads + 1).coarse.size(), kTexturedHeads + 1);
+  EXPECT_EQ(kept({1, 2}, kTexturedHeads + 1).coarse_values.size(), kTexturedHeads + 1);
   EXPECT_EQ(made_, 3);
 }
 
@@ -110,9 +111,9 @@ TEST(StatisticsKey, IsAnotherOfWhateverChangesThem) {
   EXPECT_TRUE(is_new()) << "which corner lies there";
   textures.layout.of_face = {kNoIndex};
   EXPECT_TRUE(is_new()) << "a face without a picture";
-  scale.detail = 5;
+  scale.detail_iterations = 5;
   EXPECT_TRUE(is_new()) << "what counts as detail";
-  scale.strength = 17;
+  scale.covariance_iterations = 17;
   EXPECT_TRUE(is_new()) << "over how much it is averaged";
   rows.low = 5;
   EXPECT_TRUE(is_new()) << "the mesh";

@@ -192,7 +192,7 @@ bool put_at_origin(const Topology& topology, HeadShape& head) {
   constexpr double kCmPerMm = 0.1, kInFrontCm = 7;
   const auto face = find_face(topology, head, {});
   if (!face) return false;
-  head.positions.rowwise() -= Eigen::RowVector3d(face->between.transpose());
+  head.positions.rowwise() -= Eigen::RowVector3d(face->between_eyes.transpose());
   head.positions *= kCmPerMm / face->scale;
   head.positions.col(2).array() += kInFrontCm;
   head.eyeballs.clear();

@@ -63,7 +63,7 @@ TEST(PackedFace, ComesBackWithinHalfAStepAndAHundredthOfADegree) {
   const Ball ball;
   const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
   const std::array heads = {&ball.positions};
-  const PackingFrame frame = PackingFrame::around(heads);
+  const PackingFrame frame = PackingFrame::enclosing(heads);
   const std::string bytes =
       pack_face(ball.topology, mesh.vertices, VertexFaces(ball.topology), frame, ball.positions);
   const std::size_t count = mesh.vertices.size();
@@ -86,11 +86,11 @@ TEST(PackedFace, FrameLeavesAQuarterAroundTheHeads) {
   Positions head(2, 3);
   head << 0, 0, 0, 8, 2, 4;
   const std::array heads = {static_cast<const Positions*>(&head)};
-  const PackingFrame frame = PackingFrame::around(heads);
+  const PackingFrame frame = PackingFrame::enclosing(heads);
   EXPECT_DOUBLE_EQ(frame.low.x(), -2);
   EXPECT_DOUBLE_EQ(frame.low.y(), -5);
   EXPECT_DOUBLE_EQ(frame.low.x() + 65535 * frame.step, 10);
-  EXPECT_THROW(PackingFrame::around({}), BrokenPrecondition);
+  EXPECT_THROW(PackingFrame::enclosing({}), BrokenPrecondition);
 }
 
 TEST(PackedFace, WhatLiesBeyondTheFrameIsMovedToItsRim) {

@@ -75,10 +75,10 @@ TEST(Camera, ShowsWhatIsBesideTheHeadsUnlessItIsTooLow) {
   const auto heads = two_heads();
   FramingOptions options = {.margin = 0.08, .cut_below = 0.2};
   const Camera alone = fit_camera(pointers(heads), {}, View::kFront, options);
-  options.beside = {{0, 50, 5}};
+  options.extra_points = {{0, 50, 5}};
   EXPECT_EQ(fit_camera(pointers(heads), {}, View::kFront, options).distance, alone.distance);
   const Eigen::Vector3d hair(2, 122, 6);
-  options.beside.push_back(hair);
+  options.extra_points.push_back(hair);
   const Camera both = fit_camera(pointers(heads), {}, View::kFront, options);
   EXPECT_GT(both.distance, alone.distance);
   const Eigen::Vector2d place = testing::project(both, hair.transpose());

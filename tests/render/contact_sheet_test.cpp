@@ -199,13 +199,13 @@ TEST(LabelStrip, TinyStripsStayEmpty) {
 
 TEST(SideBySide, PutsViewsInARow) {
   const std::vector<Rgb8Image> views = {Rgb8Image(3, 2, {1, 1, 1}), Rgb8Image(5, 2, {9, 9, 9})};
-  const Rgb8Image row = side_by_side(views);
+  const Rgb8Image row = joined_pictures(views);
   EXPECT_EQ(row.width, 8);
   EXPECT_EQ(row.at(2, 1)[0], 1);
   EXPECT_EQ(row.at(3, 1)[0], 9);
   const std::vector<Rgb8Image> unequal = {Rgb8Image(3, 2), Rgb8Image(3, 3)};
-  EXPECT_THROW(side_by_side(unequal), InvalidInput);
-  EXPECT_THROW(side_by_side({}), BrokenPrecondition);
+  EXPECT_THROW(joined_pictures(unequal), InvalidInput);
+  EXPECT_THROW(joined_pictures({}), BrokenPrecondition);
 }
 
 TEST(ContactSheet, LabelsOfSeveralLinesStandBelowEachOther) {
@@ -240,23 +240,23 @@ TEST(ContactSheet, LegendStandsBelowAllCells) {
 }
 
 TEST(Shrunk, KeepsOneColourAndMixesTwoInLinearLight) {
-  EXPECT_EQ(shrunk(Rgb8Image(90, 60, kRed), 30), Rgb8Image(30, 20, kRed));
+  EXPECT_EQ(shrink_picture(Rgb8Image(90, 60, kRed), 30), Rgb8Image(30, 20, kRed));
   Rgb8Image stripes(40, 40);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; x += 2) {
       for (int c = 0; c < 3; ++c) stripes.at(x, y)[c] = 255;
     }
   }
-  EXPECT_NEAR(shrunk(stripes, 20).at(7, 7)[1], 188, 1);  // half the light of white
-  EXPECT_THROW(shrunk(stripes, 41), BrokenPrecondition);
+  EXPECT_NEAR(shrink_picture(stripes, 20).at(7, 7)[1], 188, 1);  // half the light of white
+  EXPECT_THROW(shrink_picture(stripes, 41), BrokenPrecondition);
 }
 
 TEST(Padded, KeepsThePictureInItsCorner) {
-  const Rgb8Image sheet = padded(Rgb8Image(5, 4, kRed), 9, 7);
+  const Rgb8Image sheet = pad_picture(Rgb8Image(5, 4, kRed), 9, 7);
   EXPECT_EQ(sheet.width, 9);
   EXPECT_EQ(sheet.at(4, 3)[0], kRed[0]);
   EXPECT_NE(sheet.at(5, 3)[0], kRed[0]);
-  EXPECT_THROW(padded(Rgb8Image(5, 4, kRed), 4, 7), BrokenPrecondition);
+  EXPECT_THROW(pad_picture(Rgb8Image(5, 4, kRed), 4, 7), BrokenPrecondition);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(RayScene, MovedPointsKeepOutTheLightAsPointsOfANewSceneDo) {
   for (float x = -2.03F; x < 5; x += 0.11F) {
     for (float y = -2.03F; y < 2.2F; y += 0.11F) rays.push_back({{x, y, 10}, {0, 0, -1}});
   }
-  RayScene moving(device, points(1, 0), quads, RayScene::Tree::kForMoves);
+  RayScene moving(device, points(1, 0), quads, RayScene::Tree::kMovable);
   for (const auto& [size, right] : {std::pair{1.0F, 3.0F}, {2.0F, 0.0F}, {1.0F, 0.0F}}) {
     const RayScene anew(device, points(size, right), quads);
     auto moved = points(size, right);

@@ -15,7 +15,7 @@ TEST(PlacesInPixel, ShareNoFineRowOrColumn) {
     std::set<int> columns;
     std::set<int> rows;
     const auto cells = static_cast<float>(side * side);
-    for (const auto& place : places_in_pixel(side)) {
+    for (const auto& place : sample_positions_in_pixel(side)) {
       columns.insert(static_cast<int>(place.x() * cells));
       rows.insert(static_cast<int>(place.y() * cells));
     }

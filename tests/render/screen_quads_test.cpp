@@ -26,7 +26,7 @@ struct Look {
 };
 
 Look look(const std::vector<float>& points, const std::vector<Quad>& quads, int size,
-          const PixelPlaces& places) {
+          const PixelSamples& places) {
   ScreenQuads screen;
   screen.put(points, quads, kDistance, size);
   Look look;
@@ -36,7 +36,7 @@ Look look(const std::vector<float>& points, const std::vector<Quad>& quads, int 
                                      std::min(left + kSquare + kRim, size),
                                      std::min(top + kSquare + kRim, size)};
       std::vector<std::optional<RayHit>> hits;
-      const std::vector<const PixelPlaces*> all(pixels.count(), &places);
+      const std::vector<const PixelSamples*> all(pixels.count(), &places);
       screen.nearest_hits({left / kSquare, top / kSquare}, pixels, all, hits);
       look.hits.insert(look.hits.end(), hits.begin(), hits.end());
       for (int y = pixels.top; y < pixels.bottom; ++y) {
@@ -84,8 +84,8 @@ TEST(ScreenQuads, MeetWhatRaysMeet) {
     const RayScene scene(device, soup.points, soup.quads);
     for (const int side : {1, 2, 3, 5}) {
       SCOPED_TRACE(side);
-      const Look look =
-          crowdface::look(soup.points, soup.quads, 71, PixelPlaces(places_in_pixel(side)));
+      const Look look = crowdface::look(soup.points, soup.quads, 71,
+                                        PixelSamples(sample_positions_in_pixel(side)));
       const auto expected = scene.nearest_hits(look.rays);
       ASSERT_EQ(look.hits.size(), expected.size());
       std::size_t met = 0, others = 0;
@@ -138,15 +138,15 @@ Soup grid(int cells) {
 TEST(ScreenQuads, ASurfaceHasNoHoles) {
   for (const int cells : {4, 60, 400}) {  // from a quarter of the image to a fifth of a pixel
     const Soup surface = grid(cells);
-    const Look look =
-        crowdface::look(surface.points, surface.quads, 96, PixelPlaces(places_in_pixel(3)));
+    const Look look = crowdface::look(surface.points, surface.quads, 96,
+                                      PixelSamples(sample_positions_in_pixel(3)));
     EXPECT_EQ(std::count(look.hits.begin(), look.hits.end(), std::nullopt), 0) << cells;
   }
 }
 
 TEST(ScreenQuads, TheSameAloneAndOnManyThreadsAndBesidesAFaceBefore) {
   const Soup surface = grid(300), before = grid(20);
-  const PixelPlaces places(places_in_pixel(2));
+  const PixelSamples places(sample_positions_in_pixel(2));
   const auto distances = [&](const Look& look) {
     std::vector<float> found;
     for (const auto& hit : look.hits) found.push_back(hit->distance);
@@ -160,7 +160,7 @@ TEST(ScreenQuads, TheSameAloneAndOnManyThreadsAndBesidesAFaceBefore) {
   screen.put(surface.points, surface.quads, kDistance, 2 * kSquare);
   const PixelRectangle pixels = {0, 0, kSquare + kRim, kSquare + kRim};
   std::vector<std::optional<RayHit>> hits;
-  const std::vector<const PixelPlaces*> all(pixels.count(), &places);
+  const std::vector<const PixelSamples*> all(pixels.count(), &places);
   screen.nearest_hits({0, 0}, pixels, all, hits);
   EXPECT_TRUE(
       std::equal(hits.begin(), hits.end(), many.begin(),
@@ -170,7 +170,7 @@ TEST(ScreenQuads, TheSameAloneAndOnManyThreadsAndBesidesAFaceBefore) {
 
 TEST(ScreenQuads, TheSameWithAnyInstructionSet) {
   const Soup soup(3000, 4);
-  const PixelPlaces places(places_in_pixel(3));
+  const PixelSamples places(sample_positions_in_pixel(3));
   const auto seen = [&] {
     std::vector<std::tuple<std::uint32_t, float, float, float>> found;
     for (const auto& hit : look(soup.points, soup.quads, 71, places).hits) {
@@ -191,9 +191,9 @@ TEST(ScreenQuads, OnlyPixelsThatAreLookedAtHaveHits) {
   const Soup surface = grid(10);
   ScreenQuads screen;
   screen.put(surface.points, surface.quads, kDistance, 20);
-  const PixelPlaces few(places_in_pixel(1)), many(places_in_pixel(3));
+  const PixelSamples few(sample_positions_in_pixel(1)), many(sample_positions_in_pixel(3));
   const PixelRectangle pixels = {2, 3, 6, 5};
-  std::vector<const PixelPlaces*> places(pixels.count(), nullptr);
+  std::vector<const PixelSamples*> places(pixels.count(), nullptr);
   places[pixels.index(3, 3)] = &many;
   places[pixels.index(5, 4)] = &few;
   std::vector<std::optional<RayHit>> hits;

@@ -64,7 +64,7 @@ TEST(SurfaceStatistics, AreMeansSmoothedByIteration) {
     });
   }
   sheet.add_bare_head();
-  const StatisticsScale scale{.detail = 9, .strength = 40};
+  const StatisticsScale scale{.detail_iterations = 9, .covariance_iterations = 40};
   const SmoothingOperator umbrella(sheet.adjacency, Boundary::kFree, OperatorKind::kUmbrella);
   const ChebyshevFilter filter(umbrella, Positions::Zero(sheet.faces.topology.vertex_count, 3));
   const SurfaceStatistics statistics =
@@ -80,25 +80,25 @@ TEST(SurfaceStatistics, AreMeansSmoothedByIteration) {
   };
   for (std::size_t h = 0; h < 2; ++h) {
     const Columns expected = means_by_iteration(
-        sheet, scale.detail, 3,
+        sheet, scale.detail_iterations, 3,
         [&](std::size_t texel, const auto&, const auto&) { return numbers(h, texel); });
-    EXPECT_LT((statistics.coarse[h].cast<double>() - expected).cwiseAbs().maxCoeff(),
+    EXPECT_LT((statistics.coarse_values[h].cast<double>() - expected).cwiseAbs().maxCoeff(),
               1e-5 * expected.maxCoeff());
   }
-  EXPECT_TRUE(statistics.coarse[2].isZero()) << "of a head that has nothing";
+  EXPECT_TRUE(statistics.coarse_values[2].isZero()) << "of a head that has nothing";
 
   const auto detail = [&](std::size_t head, std::size_t texel, const auto& vertices,
                           const auto& shares) {
     Eigen::RowVector3d difference = numbers(head, texel);
     for (std::size_t i = 0; i < 3; ++i) {
       difference -= static_cast<double>(shares[i]) *
-                    statistics.coarse[head].row(vertices[i]).template cast<double>();
+                    statistics.coarse_values[head].row(vertices[i]).template cast<double>();
     }
     return difference;
   };
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>(0, 0), {1, 0}, {1, 1}}) {
     const Columns expected = means_by_iteration(
-        sheet, scale.strength, 1,
+        sheet, scale.covariance_iterations, 1,
         [&, a = a, b = b](std::size_t texel, const auto& vertices, const auto& shares) -> Columns {
           return (detail(a, texel, vertices, shares) *
                   detail(b, texel, vertices, shares).transpose());

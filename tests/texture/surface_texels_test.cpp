@@ -55,8 +55,8 @@ TEST(SurfaceTexels, TheGutterTakesCoveredTexelsAndIsNoneItself) {
   }
   ASSERT_FALSE(texels.gutter().empty());
   for (const SurfaceTexels::Gutter& texel : texels.gutter()) {
-    EXPECT_FALSE(covered[texel.to]);
-    EXPECT_TRUE(covered[texel.from]);
+    EXPECT_FALSE(covered[texel.target]);
+    EXPECT_TRUE(covered[texel.source]);
   }
 }
 

@@ -72,7 +72,7 @@ TEST_F(LeafBoxesTest, BitsAreThoseOfEachPair) {
   const LeafBoxes boxes(corners(8), points_, 0.01);
   const LeafNormals normals(corners(8), points_);
   const std::uint64_t near = overlap_mask(boxes, boxes),
-                      alike = facing_alike(normals, normals, 0.3F);
+                      alike = similar_normal_mask(normals, normals, 0.3F);
   for (std::size_t i = 0; i < 8; ++i) {
     for (std::size_t j = 0; j < 8; ++j) {
       bool meet = true;

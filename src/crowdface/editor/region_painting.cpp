@@ -92,7 +92,7 @@ MaskPainter& RegionPainting::painter() {
     const HeadAxes axes = head_axes(job.config);
     const Topology& topology = job.inputs.faces.topology;
     painter_.emplace(topology, mean_.positions,
-                     MirrorPlane{axes.side(), middle_of(topology, mean_, axes)},
+                     MirrorPlane{axes.side(), symmetry_offset(topology, mean_, axes)},
                      job.inputs.regions.alpha);
   }
   return *painter_;

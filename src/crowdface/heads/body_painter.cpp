@@ -80,7 +80,7 @@ Positions coarse_at(const Rim& rim, const Topology& topology, const Positions& p
       SmoothingOperator(build_adjacency(topology), Boundary::kFree, OperatorKind::kLazy),
       positions);
   const SurfaceStatistics statistics = surface_statistics(filter, {texels}, {{map}}, {});
-  return statistics.coarse.front()(rim, kAllColumns).cast<double>();
+  return statistics.coarse_values.front()(rim, kAllColumns).cast<double>();
 }
 
 }  // namespace

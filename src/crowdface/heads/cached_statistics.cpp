@@ -24,8 +24,8 @@ Digest digest_of_map(const TextureMap& map) {
 
 constexpr auto kStatisticsArrays = [](auto& arrays, auto& statistics) {
   arrays("covariances", statistics.covariances);
-  for (std::size_t h = 0; h < statistics.coarse.size(); ++h) {
-    arrays(concat("coarse ", h), statistics.coarse[h]);
+  for (std::size_t h = 0; h < statistics.coarse_values.size(); ++h) {
+    arrays(concat("coarse ", h), statistics.coarse_values[h]);
   }
 };
 
@@ -49,7 +49,7 @@ Digest statistics_key(const Digest& rows, const Topology& topology, const Textur
   for (const TextureLayout::Picture& picture : textures.layout.pictures) {
     hasher.add(picture.width).add(picture.height);
   }
-  hasher.add(scale.detail).add(scale.strength).add(textures.maps.size());
+  hasher.add(scale.detail_iterations).add(scale.covariance_iterations).add(textures.maps.size());
   for (const Digest& digest : digests) hasher.add(digest);
   return hasher.digest();
 }
@@ -58,7 +58,7 @@ SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
                                     std::size_t vertices, std::size_t heads,
                                     const std::function<SurfaceStatistics()>& make) {
   SurfaceStatistics room;
-  room.coarse.resize(heads);
+  room.coarse_values.resize(heads);
   room.pairs = heads * (heads + 1) / 2;
   return cached(
       cache, {"texture-statistics", key}, make, kStatisticsArrays,
@@ -66,7 +66,7 @@ SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
         const auto has_all = [&](const SurfaceStatistics::Colours& colours) {
           return colours.rows() == static_cast<Index>(vertices);
         };
-        return std::ranges::all_of(found.coarse, has_all) &&
+        return std::ranges::all_of(found.coarse_values, has_all) &&
                found.covariances.size() == vertices * found.pairs;
       },
       std::move(room));

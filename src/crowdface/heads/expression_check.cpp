@@ -32,7 +32,7 @@ constexpr double kDepth = 0.6;  ///< depth of a box behind its foremost point
 
 std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const HeadShape& head,
                                const HeadAxes& axes) {
-  const double face = marks.face();
+  const double face = marks.eye_to_mouth();
   std::vector<Index> inside;
   double foremost = -std::numeric_limits<double>::max();
   for (Index v = 0; v < head.positions.rows(); ++v) {

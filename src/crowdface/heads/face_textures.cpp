@@ -62,12 +62,12 @@ void FaceTextures::blend_textures(const Config& config) {
   options.scale = {iterations(kDetailMm), iterations(kStrengthMm)};
   options.areas = face_areas(topology, inputs.skin, mean_head(inputs.faces), FaceArea::kFront,
                              config.faces.front);
-  options.of_target.assign(static_cast<std::size_t>(topology.vertex_count), false);
+  options.target_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
   for (const Part& part : inputs.parts.parts) {
-    for (const std::uint32_t vertex : part.vertices) options.of_target[vertex] = true;
+    for (const std::uint32_t vertex : part.vertices) options.target_only[vertex] = true;
   }
   region_shares_ = region_shares(inputs.regions, options.areas);
-  if (!inputs.colours.empty()) of_target_ = options.of_target;
+  if (!inputs.colours.empty()) target_only_ = options.target_only;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
@@ -99,8 +99,8 @@ BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) co
 ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
   if (inputs_.colours.empty()) return ColourRows(0, 3);
   FaceColourWeights weights = face_colour_weights(recipe, inputs_.colours.size(), region_shares_);
-  if (!are_blended_) weights.whole = weights.of_target;
-  return blend_vertex_colours(inputs_.colours, weights, of_target_);
+  if (!are_blended_) weights.face = weights.target;
+  return blend_vertex_colours(inputs_.colours, weights, target_only_);
 }
 
 std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {

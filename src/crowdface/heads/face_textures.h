@@ -65,7 +65,7 @@ class FaceTextures {
   /// whether colours are blended; if not, a face has the colours of its target
   bool are_blended_;
   std::vector<double> region_shares_;  ///< share of each region in the face
-  std::vector<bool> of_target_;        ///< #V, see blend_vertex_colours
+  std::vector<bool> target_only_;      ///< #V, see blend_vertex_colours
   std::optional<SeamColours> seam_;    ///< empty without colours at the neck's ring
   std::unique_ptr<const BodyPainter> body_;
 };

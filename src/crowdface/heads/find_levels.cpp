@@ -97,7 +97,7 @@ void require_ring(const Inputs& inputs, const DetailLevel& level) {
 /// A level of detail, and its error on the heads and their shapes.
 MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, double share,
                              double mm) {
-  const Borders borders = inputs.neck ? Borders::kStay : Borders::kCollapse;
+  const Borders borders = inputs.neck ? Borders::kKeep : Borders::kCollapse;
   DetailLevel level =
       std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1}, borders)[0]);
   require_ring(inputs, level);

@@ -164,14 +164,14 @@ std::optional<std::string> check_stance(const Config& config, const Inputs& inpu
   }
   // eyes to mouth: 45 mm (child) to about 85 mm, with a margin
   constexpr double kMinMm = 35, kMaxMm = 120;
-  const double mm = marks->face() * mm_per(config.faces.units);
+  const double mm = marks->eye_to_mouth() * mm_per(config.faces.units);
   if (mm >= kMinMm && mm <= kMaxMm) return std::nullopt;
   const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
   const double units = up.maxCoeff() - up.minCoeff();
   constexpr double kTypicalMm = 65;
-  LengthUnit fitting = fitting_unit(marks->face(), kTypicalMm);
+  LengthUnit fitting = fitting_unit(marks->eye_to_mouth(), kTypicalMm);
   for (const LengthUnit unit : kLengthUnits) {
-    const double other = marks->face() * mm_per(unit);
+    const double other = marks->eye_to_mouth() * mm_per(unit);
     if (other >= kMinMm && other <= kMaxMm) fitting = unit;
   }
   throw InvalidInput(

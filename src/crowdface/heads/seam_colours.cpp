@@ -50,7 +50,7 @@ Positions coarse_of(const TextureBlender& blender, std::size_t head,
   Positions densities(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     densities.row(static_cast<Index>(i)) =
-        blender.statistics().coarse[head].row(vertices[i]).cast<double>();
+        blender.statistics().coarse_values[head].row(vertices[i]).cast<double>();
   }
   return densities;
 }

@@ -23,7 +23,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
       vertices.push_back(split.corners[corner].vertex);
       uvs.push_back(split.corners[corner].uv);
     }
-    level.faces.push_back(split.face_of_material[split.corners[triangle[0]].look]);
+    level.faces.push_back(split.face_of_material[split.corners[triangle[0]].material]);
   }
   level.vertices = renumber(vertices, faces.topology.vertex_count);
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
@@ -65,9 +65,10 @@ Displacements DetailLevel::of(const Displacements& whole) const {
   return some;
 }
 
-std::vector<DetailLevel> detail_levels(const HeadSet& faces, std::span<const std::uint32_t> looks,
+std::vector<DetailLevel> detail_levels(const HeadSet& faces,
+                                       std::span<const std::uint32_t> materials,
                                        std::span<const double> shares, Borders borders) {
-  const SplitMesh split = split_mesh(faces.topology, faces.uvs, looks);
+  const SplitMesh split = split_mesh(faces.topology, faces.uvs, materials);
   const Positions positions = split.of(mean_head(faces));
   std::vector<DetailLevel> levels(shares.size());
   parallel_for_each(shares.size(), [&](std::size_t l) {

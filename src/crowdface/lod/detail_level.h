@@ -19,7 +19,7 @@ struct DetailLevel {
   Topology topology;                    ///< triangles over `vertices` and rows of `uvs`
   TextureCoordinates uvs;               ///< #T by 2, a subset of the whole mesh's; may be empty
   std::vector<std::uint32_t>
-      faces;  ///< for each triangle, a face of the whole mesh with the same look
+      faces;  ///< for each triangle, a face of the whole mesh with the same material
 
   /// Restricts positions or displacements of the whole mesh to this level.
   /// \param whole  #V by 3.
@@ -35,15 +35,16 @@ struct LevelError {
 
 /// Makes levels by edge collapse on the mean head (quadric error metrics, Garland & Heckbert 1997,
 /// by meshoptimizer), each directly from the whole mesh. Open borders, texture seams and borders
-/// between looks are preserved. A look is a material label; faces with one label but in different
-/// texture tiles count as different looks.
-/// \param looks   #F: the material label of each face; kNoIndex omits the face. Triangles of one
-///                look are contiguous.
+/// between materials are preserved. A material is a material label; faces with one label but in
+/// different texture tiles count as different materials.
+/// \param materials   #F: the material label of each face; kNoIndex omits the face. Triangles of
+///                one material are contiguous.
 /// \param shares  fractions of the triangles, each in (0, 1). A level has more triangles if its
 ///                borders need them.
 /// \param borders what becomes of the vertices of open borders.
 /// \return        #shares levels.
-std::vector<DetailLevel> detail_levels(const HeadSet& faces, std::span<const std::uint32_t> looks,
+std::vector<DetailLevel> detail_levels(const HeadSet& faces,
+                                       std::span<const std::uint32_t> materials,
                                        std::span<const double> shares,
                                        Borders borders = Borders::kCollapse);
 

@@ -16,12 +16,15 @@ namespace crowdface {
 /// Parses the body of a request. \throws UsageError if the body is not a JSON object.
 nlohmann::ordered_json body_of(const HttpRequest& request);
 
-/// Returns the value of `key`. \throws UsageError, naming the key, if the value is missing, of
-/// another type or not in [low, high].
+/// Returns the text of `key` in a request's body. \throws UsageError if it is missing or not a
+/// text.
 std::string text_in(const nlohmann::ordered_json& body, const std::string& key);
+/// Returns the number of `key` in a request's body. \throws UsageError if it is missing, not a
+/// number or not in [low, high].
 double number_in(const nlohmann::ordered_json& body, const std::string& key, double low,
                  double high);
 
+/// Returns an answer with a JSON body.
 HttpAnswer json_answer(const nlohmann::ordered_json& json, int status = 200);
 /// An error answer with the body {"error": sentence}.
 HttpAnswer refusal(int status, std::string_view sentence);
@@ -45,7 +48,7 @@ class PageFiles {
   std::string page_;
 };
 
-/// The file of the page that the request asks for, or status 404.
+/// Returns the file of the page that the request asks for, or status 404.
 HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request);
 
 /// Returns `answer(request)` and turns exceptions into error answers. A RecoverableError gives its

@@ -17,6 +17,7 @@ namespace crowdface {
 /// order of the JSON key `arrays`, each padded to four bytes. All numbers are little-endian.
 class BinaryAnswer {
  public:
+  /// The JSON text, without `arrays`.
   nlohmann::ordered_json head = nlohmann::ordered_json::object();
 
   template <class T>

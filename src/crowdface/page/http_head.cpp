@@ -59,7 +59,7 @@ std::optional<HttpHead> parse_http_head(std::string_view text) {
       }
       if (protocol != "HTTP/1.1" && protocol != "HTTP/1.0") return std::nullopt;
       head.path = std::move(*path);
-      head.is_last = protocol == "HTTP/1.0";
+      head.closes_connection = protocol == "HTTP/1.0";
       continue;
     }
     const std::size_t colon = line.find(':');
@@ -70,7 +70,7 @@ std::optional<HttpHead> parse_http_head(std::string_view text) {
     }
     head.fields.emplace_back(lower_case(line.substr(0, colon)), value);
     if (head.fields.back().first == "connection" && lower_case(value) == "close") {
-      head.is_last = true;
+      head.closes_connection = true;
     }
   }
   return std::nullopt;

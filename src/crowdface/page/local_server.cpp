@@ -36,8 +36,8 @@ constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 
                       kThreads = 16;
 constexpr auto kMoment = std::chrono::milliseconds(100);
 /// Time limits. kPatience: for the head of a request, counted from its first byte.
-/// kPatienceWithBody: for the rest of a request with a body, and for a client to accept more of its
-/// answer.
+/// kPatienceWithBody: for the rest of a request with a body, and for a client to accept more bytes
+/// of its answer.
 constexpr auto kPatience = std::chrono::seconds(5), kPatienceWithBody = std::chrono::seconds(60);
 
 /// Returns 128 random bits from the operating system as 32 hexadecimal digits.
@@ -244,7 +244,7 @@ void LocalServer::State::take_request(Connection& client) {
     if (!client.head) return give(refuse(400, "the request cannot be read"), client);
     if (const auto refused = refusal(*client.head)) return give(*refused, client);
     client.body_bytes = parse_unsigned(client.head->value("content-length")).value_or(0);
-    client.closes = client.head->is_last;
+    client.closes = client.head->closes_connection;
     client.since = Clock::now();
   }
   if (client.in.size() < client.head_bytes + client.body_bytes) return;

@@ -28,11 +28,12 @@ constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSof
 // kAbove above the eyes and down to kBelow below the mouth. kMinEar is the smallest distance by
 // which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
-/// A height belongs to an ear if the ear protrudes there by more than this fraction of its maximum.
+/// A height belongs to an ear if the ear protrudes there by more than this fraction of its maximum
+/// protrusion.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
-/// Weight of the ears at a place.
+/// Weight of the ear region at a point.
 double ear_share(const EarBox& ears, double face, double side, double height, double front) {
   const double around = kAroundEar * face, soft = kEarSoft * face;
   const auto inside = [&](double from, double to, double x) {
@@ -60,7 +61,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
   const std::vector<bool>& skin = head.skin;
-  const double face = marks.face(), low = marks.mouth - kBelow * face;
+  const double face = marks.eye_to_mouth(), low = marks.mouth - kBelow * face;
   const double step = (marks.eyes + kAbove * face - low) / (kBins - 1);
   if (!(step > 0)) return std::nullopt;
   const Eigen::Vector3d side = axes.side();
@@ -90,7 +91,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     const double t = std::clamp((height - low) / (step * (kBins - 1)), 0.0, 1.0);
     return (1 - t) * breadth.front() + t * breadth.back();
   };
-  // The height at which the ears protrude most.
+  // Find the height at which the ears protrude most.
   double most = 0;
   int at = 0;
   const auto stands_out = [&](int i) {
@@ -102,13 +103,13 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     at = i;
   }
   if (most < kMinEar * face) return std::nullopt;
-  // The range of heights around that height in which the ears protrude enough.
+  // Find the range of heights around `at` in which the ears protrude enough.
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kOfMost * most) --bottom;
   while (top < kBins - 1 && stands_out(top + 1) > kOfMost * most) ++top;
   EarBox ears{low + bottom * step, low + top * step, std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  // The extent of the ears from front to back and their inner rim, from the vertices in this range.
+  // Compute the extent of the ears from front to back and their inner rim from these vertices.
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);
@@ -160,10 +161,10 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
     least = std::min(least, heights[v]);
     middle_front += p.dot(axes.front) / static_cast<double>(positions.rows());
   }
-  if (neck < count && least > marks.chin - 2 * kBelowChin * marks.face()) {
+  if (neck < count && least > marks.chin - 2 * kBelowChin * marks.eye_to_mouth()) {
     throw InvalidInput("no neck: the head ends at its chin");
   }
-  const double under = kBelowChin * marks.face();
+  const double under = kBelowChin * marks.eye_to_mouth();
   NeckBorder border{marks.chin_front, marks.chin - under, middle_front, marks.mouth - 2 * under};
   if (found) {
     border.ear_front = ears.front;
@@ -171,14 +172,14 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   }
   const RegionWeights::Alpha level = level_bands(heights, marks.eyes, marks.mouth);
   RegionWeights::Alpha alpha = RegionWeights::Alpha::Zero(positions.rows(), count);
-  const double soft = kNeckSoft * marks.face();
+  const double soft = kNeckSoft * marks.eye_to_mouth();
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double front = p.dot(axes.front);
     double rest = 1;
     if (ear < count) {
       const double away = std::abs(p.dot(side) - marks.middle);
-      alpha(v, ear) = ear_share(ears, marks.face(), away, heights[v], front);
+      alpha(v, ear) = ear_share(ears, marks.eye_to_mouth(), away, heights[v], front);
       rest -= alpha(v, ear);
     }
     if (neck < count) {

@@ -15,7 +15,7 @@
 
 namespace crowdface {
 
-/// Parts of a head that the shape of the head determines.
+/// Parts of a head that are found from the shape of the head.
 enum class Band : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose
@@ -33,20 +33,20 @@ inline constexpr std::array<std::pair<std::string_view, Band>, 5> kBandNames = {
 /// Extent of both ears of a head along the head's axes.
 struct EarBox {
   double bottom = 0, top = 0;  ///< heights
-  double back = 0, front = 0;
-  double inner = 0;  ///< distance from the middle at which the ears begin
+  double back = 0, front = 0;  ///< positions along HeadAxes::front
+  double inner = 0;            ///< distance from the middle at which the ears begin
 };
 /// Finds the ears: the protrusions at the sides of the skin between mouth and brows.
 /// \return nothing if nothing protrudes.
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks);
 
-/// Weights of brow, nose and mouth (columns 0 to 2) as soft horizontal bands.
+/// Computes weights of brow, nose and mouth (columns 0 to 2) as soft horizontal bands, #V by 3.
 /// \param heights  #V; increase upwards.
 /// \throws InvalidInput unless the eyes are above the mouth.
 RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
 
-/// Weights of soft bands of a head, computed from the head's shape.
+/// Computes weights of soft bands of a head from the head's shape.
 /// \param marks  the result of find_face_marks for this head
 /// \param bands  kBrow, kNose and kMouth, and optionally other bands
 /// \return #V by #bands, not negative; each row sums to one.

@@ -59,12 +59,12 @@ DepthMap::Lookup DepthMap::look_up(double offset, double extent, Index count) co
   return lookup;
 }
 
-ReliefFit DepthMap::fit(double across, double height, double scale, double stretch) const {
+ReliefFit DepthMap::fit(double lateral, double height, double scale, double stretch) const {
   const Eigen::Vector2d extent = box_.sizes();
   std::array<Lookup, kReliefColumns> columns;
   std::array<Lookup, kReliefRows> rows;
   for (int c = 0; c < kReliefColumns; ++c) {
-    const double x = across + scale * across_mm(c);
+    const double x = lateral + scale * lateral_mm(c);
     columns[static_cast<std::size_t>(c)] = look_up(x - box_.min().x(), extent.x(), columns_);
   }
   for (int r = 0; r < kReliefRows; ++r) {
@@ -79,9 +79,9 @@ ReliefFit DepthMap::fit(double across, double height, double scale, double stret
   return fit_relief(depths);
 }
 
-double DepthMap::depth(double across, double height) const {
+double DepthMap::depth(double lateral, double height) const {
   const Eigen::Vector2d extent = box_.sizes();
-  return at(look_up(across - box_.min().x(), extent.x(), columns_),
+  return at(look_up(lateral - box_.min().x(), extent.x(), columns_),
             look_up(height - box_.min().y(), extent.y(), rows_));
 }
 

@@ -23,13 +23,13 @@ class DepthMap {
 
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// Compares the surface with the mean face.
-  /// \param across, height  position of the point between the eyes.
+  /// Compares the depths of the surface with the depths of the mean face.
+  /// \param lateral, height  position of the point between the eyes.
   /// \param scale, stretch  see ReliefMatch
-  ReliefFit fit(double across, double height, double scale, double stretch = 1) const;
+  ReliefFit fit(double lateral, double height, double scale, double stretch = 1) const;
 
   /// Depth at a point; kNoDepth where the map shows no surface.
-  double depth(double across, double height) const;
+  double depth(double lateral, double height) const;
 
  private:
   /// The squares around a coordinate along one axis of the grid: the square that contains the

@@ -143,14 +143,14 @@ class LandmarkSearch {
   void miss(std::initializer_list<const char*> names, const std::string& reason) {
     for (const char* name : names) found_.missing[name] = reason;
   }
-  /// The place in head coordinates of a landmark that was found.
+  /// Head coordinates of a landmark; nothing if the landmark was not found.
   std::optional<InHead> at(const std::string& name) const {
     const auto place = found_.places.find(name);
     if (place == found_.places.end()) return std::nullopt;
     return rays_.in_head(place->second.position);
   }
 
-  /// The skin in the symmetry plane between two heights, seen from the front, from above to below.
+  /// The skin in the symmetry plane between two heights, seen from the front, in descending order.
   std::vector<Hit> skin_between(double low, double high, double step = 0.2) const {
     std::vector<Hit> hits;
     for (double up = high; up >= low; up -= step) {
@@ -201,8 +201,8 @@ class LandmarkSearch {
            best(skin_between(front->at.up, lower->at.up), behind(lower->at, front->at)), reason);
     }
     if (upper && lower) {
-      // The lowest point of the upper lip that is seen from the front: below it the skin recedes
-      // into the slit, or turns forward again onto the lower lip.
+      // The lowest point of the upper lip that is visible from the front. Below this point the skin
+      // recedes into the slit, or turns forward again onto the lower lip.
       std::optional<Hit> rim;
       for (const Hit& hit : skin_between(lower->at.up, upper->at.up, 0.1)) {
         if (rim && hit.at.front > rim->at.front + 0.02 && hit.at.up < mouth + kNotShown) break;
@@ -242,7 +242,7 @@ class LandmarkSearch {
     }
     return opening;
   }
-  /// The first skin seen from the front when going from a point in a direction.
+  /// The first skin visible from the front on the way from a point in a direction.
   std::optional<Hit> skin_beside(const InHead& from, double across, double up) const {
     constexpr double kStep = 0.1, kReach = 8;
     for (double way = 0; way <= kReach; way += kStep) {
@@ -343,8 +343,8 @@ class LandmarkSearch {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);
       return inner && outer ? (*inner - *outer) / (2 * kSpan) : 0;
     };
-    // The wings are at the height of the tip of the nose or a little lower. Below them, the fold
-    // between cheek and lip is as steep.
+    // The wings are at the height of the tip of the nose or a little lower. Below the wings, the
+    // fold between cheek and lip is as steep as they are.
     constexpr double kLowest = 0.4, kAboveTip = 4;
     double widest = 0, at_height = 0;
     for (double up = base->up + kLowest * (tip->up - base->up); up <= tip->up + kAboveTip;
@@ -428,12 +428,13 @@ class LandmarkSearch {
     const double back = ears ? ears->front / mm_ + kBeforeEar : base->front - 80;
     const double front = outer ? outer->front - kBehindEyes : base->front - 30;
     widest("cheek", {0, base->up, back}, {0, eyes - kBelowEyes, front}, reason);
-    // The angle of the jaw lies at about the height of the mouth.
+    // The angle of the jaw (gonion) lies at about the height of the mouth.
     widest("jaw", {0, mouth->up - 4, back - 16}, {0, mouth->up, front}, reason);
   }
 
-  /// The ears' highest and lowest points. Seen from the side, an ear begins where the surface rises
-  /// steeply from the head when going down from above, and up from below.
+  /// The ears' highest and lowest points. Seen from the side, the upper rim of an ear is where the
+  /// surface first rises steeply on the way down from above; the lower rim, on the way up from
+  /// below.
   void ear_rims(const EarBox& ears) {
     constexpr double kAround = 16, kStep = 0.5, kRise = 0.8;
     const double back = ears.back / mm_, front = ears.front / mm_;

@@ -12,9 +12,9 @@
 
 namespace crowdface {
 
-/// Landmarks of a face by name: points on the skin, and why the other landmarks are missing.
+/// Landmarks of a face by name: points on the skin, and the reasons why landmarks are missing.
 struct FaceLandmarks {
-  std::map<std::string, SurfacePoint> places;
+  std::map<std::string, SurfacePoint> places;  ///< found landmarks
   std::map<std::string, std::string> missing;  ///< reasons, as phrases
 };
 
@@ -28,7 +28,7 @@ FaceLandmarks find_face_landmarks(const Topology& topology, const Components& co
                                   const PartList& parts, const HeadShape& head,
                                   const ReliefMatch& face);
 
-/// The same for positions, #V by 3, whose face is searched for. Empty if there is none.
+/// Finds the face on a head, #V by 3 positions, and then its landmarks. Empty if there is no face.
 /// \param axes  orientation of the head, accurate to about 35°
 FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
                                   const PartList& parts, const Positions& positions,

@@ -23,7 +23,7 @@ constexpr Index kHeights = 720;
 /// kHeights heights.
 class Outline {
  public:
-  /// \param mm  length of a millimetre on a face of average size, in the unit of the positions
+  /// \param mm  a millimetre on a face of average size, in the unit of the positions
   Outline(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
           const HeadAxes& axes, double middle, double mm) {
     low_ = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ class Outline {
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
     front_.assign(kHeights, kNothing);
     if (!(step_ > 0)) return;
-    // Takes the median of several parallel planes, so that small holes and noise have no effect.
+    // Take the median of several parallel planes, so that small holes and noise have no effect.
     constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
     std::array<std::vector<double>, kBesideMm.size()> fronts;
     for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -81,8 +81,8 @@ class Outline {
     closed.front_ = extreme(extreme(front_, highest), lowest);
     return closed;
   }
-  /// How far the profile at `height` lies behind the straight line between its points `way` above
-  /// and `way` below.
+  /// How far the profile at `height` lies behind the line between its points at `height` + `way`
+  /// and `height` − `way`.
   double hollow(double height, double way) const {
     return (at(height + way) + at(height - way)) / 2 - at(height);
   }
@@ -173,7 +173,7 @@ class Outline {
 constexpr double kSlitMm = 11;  ///< an open mouth is a narrower hollow
 constexpr double kBridgeMm = 5, kTipMm = -34;
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
-/// Half widths of the hollows of bridge and mouth, and of the chin.
+/// Half widths of the bridge's hollow, of the mouth's hollow and of the chin.
 constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
 constexpr double kPriorMm = 3;  ///< penalty at the end of the search range
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
@@ -228,7 +228,8 @@ double edge_length_near(const Topology& topology, const HeadShape& head, const R
   std::vector<double> areas;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t first = topology.face(f)[0];
-    const bool is_near = (row3(head.positions, first) - face.between).norm() < kNearMm * face.scale;
+    const bool is_near =
+        (row3(head.positions, first) - face.between_eyes).norm() < kNearMm * face.scale;
     if (head.skin[first] && is_near) {
       areas.push_back(face_area_vector(topology, f, head.positions).norm());
     }
@@ -253,7 +254,7 @@ HeadShape shape_of_mean(const HeadSet& faces) {
   return head;
 }
 
-double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes) {
+double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes) {
   const Eigen::Vector3d side = axes.side();
   double sum = 0, area = 0;
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -272,7 +273,7 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
                                      const HeadAxes& axes) {
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (!match || match->votes < kMinVotes || match->degrees_off > kMaxDegreesOff) return {};
+  if (!match || match->score < kMinScore || match->degrees_off > kMaxDegreesOff) return {};
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return {};
   return match;
 }
@@ -280,14 +281,14 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
 FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
   FaceMarks marks;
   marks.axes = match.axes;
-  const double mm = match.scale, eyes = match.between.dot(match.frame.up);
-  // The middle of the skin is more accurate, but hair or a cap may shift it.
-  marks.middle = middle_of(topology, head, marks.axes);
-  const double of_relief = match.between.dot(match.axes.side());
+  const double mm = match.scale, eyes = match.between_eyes.dot(match.frame.up);
+  // The middle of the skin is more accurate than the relief, but hair or a cap may shift it.
+  marks.middle = symmetry_offset(topology, head, marks.axes);
+  const double of_relief = match.between_eyes.dot(match.axes.side());
   if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
   // Heights in the profile are along the upright axis of the face, so that the orientation of the
   // head has no effect.
-  const double across = match.between.dot(match.frame.side());
+  const double across = match.between_eyes.dot(match.frame.side());
   const Outline outline(topology, head.positions, head.skin, match.frame, across, mm);
   const Outline closed = outline.without_slits(kSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
@@ -315,13 +316,15 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   marks.mouth = height(mouth);
   marks.chin = height(chin);
   marks.chin_front = place(chin).dot(marks.axes.front);
-  // The eyes lie at a fixed distance from the bridge, or where eyeballs near this height are.
+  // The eyes lie at a fixed distance below the bridge, or at the eyeballs if these are near that
+  // height.
   marks.eyes = height(bridge - kBridgeMm * match.stretch * mm);
   double of_balls = 0;
   for (const Eigen::Vector3d& eye : head.eyeballs) {
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
   }
-  const bool are_near = std::abs(of_balls - match.between.dot(marks.axes.up)) < kEyesNearMm * mm;
+  const bool are_near =
+      std::abs(of_balls - match.between_eyes.dot(marks.axes.up)) < kEyesNearMm * mm;
   if (!head.eyeballs.empty() && are_near) marks.eyes = of_balls;
   return marks;
 }
@@ -356,7 +359,7 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
   for (const Orientation& orientation : orientations) axes.push_back(axes_of(orientation));
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, axes, head.eyeballs);
-  if (!match || match->votes < kMinVotes) return std::nullopt;
+  if (!match || match->score < kMinScore) return std::nullopt;
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
   return orientations[match->view];
 }
@@ -365,7 +368,7 @@ std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
                                                      const HeadShape& head, const HeadAxes& axes) {
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (!match || match->votes < kMinVotes) return std::nullopt;
+  if (!match || match->score < kMinScore) return std::nullopt;
   const double edge_mm = edge_length_near(topology, head, *match) / match->scale;
   if (edge_mm <= kCoarsestMm) return std::nullopt;
   return concat("the edges of its polygons are about ", format_fixed(edge_mm, 0),

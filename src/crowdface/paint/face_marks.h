@@ -22,8 +22,8 @@ struct FaceMarks {
   double mouth = 0;       ///< height of the line between the lips
   double chin = 0;        ///< height of the most convex point of the profile of the chin
   double chin_front = 0;  ///< how far in front the chin is, along axes.front
-  /// Distance from mouth to eyes, about 65 mm. It is the unit for other lengths.
-  double face() const { return eyes - mouth; }
+  /// Height of the eyes above the mouth, about 65 mm: the unit for other lengths of the face.
+  double eye_to_mouth() const { return eyes - mouth; }
 };
 
 /// The data of a head in which a face is searched; usually the mean of all heads.
@@ -32,12 +32,13 @@ struct HeadShape {
   std::vector<bool> skin;                 ///< #V
   std::vector<Eigen::Vector3d> eyeballs;  ///< centres of the eyeballs, if the head has eyeballs
 };
+/// Returns the shape of the mean of all heads.
 HeadShape shape_of_mean(const HeadSet& faces);
 
 /// Position of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
-double middle_of(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
+double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
-/// Finds the face by its relief, see match_relief.
+/// Finds the face on a head by its relief, see match_relief.
 /// \param axes  orientation of the head, accurate to about 35°
 /// \return nothing if no part of the skin has the relief of a face
 std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& head,
@@ -45,7 +46,7 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
 /// Finds nose, mouth and chin in the profile, the curve in which the symmetry plane of the face
 /// cuts the skin.
 FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& face);
-/// Calls find_face and marks_of_face. Neither depends on the tessellation of the mesh.
+/// Calls find_face and marks_of_face. The result does not depend on the tessellation of the mesh.
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes);
 
@@ -54,6 +55,7 @@ struct Orientation {
   Axis up, front;
   bool operator==(const Orientation&) const = default;
 };
+/// Returns the axes of a head with this orientation.
 HeadAxes axes_of(const Orientation& orientation);
 std::vector<Orientation> all_orientations();  ///< the 24 axis-aligned orientations of a head
 
@@ -62,10 +64,11 @@ std::vector<Orientation> all_orientations();  ///< the 24 axis-aligned orientati
 /// \return nothing if no orientation shows a face.
 std::optional<Orientation> find_orientation(const Topology& topology, const HeadShape& head);
 
-/// Message if the edges of a face are too long to show it, although its relief is there.
+/// A message if the mesh has the relief of a face but edges too long to show the face; else
+/// nothing.
 std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
                                                      const HeadShape& head, const HeadAxes& axes);
-/// Why `find_face` finds nothing, for messages: other axes, edges that are too long, or no face.
+/// Message why `find_face` finds nothing: other axes, edges that are too long, or no face.
 std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
                               const HeadAxes& axes);
 

@@ -23,11 +23,11 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A position of the relief and its agreement there.
+/// A position of the relief on the surface, and the agreement there.
 struct Candidate {
   double across = 0, height = 0, scale = 1, stretch = 1;
   ReliefFit fit;
-  double votes = -1;
+  double score = -1;
 };
 
 double diagonal_of(const Positions& samples) {
@@ -61,7 +61,7 @@ int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes,
              : -1;
 }
 
-/// Finds the best position of the relief in one view, over all sizes.
+/// Finds the best position and size of the relief in one view.
 /// \param coarseness  step width as a multiple of the finest steps
 Candidate search_view(const Positions& samples, const HeadAxes& axes,
                       const std::vector<Eigen::Vector3d>& eyes, double coarseness) {
@@ -93,20 +93,20 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
         const double across = box.center().x() + i * aside_mm * scale;
         const ReliefFit fit = map.fit(across, height, scale);
         if (!(fit.amplitude >= kMinAmplitude && fit.amplitude <= kMaxAmplitude)) continue;
-        const double votes =
+        const double score =
             fit.agreement + kVoteOfEyes * vote_of_eyes(eyes, axes, across, height, scale);
-        if (votes > best.votes) best = {across, height, scale, 1, fit, votes};
+        if (score > best.score) best = {across, height, scale, 1, fit, score};
       }
     }
   });
   if (of_scale.empty()) return {};
-  return *std::ranges::max_element(of_scale, {}, &Candidate::votes);
+  return *std::ranges::max_element(of_scale, {}, &Candidate::score);
 }
 
 ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
-  const double depth = candidate.fit.offset + candidate.fit.amplitude * relief_mm(kBetweenEyes);
+  const double depth = candidate.fit.offset + candidate.fit.amplitude * relief_mm(kCellBetweenEyes);
   return {candidate.fit.agreement,
-          candidate.votes,
+          candidate.score,
           0,
           0,
           axes,
@@ -125,7 +125,7 @@ class Refinement {
     constexpr std::size_t kMax = 20'000;
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
-      const Eigen::Vector3d off = (row3(samples, i) - first.between) / first.scale;
+      const Eigen::Vector3d off = (row3(samples, i) - first.between_eyes) / first.scale;
       if (off.norm() < kAroundMm && off.dot(first.frame.front) > -kBehindMm) near.push_back(i);
     }
     if (const std::size_t step = near.size() / kMax; step > 1) {
@@ -178,7 +178,8 @@ class Refinement {
     if (score_ <= kWorst) best_ = next;
   }
 
-  /// Differences between the depths on the left and on the right of a middle, seen along `axes`.
+  /// Differences between the depths to the left and to the right of the plane through `middle`,
+  /// seen along `axes`.
   std::vector<double> asymmetry(const HeadAxes& axes, const Eigen::Vector3d& middle) const {
     constexpr double kHighMm = 40, kLowMm = -100, kAsideMm = 60, kStepMm = 4;
     DepthMap map(near_, axes, square_);
@@ -201,7 +202,7 @@ class Refinement {
     constexpr double kDegrees = 2, kMm = 2;  // differences for the derivatives
     constexpr double kMaxSteps = 4, kSteadySteps = 0.05, kMinMm = 1;
     HeadAxes axes = best_.frame;
-    Eigen::Vector3d middle = best_.between;
+    Eigen::Vector3d middle = best_.between_eyes;
     for (int step = 0; step < kSteps; ++step) {
       const auto moved = [&](const Eigen::Vector3d& by) {
         HeadAxes next = turned(axes, axes.up, kDegrees * by(0));
@@ -240,18 +241,18 @@ class Refinement {
       if (size < kSteadySteps) break;
     }
     ReliefMatch next = best_;
-    next.between = middle;
+    next.between_eyes = middle;
     restart(next, axes);
   }
 
-  /// Searches height, size and stretch around the best match.
+  /// Searches for better heights, sizes and stretches around the best match.
   void place() {
     const ReliefMatch first = best_;
     for (int up = -3; up <= 3; ++up) {
       for (int grow = -3; grow <= 3; ++grow) {
         for (int stretch = -2; stretch <= 2; ++stretch) {
           ReliefMatch next = first;
-          next.between += up * kMoveMm * first.scale * first.frame.up;
+          next.between_eyes += up * kMoveMm * first.scale * first.frame.up;
           next.scale *= 1 + grow * 0.5 * kGrow;
           next.stretch = 1 + stretch * kGrow;
           try_match(next);
@@ -277,11 +278,11 @@ class Refinement {
       const double move = sign * step * kMoveMm * best_.scale;
       ReliefMatch next = best_;
       if (turns) {
-        next.between += move * best_.frame.side();
+        next.between_eyes += move * best_.frame.side();
         try_match(next);
         next = best_;
       }
-      next.between += move * best_.frame.up;
+      next.between_eyes += move * best_.frame.up;
       try_match(next);
       next = best_;
       next.scale *= 1 + sign * step * kGrow;
@@ -298,8 +299,8 @@ class Refinement {
       map_.emplace(near_, match.frame, square_).soften();
       map_axes_ = match.frame;
     }
-    Candidate candidate{match.between.dot(match.frame.side()),
-                        match.between.dot(match.frame.up),
+    Candidate candidate{match.between_eyes.dot(match.frame.side()),
+                        match.between_eyes.dot(match.frame.up),
                         match.scale,
                         match.stretch,
                         {},
@@ -370,33 +371,33 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     parallel_for_each(views.size(), [&](std::size_t i) {
       found[i] = search_view(samples, views[i], eyes, coarseness);
     });
-    // Refines the best views before comparing them, because only after refinement a view with a
-    // wrong rotation agrees less.
+    // Refine the best views before comparing them, because a view with a wrong rotation agrees less
+    // only after refinement.
     std::vector<std::size_t> order(views.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return found[i].votes; });
+    std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return found[i].score; });
     order.resize(std::min(order.size(), kRefined));
     std::vector<ReliefMatch> refined(order.size());
     parallel_for_each(order.size(), [&](std::size_t i) {
       const Candidate& one = found[order[i]];
-      if (one.votes <= -1) return;
+      if (one.score <= -1) return;
       ReliefMatch& match = refined[i];
       match = Refinement(samples, match_of(one, views[order[i]])).find();
-      match.votes =
+      match.score =
           match.agreement +
-          kVoteOfEyes * vote_of_eyes(eyes, match.axes, match.between.dot(match.axes.side()),
-                                     match.between.dot(match.axes.up), match.scale);
+          kVoteOfEyes * vote_of_eyes(eyes, match.axes, match.between_eyes.dot(match.axes.side()),
+                                     match.between_eyes.dot(match.axes.up), match.scale);
     });
-    ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::votes);
-    if (match.votes <= -1) return match;
-    // The requested axes nearest to the axes of the face.
+    ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
+    if (match.score <= -1) return match;
+    // Find the requested axes nearest to the axes of the face.
     match.view = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
     const HeadAxes& asked = all_axes[match.view];
     match.degrees_off = angle_between(match.axes, asked);
-    // Removes a small pitch.
+    // Remove a small pitch.
     const double pitch =
         std::asin(std::clamp(match.frame.up.dot(asked.front), -1.0, 1.0)) / kRadians;
     if (std::abs(pitch) < kMinPitch) {
@@ -414,13 +415,13 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  // Most runs have one pair of axes, so this case must be fast. Wide steps find the face almost
-  // always; if they do not, the rotated views are searched.
+  // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
+  // face; if they miss it, the rotated views are searched.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
-  if (match.votes < kMinVotes || match.degrees_off > kTurn) {
+  if (match.score < kMinScore || match.degrees_off > kTurn) {
     const ReliefMatch other = search(others, kCoarser);
-    if (other.votes > match.votes) match = other;
+    if (other.score > match.score) match = other;
   }
   return match;
 }

@@ -34,13 +34,13 @@ void scale_to_one(Alpha& alpha, Index row) {
   for (Index k = 0; k < alpha.cols(); ++k) alpha(row, k) /= sum;
 }
 
-/// Sets the weight of one region at a vertex. The remainder goes to the other regions in proportion
-/// to their weights; if these are zero, it goes to `heir`.
-void set_share(Alpha& alpha, Index row, Index region, double share, Index heir) {
+/// Sets the weight of one region at a vertex. The remaining weight goes to the other regions in
+/// proportion to their weights; if all these weights are zero, it goes to `receiver`.
+void set_share(Alpha& alpha, Index row, Index region, double share, Index receiver) {
   const double others = 1 - alpha(row, region);
   if (others <= 0) {
-    if (heir == region) return;
-    alpha(row, heir) = 1 - share;
+    if (receiver == region) return;
+    alpha(row, receiver) = 1 - share;
   } else {
     const double factor = (1 - share) / others;
     for (Index k = 0; k < alpha.cols(); ++k) alpha(row, k) *= factor;
@@ -51,8 +51,8 @@ void set_share(Alpha& alpha, Index row, Index region, double share, Index heir) 
 
 /// The region other than `region` with the largest total weight at the touched vertices; the first
 /// one if several are equal.
-Index heir_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
-  Index heir = region;
+Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
+  Index receiver = region;
   double most = -1;
   for (Index k = 0; k < alpha.cols(); ++k) {
     if (k == region) continue;
@@ -60,9 +60,9 @@ Index heir_of(const Alpha& alpha, const std::vector<Touched>& touched, Index reg
     for (const Touched& t : touched) sum += alpha(t.vertex, k);
     if (sum <= most) continue;
     most = sum;
-    heir = k;
+    receiver = k;
   }
-  return heir;
+  return receiver;
 }
 
 /// The vertices next to each touched vertex.
@@ -133,7 +133,7 @@ MaskPainter::MaskPainter(const Topology& topology, const Positions& positions,
 }
 
 std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<SurfacePoint>& places,
-                                              const Brush& brush, bool goes_on) {
+                                              const Brush& brush, bool continues_stroke) {
   require(region >= 0 && region < alpha_.cols() && brush.radius > 0 && brush.strength >= 0 &&
               brush.strength <= 1 && brush.falloff >= 0 && brush.falloff <= 1,
           "paint: region ", region, ", radius ", brush.radius, ", strength ", brush.strength,
@@ -153,9 +153,9 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
     touched.push_back({vertex, brush.strength * soft});
     rows.push_back(vertex);
   }
-  // Saves the weights before the change, for undo.
-  if (!goes_on || done_.empty()) done_.emplace_back();
-  for (const std::uint32_t v : rows) done_.back().try_emplace(v, alpha_.row(v));
+  // Save the weights before the change, for undo.
+  if (!continues_stroke || undo_steps_.empty()) undo_steps_.emplace_back();
+  for (const std::uint32_t v : rows) undo_steps_.back().try_emplace(v, alpha_.row(v));
   switch (brush.mode) {
     case BrushMode::kAdd:
       for (const auto& [v, strength] : touched) {
@@ -164,9 +164,9 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
       }
       break;
     case BrushMode::kErase: {
-      const Index heir = heir_of(alpha_, touched, region);
+      const Index receiver = receiver_of(alpha_, touched, region);
       for (const auto& [v, strength] : touched) {
-        set_share(alpha_, v, region, (1 - strength) * alpha_(v, region), heir);
+        set_share(alpha_, v, region, (1 - strength) * alpha_(v, region), receiver);
       }
       break;
     }
@@ -196,20 +196,20 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
           " cannot be removed");
   Alpha rest(alpha_.rows(), count - 1);
   rest << alpha_.leftCols(region), alpha_.rightCols(count - 1 - region);
-  std::vector<std::uint32_t> bare;
+  std::vector<std::uint32_t> unassigned;
   for (Index v = 0; v < rest.rows(); ++v) {
     if (rest.row(v).sum() > 0) {
       scale_to_one(rest, v);
     } else {
-      bare.push_back(static_cast<std::uint32_t>(v));
+      unassigned.push_back(static_cast<std::uint32_t>(v));
     }
   }
-  // Fills the vertices that belonged only to the removed region, from the border of that region
+  // Fill the vertices that belonged only to the removed region, from the border of this region
   // inwards.
-  while (!bare.empty()) {
+  while (!unassigned.empty()) {
     std::vector<std::uint32_t> left;
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;
-    for (const std::uint32_t v : bare) {
+    for (const std::uint32_t v : unassigned) {
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rest.cols());
       for (const std::uint32_t n : surface_.around(v)) sum += rest.row(n);
       if (sum.sum() > 0) {
@@ -222,17 +222,17 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
       rest.row(v) = sum;
       scale_to_one(rest, v);
     }
-    if (left.size() == bare.size()) break;
-    bare = std::move(left);
+    if (left.size() == unassigned.size()) break;
+    unassigned = std::move(left);
   }
-  for (const std::uint32_t v : bare) rest(v, 0) = 1;
+  for (const std::uint32_t v : unassigned) rest(v, 0) = 1;
   return rest;
 }
 
 bool MaskPainter::undo() {
-  if (done_.empty()) return false;
-  for (const auto& [v, row] : done_.back()) alpha_.row(v) = row;
-  done_.pop_back();
+  if (undo_steps_.empty()) return false;
+  for (const auto& [v, row] : undo_steps_.back()) alpha_.row(v) = row;
+  undo_steps_.pop_back();
   return true;
 }
 

@@ -13,7 +13,7 @@ namespace crowdface {
 
 enum class BrushMode : std::uint8_t {
   kAdd,     ///< increases the weight of the region
-  kErase,   ///< decreases the weight of the region; the other weights grow in proportion
+  kErase,   ///< decreases the weight of the region; the other regions' weights grow in proportion
   kSmooth,  ///< smooths the weights of all regions
   kGrow,    ///< moves the border of the region outwards
 };
@@ -25,7 +25,7 @@ struct Brush {
   double strength = 1;  ///< change at the centre of the brush, 0 to 1
   /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
   double falloff = 1;
-  bool mirror = false;  ///< also paints on the other half of the head
+  bool mirror = false;  ///< whether each stroke also paints on the other half of the head
 };
 
 /// Regions of a mesh that the user paints by hand. At every vertex the weights are not negative and
@@ -46,12 +46,12 @@ class MaskPainter {
 
   /// Applies one brush stroke at several places. Where the places overlap, the largest strength
   /// counts.
-  /// \param goes_on  whether the stroke continues the previous stroke, so that one undo reverts
-  ///                 both.
+  /// \param continues_stroke  whether the stroke continues the previous stroke, so that one undo
+  ///                 reverts both.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
-                                   const Brush& brush, bool goes_on = false);
+                                   const Brush& brush, bool continues_stroke = false);
 
   /// The weights after removal of a region. At each vertex, the weight of the region goes to the
   /// vertex's other regions in proportion to their weights. A vertex without other regions takes
@@ -59,9 +59,9 @@ class MaskPainter {
   /// \throws BrokenPrecondition if there is no other region.
   Alpha alpha_without(Index region) const;
 
-  bool can_undo() const { return !done_.empty(); }
+  bool can_undo() const { return !undo_steps_.empty(); }
   /// Undoes the last step.
-  /// \return false if there is none.
+  /// \return false if there is no step to undo.
   bool undo();
 
  private:
@@ -71,7 +71,7 @@ class MaskPainter {
   MirrorPlane mirror_;
   SurfaceDistance surface_;
   Alpha alpha_;
-  std::vector<Step> done_;
+  std::vector<Step> undo_steps_;
 };
 
 }  // namespace crowdface

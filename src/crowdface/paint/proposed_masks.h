@@ -13,6 +13,7 @@ namespace crowdface {
 /// Parses a list such as "brow,nose,mouth". The list must contain brow, nose and mouth.
 /// \throws UsageError otherwise.
 std::vector<Band> parse_bands(std::string_view text);
+/// Returns the names of bands, as in kBandNames.
 std::vector<std::string> names_of(const std::vector<Band>& bands);
 
 /// Width and height in texels that are sufficient for masks of soft regions on a mesh with this
@@ -26,7 +27,7 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
                                      const Orientation& orientation,
                                      const std::vector<Band>& bands);
 
-/// Computes the same regions as images in the layout of the heads' texture.
+/// Computes the regions of propose_regions as images in the layout of the heads' texture.
 /// \param size  width and height in texels.
 /// \throws InvalidInput as propose_regions and paint_masks do.
 PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean,

@@ -40,14 +40,14 @@ using Products = Eigen::Matrix<double, kTerms, kTerms>;
 
 constexpr double kUnitMm = 40;  // unit of x and y in the terms, in mm
 
-/// The terms of each cell, and the sum of their outer products over all cells.
+/// The terms of the fit in each cell, and the sum of their outer products over all cells.
 struct Terms {
   std::array<Coefficients, kReliefCells> of_cell;
   Products products = Products::Zero();
 
   Terms() {
     for (int c = 0; c < kReliefCells; ++c) {
-      const double x = across_mm(c) / kUnitMm, y = (height_mm(c) - kMiddleMm) / kUnitMm;
+      const double x = lateral_mm(c) / kUnitMm, y = (height_mm(c) - kMiddleMm) / kUnitMm;
       Coefficients& terms = of_cell[static_cast<std::size_t>(c)];
       terms = Coefficients(1, x, y, x * x, y * y, relief_mm(c));
       products += terms * terms.transpose();
@@ -118,7 +118,7 @@ ReliefFit fit_relief(ReliefDepths depths) {
     used[c] = depths[c] > -kDeepestMm;
   }
   CellFit of_cells(depths, used);
-  // An open mouth and the openings of the eyes lie behind the face. Excludes cells that are too
+  // An open mouth and the openings of the eyes lie behind the face. Exclude cells that are too
   // deep, in two rounds.
   for (int round = 0; round < 2 && of_cells.fit.agreement > kPromising; ++round) {
     const Coefficients by = of_cells.coefficients();

@@ -15,13 +15,13 @@ inline constexpr int kReliefRows = 17, kHalfReliefColumns = 6,
                      kReliefCells = kReliefRows * kReliefColumns;
 inline constexpr double kReliefSpacingMm = 8, kReliefTopMm = 32;
 /// Index of the cell that lies between the eyes.
-inline constexpr int kBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
+inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
 
-/// Position of a cell: across_mm is the distance from the middle of the face to the side, height_mm
-/// the height above the eyes.
-constexpr double across_mm(int cell) {
+/// Signed distance of a cell from the symmetry plane of the mean face, to the side.
+constexpr double lateral_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }
+/// Height of a cell above the eyes of the mean face.
 constexpr double height_mm(int cell) {
   const int row = cell / kReliefColumns;
   return kReliefTopMm - kReliefSpacingMm * row;
@@ -29,18 +29,19 @@ constexpr double height_mm(int cell) {
 /// Depth of the mean face in a cell, relative to the tip of the nose; negative behind the tip.
 double relief_mm(int cell);
 
+/// Depth of a cell without a surface.
 inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
 using ReliefDepths = std::array<double, kReliefCells>;
 
-/// Result of comparing depths with the mean face.
+/// Result of comparing the depths of a surface with the mean face.
 struct ReliefFit {
-  double agreement = -1;
-  double amplitude = 0;  ///< amplitude of the relief, 1 for the mean face
-  double offset = 0;     ///< depth between the eyes minus the depth of the fitted relief there
-  double slope_up = 0;   ///< vertical slope of the depths without the relief
+  double agreement = -1;  ///< see ReliefMatch::agreement
+  double amplitude = 0;   ///< amplitude of the relief, 1 for the mean face
+  double offset = 0;      ///< depth between the eyes minus the depth of the fitted relief there
+  double slope_up = 0;    ///< vertical slope of the depths without the relief
 };
 
-/// Fits an offset, slopes, curvatures and the mean face to depths by least squares.
+/// Fits a sum of an offset, slopes, curvatures and the mean face to depths by least squares.
 /// \param depths  in mm, scaled to a face of average size; kNoDepth in cells without a surface
 ReliefFit fit_relief(ReliefDepths depths);
 

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Returns the distance of c from the source of a wave that has reached a and b. The triangle is
-/// unfolded into the plane of the wave. If the straight path from the source to c does not cross
-/// the edge ab, the result is the shortest path along the edges.
-double across(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-              double from_a, double from_b) {
+/// Returns the distance of c from the source of a wave that has reached a and b. Unfolds the
+/// triangle into the plane of the wave. If the straight path from the source to c does not cross
+/// the edge ab, the result is the length of the shortest path along the edges.
+double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                         const Eigen::Vector3d& c, double from_a, double from_b) {
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
   const double length = (b - a).norm();
   if (!(length > 0)) return along_edges;
@@ -92,7 +92,7 @@ std::vector<std::uint32_t> SurfaceDistance::around(std::uint32_t vertex) const {
   return out;
 }
 
-std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
+std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::within(
     const std::vector<SurfacePoint>& places, double reach) const {
   std::vector<double> distance(twins_.size(), kFar);
   std::vector<bool> done(twins_.size(), false);
@@ -104,8 +104,8 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
     front.emplace(way, vertex);
   };
   for (const SurfacePoint& place : places) {
-    // Uses all corners of the polygons that contain the triangle of the place, so that quads count
-    // as a whole.
+    // Start from all corners of the polygons that contain the triangle of the place, so that quads
+    // count as a whole.
     for (const std::uint32_t f : faces_.of(place.corners[0])) {
       const auto face = topology_.face(f);
       if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;
@@ -114,7 +114,7 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
       }
     }
   }
-  std::vector<Reached> out;
+  std::vector<ReachedVertex> out;
   while (!front.empty()) {
     const auto [way, vertex] = front.top();
     front.pop();
@@ -133,15 +133,16 @@ std::vector<SurfaceDistance::Reached> SurfaceDistance::within(
         for (std::size_t j = 0; j < face.size(); ++j) {
           const std::uint32_t other = face[j];
           const bool near = face.size() <= 4 || (i + 1) % face.size() == j ||
-                            // In large polygons only neighbouring corners.
+                            // In large polygons, only neighbouring corners are connected.
                             (j + 1) % face.size() == i;
           if (!near || other == vertex || other == to || distance[other] == kFar) continue;
-          reached(to, across(here, row3(positions_, other), there, way, distance[other]));
+          reached(to,
+                  unfolded_distance(here, row3(positions_, other), there, way, distance[other]));
         }
       }
     }
   }
-  std::ranges::sort(out, {}, &Reached::vertex);
+  std::ranges::sort(out, {}, &ReachedVertex::vertex);
   return out;
 }
 

@@ -19,21 +19,22 @@ class SurfaceDistance {
   /// \param positions  #V by 3. Topology and positions must outlive this object.
   SurfaceDistance(const Topology& topology, const Positions& positions);
 
-  struct Reached {
+  /// A vertex and its distance along the surface.
+  struct ReachedVertex {
     std::uint32_t vertex;
     double distance;
   };
-  /// Vertices at a distance of at most `reach` from the nearest of several places, ascending. Uses
-  /// fast marching (Novotni & Klein 2002, "Computing geodesic distances on triangular meshes"); a
-  /// quad counts with both its diagonals.
-  std::vector<Reached> within(const std::vector<SurfacePoint>& places, double reach) const;
+  /// Returns the vertices at a distance of at most `reach` from the nearest of `places`, ascending
+  /// by vertex. Uses fast marching (Novotni & Klein 2002, "Computing geodesic distances on
+  /// triangular meshes"); paths may follow both diagonals of a quad.
+  std::vector<ReachedVertex> within(const std::vector<SurfacePoint>& places, double reach) const;
 
   /// The point on the surface that is nearest to `point`.
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
-  /// The vertices next to a vertex, including those next to coinciding boundary vertices; the list
-  /// may contain duplicates.
+  /// Returns the neighbours of a vertex and of all boundary vertices that coincide with it; the
+  /// list may contain duplicates.
   std::vector<std::uint32_t> around(std::uint32_t vertex) const;
 
  private:

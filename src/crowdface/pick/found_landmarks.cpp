@@ -68,7 +68,7 @@ std::vector<WrapLandmark> find_landmarks(
   const Positions placed = inverse(pose).apply(scan.positions);
   std::optional<ReliefMatch> face = hint.face;
   if (face) {
-    face->between /= pose.scale;
+    face->between_eyes /= pose.scale;
     face->scale /= pose.scale;
   }
   // Try two orientations and keep the one that gives more landmarks: the fitted pose, which is

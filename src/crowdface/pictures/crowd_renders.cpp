@@ -84,10 +84,10 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
   }
   for (const Positions& head : acting) heads.push_back(&head);
   FramingOptions options{.cut_below = kCutBelow,
-                         .beside = extent_of(inputs.attachments, inputs.faces)};
+                         .extra_points = extent_of(inputs.attachments, inputs.faces)};
   if (mesh.has_body()) {
     options.cut_below = -PicturedMesh::kShoulderHeight;
-    options.beside.push_back(mesh.lowest_shown());
+    options.extra_points.push_back(mesh.lowest_shown());
   }
   return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views, options);
 }
@@ -190,7 +190,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
     views.push_back(
         renderer_.render(shown.positions(), camera, shown.colours(), shown.textures(), meshes));
   }
-  const Rgb8Image image = side_by_side(views);
+  const Rgb8Image image = joined_pictures(views);
   return encode_png(image.width, image.height, 3, image.pixels);
 }
 

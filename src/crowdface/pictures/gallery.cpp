@@ -86,13 +86,13 @@ std::vector<const Positions*> positions_of(const HeadSet& faces) {
   return heads;
 }
 
-/// The coordinate frame for packing positions: the box around all heads and attachments, because
+/// The coordinate frame for packing positions: the box enclosing all heads and attachments, because
 /// long hair reaches outside the heads' box.
 PackingFrame frame_of(const Inputs& inputs, const Positions& body) {
   std::vector<const Positions*> all = positions_of(inputs.faces);
   if (body.rows() > 0) all.push_back(&body);
   for (const Attachment& item : inputs.attachments.items) all.push_back(&item.file.positions);
-  return PackingFrame::around(all);
+  return PackingFrame::enclosing(all);
 }
 
 Json axis_to_json(Axis axis) {
@@ -239,7 +239,7 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
 std::string GalleryMeshes::skin(const TextureSet& texture_set) const {
   std::vector<std::uint32_t> placed;  // indices of textures, without duplicates
   Json pictures = Json::array(), of_look = Json::array();
-  for (const std::uint32_t first : mesh_.looks) {
+  for (const std::uint32_t first : mesh_.material_starts) {
     const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * first]];
     const std::uint32_t texture =
         texture_set.of_face.empty() ? TextureSet::kNone : texture_set.of_face[face];
@@ -293,7 +293,7 @@ std::string GalleryMeshes::shared_script() const {
   json["twins"] = base64(little_endian(mesh_.twins));
   if (!mesh_.uvs.empty()) {
     json["uvs"] = base64(little_endian(mesh_.uvs));
-    json["looks"] = mesh_.looks;
+    json["looks"] = mesh_.material_starts;
   }
   json["colours"] = base64(shades(colours_));
   add_eyes(config_, inputs_, pictured_mesh_, mesh_, json);

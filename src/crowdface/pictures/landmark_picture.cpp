@@ -78,7 +78,7 @@ std::string landmark_picture(const CrowdRenders& renders, const Topology& topolo
       draw_label(labelled.label, at, image);
     }
   }
-  const Rgb8Image image = side_by_side(views);
+  const Rgb8Image image = joined_pictures(views);
   return encode_png(image.width, image.height, 3, image.pixels);
 }
 

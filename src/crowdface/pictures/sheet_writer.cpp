@@ -67,7 +67,7 @@ void SheetWriter::wait() {
 void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8Image page) {
   if (index_.size() == kPagesPerVolume) finish_volume(false);
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
-  index_.push_back({shrunk(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
+  index_.push_back({shrink_picture(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
                     concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
   write_in_background(stem, std::move(page));
 }

@@ -56,8 +56,8 @@ class CrowdSheets {
     if (sheet_.compare.with == Config::Comparison::With::kNothing) return cell;
     const ComparedFace compared = compared_.compare(face);
     const VertexColours colours = heat_colours(compared.mm, sheet_.compare.scale_mm);
-    cell.image =
-        side_by_side(std::vector{cell.image, crowd_.renders.render_front(compared.mesh, &colours)});
+    cell.image = joined_pictures(
+        std::vector{cell.image, crowd_.renders.render_front(compared.mesh, &colours)});
     cell.label += concat("\n", compared_.label(compared));
     return cell;
   }
@@ -178,7 +178,7 @@ class CrowdSheets {
       const Relative& shown = cells[i];
       if (!shown.picture.empty()) return {read_render(shown.picture), shown.label};
       const Rgb8Image face = read_render(crowd_.directory.render(crowd_.faces[members.front()].id));
-      return {padded({}, face.width, face.height), ""};
+      return {pad_picture({}, face.width, face.height), ""};
     };
     // Unambiguous, because names of families contain no '+'.
     const auto stem = [&](std::size_t page) {

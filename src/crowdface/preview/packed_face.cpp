@@ -38,7 +38,7 @@ Eigen::Vector3d normal_at(const Topology& topology, const Positions& positions,
 
 }  // namespace
 
-PackingFrame PackingFrame::around(std::span<const Positions* const> heads) {
+PackingFrame PackingFrame::enclosing(std::span<const Positions* const> heads) {
   Eigen::AlignedBox3d box;
   for (const Positions* head : heads) {
     if (head->rows() == 0) continue;
@@ -63,15 +63,15 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
 }
 
 std::string pack_face(
-    const Topology& topology, std::span<const std::uint32_t> vertices, const VertexFaces& around,
-    const PackingFrame& frame, const Positions& positions,
-    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean) {
+    const Topology& topology, std::span<const std::uint32_t> vertices,
+    const VertexFaces& vertex_faces, const PackingFrame& frame, const Positions& positions,
+    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& adjust_normal) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
   std::string bytes = pack_points(vertices, frame, positions);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    Eigen::Vector3d normal = normal_at(topology, positions, around.of(vertices[v]));
-    if (lean) normal = lean(v, normal);
+    Eigen::Vector3d normal = normal_at(topology, positions, vertex_faces.of(vertices[v]));
+    if (adjust_normal) normal = adjust_normal(v, normal);
     const Eigen::Vector2d square = unfolded(normal);
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
   }

@@ -15,27 +15,28 @@ namespace crowdface {
 
 /// The quantization grid of packed positions: a cube of 65,535 steps per side.
 struct PackingFrame {
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
   double step = 1;
 
-  /// The cube around all heads, with a margin of a quarter of their largest extent on each side for
-  /// faces that extend beyond the heads.
+  /// Returns the cube around all heads, with a margin of a quarter of the heads' largest extent on
+  /// each side for faces that extend beyond the heads.
   /// \param heads  at least one vertex in all.
-  static PackingFrame around(std::span<const Positions* const> heads);
+  static PackingFrame enclosing(std::span<const Positions* const> heads);
 };
 
 /// Packs some vertices of a face as little-endian 16-bit numbers. First the positions: three
 /// numbers per vertex, in steps from the frame's low corner, clamped to the cube. Then the unit
 /// normals: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On floating-point
 /// normal vectors") with −1 … 1 mapped to 0 … 65,535.
-/// \param vertices  rows of `positions`.
-/// \param around    faces around each vertex of the whole mesh, so that a preview has the shading
-///                  of the full mesh.
-/// \param lean      lean(i, normal): replaces the normal of vertices[i]; may be empty.
+/// \param vertices       rows of `positions`.
+/// \param vertex_faces   faces around each vertex of the whole mesh, so that a preview has the
+///                       shading of the full mesh.
+/// \param adjust_normal  adjust_normal(i, normal): replaces the normal of vertices[i]; may be
+///                       empty.
 std::string pack_face(
-    const Topology& topology, std::span<const std::uint32_t> vertices, const VertexFaces& around,
-    const PackingFrame& frame, const Positions& positions,
-    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& lean = {});
+    const Topology& topology, std::span<const std::uint32_t> vertices,
+    const VertexFaces& vertex_faces, const PackingFrame& frame, const Positions& positions,
+    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& adjust_normal = {});
 
 /// Packs positions only, the first part of pack_face.
 /// \param vertices  rows of `positions`.
@@ -48,7 +49,7 @@ std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame)
 /// Encodes bytes as base64 text (RFC 4648).
 std::string base64(std::string_view bytes);
 
-/// The bytes of numbers in little-endian order.
+/// Returns the bytes of the numbers in little-endian order.
 template <class Number>
 std::string little_endian(const std::vector<Number>& numbers) {
   static_assert(std::endian::native == std::endian::little);

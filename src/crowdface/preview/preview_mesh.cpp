@@ -12,33 +12,34 @@
 namespace crowdface {
 
 PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
-                         const Positions& typical, const std::vector<bool>& drawn,
+                         const Positions& typical, const std::vector<bool>& shown,
                          std::size_t max_vertices) {
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  require(drawn.empty() || drawn.size() == faces, "preview: ", drawn.size(), " marks, ", faces,
+  require(shown.empty() || shown.size() == faces, "preview: ", shown.size(), " marks, ", faces,
           " faces");
-  std::vector<std::uint32_t> looks(faces, 0);
-  for (std::size_t f = 0; f < drawn.size(); ++f) looks[f] = drawn[f] ? 0 : kNoIndex;
-  const SplitMesh split = split_mesh(topology, uvs, looks);
-  return preview_of(split, reduce_triangles(split.triangles, split.of(typical), 2 * max_vertices),
-                    uvs);
+  std::vector<std::uint32_t> labels(faces, 0);
+  for (std::size_t f = 0; f < shown.size(); ++f) labels[f] = shown[f] ? 0 : kNoIndex;
+  const SplitMesh split = split_mesh(topology, uvs, labels);
+  return preview_of(
+      split, reduce_triangles(split.triangles, split.corner_positions(typical), 2 * max_vertices),
+      uvs);
 }
 
 PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
                        const TextureCoordinates& uvs) {
   triangles = grouped_by_material(std::move(triangles), split);
-  const auto look_of = [&](const Triangle& t) { return split.corners[t[0]].look; };
+  const auto material_of_triangle = [&](const Triangle& t) { return split.corners[t[0]].material; };
   PreviewMesh mesh;
   std::vector<std::uint32_t> number(split.corners.size(), kNoIndex);
   // For each vertex of the whole mesh: its first index.
   std::map<std::uint32_t, std::uint32_t> first;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (t == 0 || look_of(triangles[t]) != look_of(triangles[t - 1])) {
-      mesh.looks.push_back(static_cast<std::uint32_t>(t));
+    if (t == 0 || material_of_triangle(triangles[t]) != material_of_triangle(triangles[t - 1])) {
+      mesh.material_starts.push_back(static_cast<std::uint32_t>(t));
     }
     for (const std::uint32_t corner : triangles[t]) {
       if (number[corner] == kNoIndex) {
-        const auto [vertex, uv, look] = split.corners[corner];
+        const auto [vertex, uv, material] = split.corners[corner];
         number[corner] = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.push_back(vertex);
         mesh.faces.push_back(split.face_of_corner[corner]);

@@ -47,7 +47,7 @@ std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
                                        const Positions& positions, std::size_t most,
                                        Borders borders) {
   std::vector<unsigned int> corners = corners_of(triangles);
-  const unsigned int options = borders == Borders::kStay ? +meshopt_SimplifyLockBorder : 0U;
+  const unsigned int options = borders == Borders::kKeep ? +meshopt_SimplifyLockBorder : 0U;
   reduce(corners, positions, most, options);
   return for_drawing(std::move(corners), positions.rows());
 }

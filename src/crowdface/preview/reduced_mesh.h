@@ -10,14 +10,14 @@
 namespace crowdface {
 
 /// Whether simplification may remove vertices of open borders.
-enum class Borders { kCollapse, kStay };
+enum class Borders { kCollapse, kKeep };
 
-/// Collapses edges until at most `most` triangles are left, in the order of least error (quadric
-/// error metrics, Garland & Heckbert 1997, by meshoptimizer). Edges of open borders, and of seams
-/// (borders where several vertices share one position), collapse along the border only. If these
-/// constraints block further collapses, more than `most` triangles remain.
+/// Collapses edges until at most `most` triangles are left, those with the least error first
+/// (quadric error metrics, Garland & Heckbert 1997, by meshoptimizer). Edges of open borders, and
+/// of seams (borders where several vertices share one position), collapse along the border only. If
+/// these constraints block further collapses, more than `most` triangles remain.
 /// \param positions  #V by 3, finite.
-/// \param borders    what becomes of the vertices of open borders.
+/// \param borders    whether vertices of open borders may be removed.
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
                                        const Positions& positions, std::size_t most,
                                        Borders borders = Borders::kCollapse);
@@ -29,6 +29,8 @@ struct ReducedMesh {
   std::vector<Triangle> triangles;      ///< indices into `vertices`
 };
 
+/// Like reduce_triangles, but also renumbers the vertices. \param most  largest number of
+/// triangles.
 ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions& positions,
                         std::size_t most);
 

@@ -47,7 +47,7 @@ std::array<double, 2> tile_of(std::span<const std::uint32_t> corners,
 
 }  // namespace
 
-Positions SplitMesh::of(const Positions& whole) const {
+Positions SplitMesh::corner_positions(const Positions& whole) const {
   Positions positions(static_cast<Index>(corners.size()), 3);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     positions.row(static_cast<Index>(i)) = whole.row(corners[i].vertex);
@@ -56,25 +56,25 @@ Positions SplitMesh::of(const Positions& whole) const {
 }
 
 SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
-                     std::span<const std::uint32_t> looks) {
-  require(static_cast<Index>(looks.size()) == topology.face_count(), "split mesh: ", looks.size(),
-          " looks, ", topology.face_count(), " faces");
+                     std::span<const std::uint32_t> materials) {
+  require(static_cast<Index>(materials.size()) == topology.face_count(),
+          "split mesh: ", materials.size(), " materials, ", topology.face_count(), " faces");
   const std::vector<std::uint32_t> first_uv = first_of_equal(uvs);
   SplitMesh split;
-  std::map<std::pair<std::uint32_t, std::array<double, 2>>, std::uint32_t> known_looks;
+  std::map<std::pair<std::uint32_t, std::array<double, 2>>, std::uint32_t> known_materials;
   std::vector<SplitMesh::Corner> all;
   std::vector<std::uint32_t> face_of;  // parallel to `all`
   for (Index f = 0; f < topology.face_count(); ++f) {
-    if (looks[static_cast<std::size_t>(f)] == kNoIndex) continue;
+    if (materials[static_cast<std::size_t>(f)] == kNoIndex) continue;
     const auto rows = uvs.rows() > 0 ? topology.face_uvs(f) : std::span<const std::uint32_t>();
-    const auto [look, is_new] =
-        known_looks.emplace(std::pair(looks[static_cast<std::size_t>(f)], tile_of(rows, uvs)),
-                            static_cast<std::uint32_t>(known_looks.size()));
+    const auto [material, is_new] = known_materials.emplace(
+        std::pair(materials[static_cast<std::size_t>(f)], tile_of(rows, uvs)),
+        static_cast<std::uint32_t>(known_materials.size()));
     if (is_new) split.face_of_material.push_back(static_cast<std::uint32_t>(f));
     const auto vertices = topology.face(f);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const bool has_uv = !rows.empty() && rows[k] != kNoIndex;
-      all.push_back({vertices[k], has_uv ? first_uv[rows[k]] : kNoIndex, look->second});
+      all.push_back({vertices[k], has_uv ? first_uv[rows[k]] : kNoIndex, material->second});
       face_of.push_back(static_cast<std::uint32_t>(f));
     }
   }
@@ -104,7 +104,7 @@ std::vector<Triangle> grouped_by_material(std::vector<Triangle> triangles, const
     return vertex(0) == vertex(1) || vertex(1) == vertex(2) || vertex(2) == vertex(0);
   });
   std::ranges::stable_sort(triangles, {},
-                           [&](const Triangle& t) { return split.corners[t[0]].look; });
+                           [&](const Triangle& t) { return split.corners[t[0]].material; });
   return triangles;
 }
 

@@ -16,7 +16,7 @@ AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoor
           "worn surface: ", of_face.size(), " materials, ", topology.face_count(), " faces");
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto [begin, end] = topology.corners(f);
-    const auto uv_at = [&](std::uint32_t corner) -> Eigen::Vector2f {
+    const auto uv_of_corner = [&](std::uint32_t corner) -> Eigen::Vector2f {
       const std::uint32_t row =
           topology.corner_uvs.empty() || uvs.rows() == 0 ? kNoIndex : topology.corner_uvs[corner];
       if (row == kNoIndex) return {0, 0};
@@ -24,13 +24,13 @@ AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoor
     };
     const auto add = [&](std::array<std::uint32_t, 4> corners) {
       Quad quad;
-      std::array<Eigen::Vector2f, 4> places;
+      std::array<Eigen::Vector2f, 4> corner_uvs;
       for (std::size_t c = 0; c < 4; ++c) {
         quad[c] = topology.corner_vertices[corners[c]];
-        places[c] = uv_at(corners[c]);
+        corner_uvs[c] = uv_of_corner(corners[c]);
       }
       quads_.push_back(quad);
-      uvs_.push_back(places);
+      uvs_.push_back(corner_uvs);
       materials_of_quads_.push_back(of_face[static_cast<std::size_t>(f)]);
     };
     if (end - begin == 4) {
@@ -41,7 +41,7 @@ AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoor
   }
 }
 
-Eigen::Vector2f AttachmentSurface::place(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+Eigen::Vector2f AttachmentSurface::uv_at(std::uint32_t quad, const Eigen::Vector4f& shares) const {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += shares[c] * uvs_[quad][static_cast<std::size_t>(c)];
   return uv;
@@ -49,13 +49,13 @@ Eigen::Vector2f AttachmentSurface::place(std::uint32_t quad, const Eigen::Vector
 
 Light AttachmentSurface::colour(std::uint32_t quad, const Eigen::Vector4f& shares) const {
   const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
-  return material.texture ? colour_at(*material.texture, place(quad, shares)) : material.colour;
+  return material.texture ? colour_at(*material.texture, uv_at(quad, shares)) : material.colour;
 }
 
 float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const {
   const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
   if (!material.opacity) return material.share;
-  return material.share * colour_at(*material.opacity, place(quad, shares))[0];
+  return material.share * colour_at(*material.opacity, uv_at(quad, shares))[0];
 }
 
 }  // namespace crowdface

@@ -21,13 +21,13 @@ struct AttachmentMaterial {
   float share = 1;                              ///< factor on the opacity
 };
 
-/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. It looks the
-/// same from both sides and may be transparent.
+/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Both of its
+/// sides look the same. The mesh may be transparent.
 class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.
   /// \param materials  at least one.
-  /// \param of_face    #F rows of `materials`.
+  /// \param of_face    #F: index into `materials`.
   AttachmentSurface(const Topology& topology, const TextureCoordinates& uvs,
                     std::vector<AttachmentMaterial> materials,
                     const std::vector<std::uint32_t>& of_face);
@@ -37,12 +37,12 @@ class AttachmentSurface {
   const std::vector<Quad>& quads() const { return quads_; }
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }
 
-  /// Colour and opacity at a point of a quad. \param shares  from bilinear_weights.
+  /// Colour at a point of a quad. \param shares  interpolation weights from bilinear_weights.
   Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
   float opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const;
 
  private:
-  Eigen::Vector2f place(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+  Eigen::Vector2f uv_at(std::uint32_t quad, const Eigen::Vector4f& shares) const;
 
   Topology topology_;
   NormalFans fans_;

@@ -43,16 +43,16 @@ const AttachmentStage::Part& AttachmentStage::part_of(std::uint32_t quad) const 
   return *(after - 1);
 }
 
-AttachmentStage::Place AttachmentStage::at(const RayHit& hit) const {
+AttachmentStage::HitSurface AttachmentStage::surface_at(const RayHit& hit) const {
   const Quad& quad = quads_[hit.primitive];
   const Eigen::Vector4f shares = bilinear_weights(quad, hit.u, hit.v);
   const Part& part = part_of(hit.primitive);
-  Place place{Eigen::Vector3f::Zero(),
-              part.surface->colour(hit.primitive - part.first_quad, shares) * part.tint};
+  HitSurface surface{Eigen::Vector3f::Zero(),
+                     part.surface->colour(hit.primitive - part.first_quad, shares) * part.tint};
   for (int c = 0; c < 4; ++c) {
-    place.normal += shares[c] * normals_[quad[static_cast<std::size_t>(c)]];
+    surface.normal += shares[c] * normals_[quad[static_cast<std::size_t>(c)]];
   }
-  return place;
+  return surface;
 }
 
 }  // namespace crowdface

@@ -23,11 +23,11 @@ class AttachmentStage {
   const RayScene& scene() const { return *scene_; }
 
   /// Surface data at a hit.
-  struct Place {
+  struct HitSurface {
     Eigen::Vector3f normal;  ///< interpolated; any length, on either side
     Light colour;
   };
-  Place at(const RayHit& hit) const;
+  HitSurface surface_at(const RayHit& hit) const;
 
  private:
   struct Part {

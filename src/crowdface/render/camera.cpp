@@ -32,8 +32,8 @@ double turn_degrees(View view) {
   return 0;
 }
 
-/// Vertices above this fraction of the total height belong to heads. They are centred in the image,
-/// so that shoulders do not shift it.
+/// Vertices above this fraction of the total height belong to heads. The image is centred on these
+/// vertices, so that shoulders do not shift it.
 constexpr double kNeck = 0.45;
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
@@ -174,7 +174,7 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
       along.add(height, z);
     }
   }
-  for (const Eigen::Vector3d& point : options.beside) {
+  for (const Eigen::Vector3d& point : options.extra_points) {
     const double height = point.dot(camera.up), z = point.dot(camera.back);
     if (height < lowest) continue;
     across.add(point.dot(camera.right), z);

@@ -41,12 +41,12 @@ struct FramingOptions {
   double cut_below = 0;
   /// Points that must be visible too, such as hair, unless they lie below the visible part of the
   /// heads.
-  std::vector<Eigen::Vector3d> beside = {};
+  std::vector<Eigen::Vector3d> extra_points = {};
 };
 
-/// The camera at the smallest distance at which all vertices of all heads and `beside` are visible,
-/// except the part that `cut_below` allows to lie outside the image. One camera serves all faces of
-/// a set, so that their sizes are comparable.
+/// The camera at the smallest distance at which all vertices of all heads and `extra_points` are
+/// visible, except the part that `cut_below` allows to lie outside the image. One camera serves all
+/// faces of a set, so that their sizes are comparable.
 /// \param heads  at least one; each #V by 3 in the unit of the files, with at least one vertex.
 /// \throws BrokenPrecondition if there is no vertex, or if up and front are the same axis;
 ///     InvalidInput if a coordinate is not finite.

@@ -136,7 +136,7 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
 }
 
 CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
-  const AttachmentStage::Place place = stage.attachments->at(hit);
+  const AttachmentStage::HitSurface place = stage.attachments->surface_at(hit);
   CameraHit result;
   result.point = stage.viewer + hit.distance * direction;
   result.surface.kind = SurfaceKind::kAttachment;

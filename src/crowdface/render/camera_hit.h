@@ -23,14 +23,15 @@ struct Visibility {
 /// A surface point that a camera ray hits, with the data for shading it.
 struct CameraHit {
   Eigen::Vector3f point;
-  Eigen::Vector3f start;  ///< origin of rays to the lights, slightly above the surface
+  /// origin of rays from this point to the lights, slightly above the surface
+  Eigen::Vector3f start;
   ShadePoint surface;
   float skin_lightness = 0;  ///< skin_lightness() of its texture, or 0
   bool may_see_key = false;  ///< whether the key light can contribute at all
   Visibility key, sky;
 };
 
-/// Computes the surface data at a hit on the face. \param direction  of the camera ray.
+/// Computes the surface data at a hit on the face. \param direction  direction of the camera ray.
 CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
 /// Computes the surface data at a hit on an attachment, which looks the same from both sides.
 CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Index kVertexBlock = 4096;
 
-/// \param first  number of the first vertex in `some`, for the message
+/// Checks that positions are finite. \param first  vertex number of the first row, for the message
 void check_finite(const Eigen::Ref<const Positions>& some, Index first) {
   if (some.allFinite()) return;
   Index i = 0;

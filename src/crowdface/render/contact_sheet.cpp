@@ -62,7 +62,7 @@ void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions
               layout.margin + title_width, 0);
 }
 
-/// \throws InvalidInput if the pictures differ in size.
+/// Returns the common size of the cells. \throws InvalidInput if the pictures differ in size.
 CellSize size_of(std::span<const SheetCell> cells) {
   CellSize size;
   for (const SheetCell& cell : cells) {
@@ -76,7 +76,7 @@ CellSize size_of(std::span<const SheetCell> cells) {
   return size;
 }
 
-/// \param options  `rows` must be set.
+/// Computes the layout of a sheet. \param options  `rows` must be set.
 SheetLayout place_cells(const CellSize& cell, const SheetOptions& options) {
   const int size = std::min(cell.height, cell.width);
   const int line = std::clamp(size / (cell.label_lines > 1 ? 12 : 10), 12, 64);
@@ -184,7 +184,7 @@ Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions&
   return sheet;
 }
 
-Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
+Rgb8Image shrink_picture(const Rgb8Image& image, int width_px) {
   require(width_px >= 1 && width_px <= image.width, "shrink ", image.width, " pixels to ",
           width_px);
   const int height_px =
@@ -215,7 +215,7 @@ Rgb8Image shrunk(const Rgb8Image& image, int width_px) {
   return small;
 }
 
-Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px) {
+Rgb8Image pad_picture(const Rgb8Image& image, int width_px, int height_px) {
   require(image.width <= width_px && image.height <= height_px, "pad ", image.width, " x ",
           image.height, " pixels to ", width_px, " x ", height_px);
   Rgb8Image sheet(width_px, height_px, kBackground);
@@ -223,7 +223,7 @@ Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px) {
   return sheet;
 }
 
-Rgb8Image side_by_side(std::span<const Rgb8Image> images) {
+Rgb8Image joined_pictures(std::span<const Rgb8Image> images) {
   require(!images.empty(), "no picture to put beside another");
   int width = 0;
   for (const Rgb8Image& image : images) {

@@ -17,7 +17,7 @@ struct SheetCell {
   std::string label;
 };
 
-/// Legend of a heat map, drawn below all cells: a scale from 0 to `max_mm`.
+/// Legend of a heat map below all cells of a sheet: a colour scale from 0 to `max_mm`.
 struct HeatLegend {
   double max_mm = 0;
   std::string title;
@@ -76,14 +76,14 @@ Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions&
 
 /// Scales a picture down by box filtering in linear light.
 /// \param width_px  1 … image.width; the height keeps the aspect ratio.
-Rgb8Image shrunk(const Rgb8Image& image, int width_px);
+Rgb8Image shrink_picture(const Rgb8Image& image, int width_px);
 
 /// Returns the picture placed in the upper left corner of a larger picture with the background
 /// colour of the sheets.
-Rgb8Image padded(const Rgb8Image& image, int width_px, int height_px);
+Rgb8Image pad_picture(const Rgb8Image& image, int width_px, int height_px);
 
 /// Joins pictures of one height from left to right, for several views of a face in one cell.
 /// \throws BrokenPrecondition if there are no pictures; InvalidInput if heights differ.
-Rgb8Image side_by_side(std::span<const Rgb8Image> images);
+Rgb8Image joined_pictures(std::span<const Rgb8Image> images);
 
 }  // namespace crowdface

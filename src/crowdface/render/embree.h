@@ -27,7 +27,7 @@ inline RTCIntersectArguments intersect_arguments(Rays rays) {
 
 /// Finds the first hit of each ray of a packet.
 /// \param valid  -1 for lanes with a ray, 0 for the others; aligned to 64 bytes.
-/// \param query  on entry rays and empty hits; on return distances and hits.
+/// \param query  On entry, holds the rays and empty hits; on return, the distances and hits.
 inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
   RTCIntersectArguments arguments = intersect_arguments(rays);
   rtcIntersect8(valid, scene, &query, &arguments);

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// The eyeballs of a mesh: connected components of the faces of kind kEye. An eye without a texture
-/// would be plain white, so the renderer paints an iris on it that faces straight ahead.
+/// The eyeballs of a mesh: connected components of the faces of kind kEye. An eyeball without a
+/// texture would be plain white, so the renderer paints an iris on it, looking straight ahead.
 struct Eyeballs {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   /// #V eyeball numbers or kNone; empty if there are no eyeballs
@@ -25,7 +25,7 @@ struct Eyeballs {
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
 /// Radii of pupil and iris relative to the radius of the eyeball, similar to a human eye in dim
-/// light; then half the width of the blur at the edges of pupil and iris.
+/// light; kIrisSoftness is half the width of the blur at the edges of pupil and iris.
 inline constexpr float kPupilRadius = 0.17F;
 inline constexpr float kIrisRadius = 0.42F;
 inline constexpr float kIrisSoftness = 0.025F;

@@ -68,7 +68,7 @@ class WorkspacePool {
 struct Occluders {
   std::vector<std::uint32_t> vertices;  ///< vertices of the mesh; empty: all
   std::vector<Quad> quads;              ///< indices into `vertices`; empty: all quads of the mesh
-  /// Their positions in the typical face; empty: a new scene is built for each face.
+  /// Positions of the occluding vertices in the typical face; empty: a new scene for each face.
   std::vector<float> typical;
 };
 
@@ -139,7 +139,7 @@ struct FaceRenderer::Prepared {
     if (workspace.occluders == nullptr) {
       workspace.occluders = std::make_unique<RayScene>(
           device, occluders.typical, occluders.vertices.empty() ? quads : occluders.quads,
-          RayScene::Tree::kForMoves);
+          RayScene::Tree::kMovable);
     }
     workspace.occluders->move_points(points);
   }

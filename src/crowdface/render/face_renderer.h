@@ -34,10 +34,10 @@ struct RenderOptions {
 /// their first corner; faces with fewer than three corners are skipped.
 class FaceRenderer {
  public:
-  /// \param typical  #V by 3, an average face. If given, the ray tracer's tree is built once for it
-  ///                 and refitted to each face, which saves most of the time on large meshes; and
-  ///                 all faces are assumed to have its winding. Otherwise the tree is rebuilt for
-  ///                 every face.
+  /// \param typical  #V by 3, an average face, or null. If given, the ray tracer's tree is built
+  ///                 once for this face and refitted to each rendered face, which saves most of the
+  ///                 time on large meshes, and all faces are assumed to have the same winding as
+  ///                 this face. Otherwise the tree is rebuilt for every face.
   /// \throws BrokenPrecondition if sizes or options are invalid.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);
@@ -46,8 +46,8 @@ class FaceRenderer {
   /// \param positions  #V by 3, in the unit of the camera. Without `typical`, normals are flipped
   ///                   if the whole mesh is inside out, as a mirrored mesh is.
   /// \param colours    #V by 3, override all other colours and textures; or nullptr.
-  /// \param texture_set  textures, for the faces that have one; or nullptr.
-  /// \param attachments  attachments drawn with the face.
+  /// \param texture_set  textures of the polygons that have one; or nullptr.
+  /// \param attachments  attachments rendered with the face.
   /// \throws BrokenPrecondition if a size does not match; InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,
                    const VertexColours* colours = nullptr, const TextureSet* texture_set = nullptr,

@@ -56,16 +56,16 @@ HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n
 }
 
 /// Rasterizes a quad at the samples of one pixel.
-HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad, const PlacedVertex* placed,
-                             float left, float top, const LookedPixel& pixel, float* nearness,
-                             std::uint32_t* fronts) {
+HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad,
+                             const ProjectedVertex* placed, float left, float top,
+                             const SampledPixel& pixel, float* nearness, std::uint32_t* fronts) {
   const Lanes lanes;
-  const PlacedVertex* const vertices[] = {placed + quad[0], placed + quad[1], placed + quad[2],
-                                          placed + quad[3]};
-  for (std::uint32_t i = 0; i < pixel.places->count();
+  const ProjectedVertex* const vertices[] = {placed + quad[0], placed + quad[1], placed + quad[2],
+                                             placed + quad[3]};
+  for (std::uint32_t i = 0; i < pixel.samples->count();
        i += static_cast<std::uint32_t>(hn::Lanes(lanes))) {
-    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.places->x() + i));
-    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.places->y() + i));
+    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.samples->x() + i));
+    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.samples->y() + i));
     Corner c[4];
     for (int k = 0; k < 4; ++k) {
       c[k] = {hn::Sub(hn::Set(lanes, vertices[k]->x), x),
@@ -81,9 +81,9 @@ HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad, const Pla
   }
 }
 
-void put_in_front(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad* quads,
-                  const PlacedVertex* placed, int corner_x, int corner_y, const LookedPixel* pixels,
-                  float* nearness, std::uint32_t* fronts) {
+void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad* quads,
+                     const ProjectedVertex* placed, int corner_x, int corner_y,
+                     const SampledPixel* pixels, float* nearness, std::uint32_t* fronts) {
   constexpr std::ptrdiff_t kQuadsAhead = 16, kCornersAhead = 8;
   for (; begin != end; ++begin) {
     // Prefetch: on a large mesh, quads and vertices are not in the caches.
@@ -95,8 +95,8 @@ void put_in_front(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad
     }
     for (int y = begin->top; y <= begin->bottom; ++y) {
       for (int x = begin->left; x <= begin->right; ++x) {
-        const LookedPixel& pixel = pixels[y * kRimmed + x];
-        if (pixel.places == nullptr) continue;
+        const SampledPixel& pixel = pixels[y * kRimmed + x];
+        if (pixel.samples == nullptr) continue;
         put_in_pixel(*begin, quads[begin->quad], placed, static_cast<float>(corner_x + x),
                      static_cast<float>(corner_y + y), pixel, nearness, fronts);
       }
@@ -118,8 +118,9 @@ struct Boxes {
   alignas(64) std::int32_t in_square[kCount];
 };
 
-/// \param quads  Boxes::kCount quads
-void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes& boxes) {
+/// Computes the bounding boxes of quads in pixels. \param quads  Boxes::kCount quads
+void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_per_row,
+                Boxes& boxes) {
   const hn::CappedTag<float, Boxes::kCount> lanes;
   const hn::Rebind<std::int32_t, decltype(lanes)> whole;
   // Bounding boxes in image coordinates: left, top, right, bottom of each quad.
@@ -133,14 +134,15 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
     std::copy_n(low.data(), 2, ends + 4 * i);
     std::copy_n(high.data(), 2, ends + 4 * i + 2);
   }
-  const auto most = hn::Set(lanes, static_cast<float>(a_row * kSquare + 2 * kRim - 1));
+  const auto most = hn::Set(lanes, static_cast<float>(squares_per_row * kSquare + 2 * kRim - 1));
   const auto zero = hn::Zero(lanes), half = hn::Set(lanes, 0.5F);
-  const auto one = hn::Set(whole, 1), none = hn::Zero(whole), last = hn::Set(whole, a_row - 1);
+  const auto one = hn::Set(whole, 1), none = hn::Zero(whole),
+             last = hn::Set(whole, squares_per_row - 1);
   const auto pixel = [&](auto place) { return hn::ConvertTo(whole, place); };
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  // A square's rim ends 2 · kRim after the start of the next square's rim
+  // A square's rim ends 2 · kRim pixels after the start of the next square's rim.
   const auto first_square = [&](auto from) {
     return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRim)), none));
   };
@@ -171,7 +173,7 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
     hn::Store(r, whole, boxes.right + i);
     hn::Store(b, whole, boxes.bottom + i);
     hn::Store(hn::IfThenElse(hn::RebindMask(whole, unseen), hn::Set(whole, -1),
-                             hn::Add(hn::Mul(row, hn::Set(whole, a_row)), column)),
+                             hn::Add(hn::Mul(row, hn::Set(whole, squares_per_row)), column)),
               whole, boxes.square + i);
     hn::Store(hn::IfThenElseZero(
                   hn::And(hn::Eq(first_square(l), column), hn::Eq(first_square(t), row)), one),
@@ -183,7 +185,7 @@ void find_boxes(const Quad* quads, const PlacedVertex* placed, int a_row, Boxes&
 }
 
 void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
-                    const PlacedVertex* placed, int a_row, SquareLists& squares) {
+                    const ProjectedVertex* placed, int squares_per_row, SquareLists& squares) {
   Boxes boxes;
   std::array<Quad, Boxes::kCount> some;
   const auto byte = [](auto number) { return static_cast<std::uint8_t>(number); };
@@ -193,7 +195,7 @@ void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
   for (; begin < end; begin += Boxes::kCount) {
     const std::size_t count = std::min(Boxes::kCount, end - begin);
     for (std::size_t i = 0; i < Boxes::kCount; ++i) some[i] = quads[begin + std::min(i, count - 1)];
-    find_boxes(some.data(), placed, a_row, boxes);
+    find_boxes(some.data(), placed, squares_per_row, boxes);
     for (std::size_t i = 0; i < count; ++i) {
       if (boxes.square[i] < 0) continue;
       const auto quad = static_cast<std::uint32_t>(begin + i);
@@ -204,10 +206,11 @@ void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
             {quad, byte(ends), byte(ends >> 8U), byte(ends >> 16U), byte(ends >> 24U)});
         continue;
       }
-      const int right = boxes.square[i] % a_row, bottom = boxes.square[i] / a_row;
+      const int right = boxes.square[i] % squares_per_row,
+                bottom = boxes.square[i] / squares_per_row;
       for (int y = std::max(boxes.top[i] - 2 * kRim, 0) / kSquare; y <= bottom; ++y) {
         for (int x = std::max(boxes.left[i] - 2 * kRim, 0) / kSquare; x <= right; ++x) {
-          squares[static_cast<std::size_t>(y * a_row + x)][list].push_back(
+          squares[static_cast<std::size_t>(y * squares_per_row + x)][list].push_back(
               {quad, within(boxes.left[i], x), within(boxes.top[i], y), within(boxes.right[i], x),
                within(boxes.bottom[i], y)});
         }
@@ -222,9 +225,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 HWY_EXPORT(add_to_squares);
-HWY_EXPORT(put_in_front);
+HWY_EXPORT(rasterize_quads);
 
-PixelPlaces::PixelPlaces(std::vector<Eigen::Vector2f> list) : list_(std::move(list)) {
+PixelSamples::PixelSamples(std::vector<Eigen::Vector2f> list) : list_(std::move(list)) {
   for (const Eigen::Vector2f& place : list_) {
     x_.push_back(place.x());
     y_.push_back(place.y());
@@ -233,19 +236,20 @@ PixelPlaces::PixelPlaces(std::vector<Eigen::Vector2f> list) : list_(std::move(li
   y_.resize(list_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
 }
 
-FrontQuads::FrontQuads(std::size_t places)
-    : nearness(places + kMaxLanes, 0.0F), front(places + kMaxLanes, kNothing) {}
+DepthBuffer::DepthBuffer(std::size_t samples)
+    : nearness(samples + kMaxLanes, 0.0F), front(samples + kMaxLanes, kNothing) {}
 
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
-                    std::span<const PlacedVertex> placed, int a_row, SquareLists& squares) {
+                    std::span<const ProjectedVertex> placed, int squares_per_row,
+                    SquareLists& squares) {
   HWY_DYNAMIC_DISPATCH(add_to_squares)
-  (quads.data(), first, end, placed.data(), a_row, squares);
+  (quads.data(), first, end, placed.data(), squares_per_row, squares);
 }
 
-void put_in_front(std::span<const QuadOnPixels> some, std::span<const Quad> quads,
-                  std::span<const PlacedVertex> placed, std::array<int, 2> corner,
-                  std::span<const LookedPixel> pixels, FrontQuads& fronts) {
-  HWY_DYNAMIC_DISPATCH(put_in_front)
+void rasterize_quads(std::span<const QuadOnPixels> some, std::span<const Quad> quads,
+                     std::span<const ProjectedVertex> placed, std::array<int, 2> corner,
+                     std::span<const SampledPixel> pixels, DepthBuffer& fronts) {
+  HWY_DYNAMIC_DISPATCH(rasterize_quads)
   (some.data(), some.data() + some.size(), quads.data(), placed.data(), corner[0], corner[1],
    pixels.data(), fronts.nearness.data(), fronts.front.data());
 }

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// The image is divided into squares of kSquare pixels a side. Each is processed with a rim of kRim
-/// pixels, which overlaps its neighbours.
+/// The image is divided into squares of kSquare pixels a side. Each square is processed with a rim
+/// of kRim pixels, which overlaps the neighbouring squares.
 inline constexpr int kSquareBits = 6;
 inline constexpr int kSquare = 1 << kSquareBits;
 inline constexpr int kRim = 2;
@@ -24,10 +24,10 @@ inline constexpr int kRimmed = kSquare + 2 * kRim;
 inline constexpr std::size_t kMaxLanes = 16;
 
 /// A vertex projected to the image.
-struct alignas(16) PlacedVertex {
+struct alignas(16) ProjectedVertex {
   float x, y;  ///< in pixels; x is infinite for vertices behind the camera
-  /// Reciprocal of the distance. The unit of distance is the length of the ray from the camera
-  /// through this vertex to the plane z = 0.
+  /// Reciprocal of the distance between camera and vertex. The unit of distance is the length of
+  /// the ray from the camera through this vertex to the plane z = 0.
   float nearness;
 };
 
@@ -44,15 +44,16 @@ using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
 /// Adds quads to the lists of all squares that they may touch, including rims.
 /// \param first, end  range of `quads`
-/// \param a_row       number of squares in a row
+/// \param squares_per_row       number of squares in a row
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
-                    std::span<const PlacedVertex> placed, int a_row, SquareLists& squares);
+                    std::span<const ProjectedVertex> placed, int squares_per_row,
+                    SquareLists& squares);
 
 /// Sample positions in a pixel.
-class PixelPlaces {
+class PixelSamples {
  public:
   /// \param list  positions in [0, 1)²
-  explicit PixelPlaces(std::vector<Eigen::Vector2f> list);
+  explicit PixelSamples(std::vector<Eigen::Vector2f> list);
 
   const std::vector<Eigen::Vector2f>& list() const { return list_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(list_.size()); }
@@ -65,31 +66,31 @@ class PixelPlaces {
   std::vector<float> x_, y_;
 };
 
-/// The samples of a pixel: their positions, and the index of the first of them among the samples of
-/// all pixels.
-struct LookedPixel {
-  const PixelPlaces* places = nullptr;  ///< null: no samples in this pixel
+/// The samples of a pixel: their positions, and the index of the pixel's first sample among the
+/// samples of all pixels.
+struct SampledPixel {
+  const PixelSamples* samples = nullptr;  ///< null: no samples in this pixel
   std::uint32_t first = 0;
 };
 
 /// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.
-struct FrontQuads {
+struct DepthBuffer {
   static constexpr std::uint32_t kNothing = 0xffffffffU;
   std::vector<float> nearness;       ///< 0: no quad
   std::vector<std::uint32_t> front;  ///< 2 · quad, plus 1 for the second triangle of the quad
 
-  explicit FrontQuads(std::size_t places);
+  explicit DepthBuffer(std::size_t samples);
 };
 
 /// Corners of the two triangles into which Embree splits a quad.
 inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1, 3}, {2, 3, 1}}};
 
-/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier one
+/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier quad
 /// stays. The result has the same bits with every instruction set.
 /// \param corner  image pixel at the corner of the square's rim
 /// \param pixels  kRimmed² pixels of the square and its rim, row by row
-void put_in_front(std::span<const QuadOnPixels> some, std::span<const Quad> quads,
-                  std::span<const PlacedVertex> placed, std::array<int, 2> corner,
-                  std::span<const LookedPixel> pixels, FrontQuads& fronts);
+void rasterize_quads(std::span<const QuadOnPixels> pixel_quads, std::span<const Quad> quads,
+                     std::span<const ProjectedVertex> placed, std::array<int, 2> corner,
+                     std::span<const SampledPixel> pixels, DepthBuffer& fronts);
 
 }  // namespace crowdface

@@ -9,17 +9,17 @@
 
 namespace crowdface {
 
-/// A colour scale from blue over green and yellow to red; yellow is lightest.
+/// Colour on a scale from blue over green and yellow to red; yellow is lightest.
 /// \param share  position on the scale, clamped to [0, 1]. \return  sRGB, each in [0, 1].
 Eigen::Vector3f heat_colour(double share);
 
 /// Colours for distances. \param mm  #V distances. \param max_mm  end of the scale.
 VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& mm, double max_mm);
 
-/// Four to six round numbers for a scale from 0 to `most`, starting with 0. \param most  > 0.
+/// Four to six round numbers, starting with 0, to label a scale from 0 to `most`. \param most  > 0.
 std::vector<double> scale_ticks(double most);
 
-/// Draws the scale: a bar with numbers under it and the title on its left.
+/// Draws a colour scale: a bar with numbers below and the title on the left.
 /// \throws MissingInput if the font is not installed.
 Rgb8Image heat_scale(double max_mm, const std::string& title, int width_px, int height_px,
                      std::array<std::uint8_t, 3> background);

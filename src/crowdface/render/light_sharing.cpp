@@ -27,9 +27,11 @@ struct Rays {
     visible = hn::Add(visible, hn::Mul(weight, others_open));
     traced = hn::Add(traced, hn::Mul(weight, others_asked));
   }
-  /// The fraction of rays that reached the light. \param unasked  the result if there are no rays.
-  Numbers share(float unasked) const {
-    return hn::IfThenElse(hn::Gt(traced, number(0)), hn::Div(visible, traced), number(unasked));
+  /// The fraction of rays that reached the light. \param default_share  result if there are no
+  /// rays.
+  Numbers share(float default_share) const {
+    return hn::IfThenElse(hn::Gt(traced, number(0)), hn::Div(visible, traced),
+                          number(default_share));
   }
 };
 
@@ -37,8 +39,8 @@ template <bool kInARow>
 void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
            std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
   using Field = PointLights;
-  // The point's own rays get a small extra weight, which decides for a point that matches none of
-  // the pixels. For other points, the rays of its pixel, one of the 3 by 3 pixels, matter more.
+  // The point's own rays get a small extra weight, so that they decide if the point matches none of
+  // the 3 by 3 pixels. If it matches a pixel, that pixel's rays outweigh the extra weight.
   const Numbers own = number(0.01F);
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {

@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// Surface points with the results of their shadow rays, as one list per field: position, normal,
-/// and for each light the number of rays that reached the light and the number traced.
+/// and for each light the number of rays that reached the light and the number of traced rays.
 struct PointLights {
   enum Field {
     kPoint,
@@ -53,10 +53,11 @@ class PixelLights {
 /// pixel's normal and position match the point's surface. The result has the same bits with every
 /// instruction set.
 /// \param points     lists padded by kMaxLanes entries of any value
-/// \param pixel      index of the pixel of all points, or with `in_a_row` of the first point
+/// \param pixel      index of the pixel that all points share; with `in_a_row`, index of the first
+///                   point's pixel
 /// \param in_a_row   whether the points lie in consecutive pixels of a row
-/// \param pixel_side in the unit of the positions
-/// \param key, sky   results; room for `count` + kMaxLanes
+/// \param pixel_side side of a pixel in the unit of the positions
+/// \param key, sky   results: visible fractions, with room for `count` + kMaxLanes numbers
 void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
                   std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky);
 

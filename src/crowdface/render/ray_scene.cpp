@@ -51,7 +51,7 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
     packet.dir_y[r] = ray.direction.y();
     packet.dir_z[r] = ray.direction.z();
     packet.tnear[r] = ray.nearest;
-    packet.tfar[r] = ray.furthest;
+    packet.tfar[r] = ray.max_distance;
     packet.time[r] = 0;
     packet.mask[r] = ~0U;
     packet.id[r] = ray.opacity_seed;
@@ -61,7 +61,7 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Splits each quad into two triangles as Embree does; a triangle stays one.
+/// Splits each quad into two triangles as Embree does; quads that are triangles stay whole.
 std::vector<Triangle> split(const std::vector<Quad>& quads) {
   std::vector<Triangle> triangles;
   triangles.reserve(2 * quads.size());
@@ -152,7 +152,7 @@ struct RayScene::State {
   RTCDevice device;
   bool takes_sixteen;
   std::vector<float> points;
-  std::vector<Triangle> triangles;  ///< the quads, split; used only with kForMoves
+  std::vector<Triangle> triangles;  ///< the quads, split; used only with kMovable
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;  ///< null if there are no quads
   Opacity opacity;                 ///< empty: opaque
@@ -185,8 +185,8 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   State& state = *state_;
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
-  const bool moves = tree == Tree::kForMoves;
-  // Robust mode avoids gaps along edges. Scenes with kForMoves do not need it, because they only
+  const bool moves = tree == Tree::kMovable;
+  // Robust mode avoids gaps along edges. Scenes with kMovable do not need it, because they only
   // occlude light.
   rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   // Embree refits trees only in scenes of low quality. This quality affects only how the trees of
@@ -214,7 +214,7 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
 
 RayScene::RayScene(const RayDevice& device, std::vector<float> points,
                    const std::vector<Quad>& quads, Opacity opacity)
-    : RayScene(device, std::move(points), quads, Tree::kForOnce) {
+    : RayScene(device, std::move(points), quads, Tree::kStatic) {
   if (state_->geometry == nullptr) return;
   state_->opacity = std::move(opacity);
   rtcSetGeometryUserData(state_->geometry, &state_->opacity);

@@ -31,7 +31,7 @@ struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;
   float nearest = 0;
-  float furthest = 1e30F;
+  float max_distance = 1e30F;
   /// Number in 0 … 65535 for stochastic transparency: a surface with opacity α lets rays with a
   /// fraction 1−α of all numbers through, always the same numbers. The rays of a pixel have evenly
   /// spread numbers.
@@ -41,7 +41,7 @@ struct Ray {
 struct RayHit {
   std::uint32_t primitive;  ///< row of the scene's quads
   float u, v;               ///< bilinear coordinates on a quad, barycentric on a triangle
-  float distance;           ///< in lengths of the ray's direction
+  float distance;           ///< as a multiple of the length of the ray's direction
   Eigen::Vector3f normal;   ///< geometric normal by winding, any length
 };
 
@@ -54,15 +54,15 @@ using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 /// Quads for ray queries. Queries are thread-safe; move_points is not.
 class RayScene {
  public:
-  /// kForOnce: a tree of high quality. kForMoves: a tree that move_points can refit quickly; with
-  /// this tree, rays may slip between quads, and only `occluded` is available.
-  enum class Tree { kForOnce, kForMoves };
+  /// kStatic: a tree of high quality. kMovable: a tree that move_points can refit quickly; with
+  /// kMovable, rays may slip between quads, and only `occluded` is available.
+  enum class Tree { kStatic, kMovable };
 
   /// \param points  x, y, z of each vertex; the scene keeps them.
   /// \param quads   must outlive the scene; every entry < points.size() / 3.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
-           Tree tree = Tree::kForOnce);
-  /// Quads with partly transparent surfaces.
+           Tree tree = Tree::kStatic);
+  /// A scene of quads with partly transparent surfaces.
   /// \param opacity  called from any thread while the scene lives.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Opacity opacity);
@@ -73,11 +73,11 @@ class RayScene {
   /// Moves the vertices and refits the tree. At 1.2 million vertices this takes a fifteenth of the
   /// time of building the tree. Tracing stays as fast as before if the new points resemble the
   /// first. The structure of the tree depends only on the first points, not on earlier calls.
-  /// \param points  as many as before; on return holds the previous points' memory.
+  /// \param points  as many points as before. On return, holds the memory of the previous points.
   void move_points(std::vector<float>& points);
 
   /// The first hit of each ray, if any. Neighbouring rays in the list are traced together, which is
-  /// fast if their directions are similar. Not available with kForMoves.
+  /// fast if their directions are similar. Not available with kMovable.
   std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
   /// Whether each ray hits anything.
   std::vector<bool> occluded(std::span<const Ray> rays) const;

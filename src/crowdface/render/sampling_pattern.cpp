@@ -38,7 +38,7 @@ Eigen::Vector2f disc_point(int i, int count) {
 
 }  // namespace
 
-std::vector<Eigen::Vector2f> places_in_pixel(int side) {
+std::vector<Eigen::Vector2f> sample_positions_in_pixel(int side) {
   std::vector<Eigen::Vector2f> places;
   const auto cells = static_cast<float>(side);
   for (int row = 0; row < side; ++row) {

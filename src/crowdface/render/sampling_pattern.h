@@ -11,7 +11,7 @@ namespace crowdface {
 /// Returns `side`² sample positions in [0, 1)². No two of them lie in one row or one column of a
 /// grid of side² by side² cells (Kensler 2013, "Correlated multi-jittered sampling", canonical
 /// arrangement).
-std::vector<Eigen::Vector2f> places_in_pixel(int side);
+std::vector<Eigen::Vector2f> sample_positions_in_pixel(int side);
 
 /// Period of the interleaved ray directions: the pixels of a kInterleave by kInterleave square use
 /// different directions, and the pattern repeats (Keller & Heidrich 2001, "Interleaved sampling").

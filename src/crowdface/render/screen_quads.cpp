@@ -33,51 +33,51 @@ void ScreenQuads::put(const std::vector<float>& points, const std::vector<Quad>&
     placed_[v] = {half_side * (1 + p[0] * nearness), half_side * (1 - p[1] * nearness), nearness};
     if (p[2] >= distance) placed_[v].x = std::numeric_limits<float>::infinity();
   });
-  a_row_ = (size + kSquare - 1) / kSquare;
+  squares_per_row_ = (size + kSquare - 1) / kSquare;
   blocks_.resize((quads.size() + kQuadsPerBlock - 1) / kQuadsPerBlock);
   parallel_for_each(blocks_.size(), [&](std::size_t b) {
     SquareLists& squares = blocks_[b];
-    squares.resize(static_cast<std::size_t>(a_row_ * a_row_));
+    squares.resize(static_cast<std::size_t>(squares_per_row_ * squares_per_row_));
     for (auto& lists : squares) {
       for (auto& list : lists) list.clear();
     }
     const std::size_t end = std::min(quads.size(), (b + 1) * kQuadsPerBlock);
-    add_to_squares(quads, b * kQuadsPerBlock, end, placed_, a_row_, squares);
+    add_to_squares(quads, b * kQuadsPerBlock, end, placed_, squares_per_row_, squares);
   });
 }
 
 void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
-                               std::span<const PixelPlaces* const> places,
+                               std::span<const PixelSamples* const> samples,
                                std::vector<std::optional<RayHit>>& hits) const {
   const std::array<int, 2> corner = {square[0] * kSquare - kRim, square[1] * kSquare - kRim};
-  std::array<LookedPixel, kRimmed * kRimmed> looked{};
+  std::array<SampledPixel, kRimmed * kRimmed> looked{};
   std::uint32_t count = 0;
   bool middles = true;
   const auto for_each_looked = [&](const auto& body) {
     for (int y = pixels.top; y < pixels.bottom; ++y) {
       for (int x = pixels.left; x < pixels.right; ++x) {
-        if (const PixelPlaces* const here = places[pixels.index(x, y)]) body(x, y, *here);
+        if (const PixelSamples* const here = samples[pixels.index(x, y)]) body(x, y, *here);
       }
     }
   };
-  for_each_looked([&](int x, int y, const PixelPlaces& here) {
+  for_each_looked([&](int x, int y, const PixelSamples& here) {
     looked[static_cast<std::size_t>((y - corner[1]) * kRimmed + x - corner[0])] = {&here, count};
     count += here.count();
     middles = middles && here.list() == std::vector<Eigen::Vector2f>{{0.5F, 0.5F}};
   });
-  FrontQuads fronts(count);
+  DepthBuffer fronts(count);
   for (const SquareLists& squares : blocks_) {
-    const auto& lists = squares[static_cast<std::size_t>(square[1] * a_row_ + square[0])];
+    const auto& lists = squares[static_cast<std::size_t>(square[1] * squares_per_row_ + square[0])];
     for (const auto& list : std::span(lists).first(middles ? 1 : 2)) {
-      put_in_front(list, quads_, placed_, corner, looked, fronts);
+      rasterize_quads(list, quads_, placed_, corner, looked, fronts);
     }
   }
   hits.assign(count, std::nullopt);
   std::size_t i = 0;
-  for_each_looked([&](int x, int y, const PixelPlaces& here) {
+  for_each_looked([&](int x, int y, const PixelSamples& here) {
     const Eigen::Vector2f pixel(static_cast<float>(x), static_cast<float>(y));
     for (const Eigen::Vector2f& place : here.list()) {
-      if (fronts.front[i] != FrontQuads::kNothing) hits[i] = hit(fronts.front[i], pixel + place);
+      if (fronts.front[i] != DepthBuffer::kNothing) hits[i] = hit(fronts.front[i], pixel + place);
       ++i;
     }
   });
@@ -88,8 +88,8 @@ RayHit ScreenQuads::hit(std::uint32_t front, const Eigen::Array2f& at) const {
   const Quad& quad = quads_[number];
   const bool second = front % 2 == 1;
   const auto& [i, j, k] = kQuadHalves[front % 2];
-  const PlacedVertex &a = placed_[quad[i]], &b = placed_[quad[j]], &c = placed_[quad[k]];
-  const auto from = [&](const PlacedVertex& corner) -> Eigen::Array2f {
+  const ProjectedVertex &a = placed_[quad[i]], &b = placed_[quad[j]], &c = placed_[quad[k]];
+  const auto from = [&](const ProjectedVertex& corner) -> Eigen::Array2f {
     return Eigen::Array2f(corner.x, corner.y) - at;
   };
   const Eigen::Array3f areas(cross(from(b), from(c)), cross(from(c), from(a)),

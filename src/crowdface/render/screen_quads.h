@@ -32,20 +32,20 @@ struct PixelRectangle {
 /// faster than refitting a tree.
 class ScreenQuads {
  public:
-  /// Replaces the quads. Quads that extend behind the camera are skipped.
+  /// Replaces and projects the quads. Quads that extend behind the camera are skipped.
   /// \param points  x, y, z of each vertex. Like `quads`, they must outlive the queries.
   /// \param size    side of the image, in pixels
   void put(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
            int size);
 
-  /// The first hit at sample positions of some pixels. Distances are in lengths of the ray from the
-  /// camera to the plane z = 0.
+  /// Finds the first hit at each sample position of some pixels. The unit of RayHit::distance is
+  /// the length of the ray from the camera to the plane z = 0.
   /// \param square  column and row of the square
   /// \param pixels  the pixels: inside the square and its rim
-  /// \param places  sample positions of each of these pixels, or null for no samples
+  /// \param samples  sample positions of each of these pixels, or null for no samples
   /// \param hits    result, one for each sample, pixel by pixel
   void nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
-                    std::span<const PixelPlaces* const> places,
+                    std::span<const PixelSamples* const> samples,
                     std::vector<std::optional<RayHit>>& hits) const;
 
  private:
@@ -53,9 +53,9 @@ class ScreenQuads {
 
   const float* points_ = nullptr;
   std::span<const Quad> quads_;
-  int a_row_ = 0;                     ///< number of squares in a row
-  std::vector<PlacedVertex> placed_;  ///< #V
-  std::vector<SquareLists> blocks_;   ///< one entry per block of consecutive quads
+  int squares_per_row_ = 0;              ///< number of squares in a row
+  std::vector<ProjectedVertex> placed_;  ///< #V
+  std::vector<SquareLists> blocks_;      ///< one entry per block of consecutive quads
 };
 
 }  // namespace crowdface

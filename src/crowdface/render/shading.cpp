@@ -92,7 +92,7 @@ struct Gloss {
   }
 };
 
-/// \param points, lights  inside a block, starting at the same point
+/// Shades one SIMD vector of points. \param points, lights  inside a block, at the same point
 HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
   const auto field = [&](int f) {
     return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlock);
@@ -156,7 +156,7 @@ namespace {
 constexpr float kMinRoughness = 0.14F;
 
 /// Specular factor for albedos darker than any skin: painted hair has weaker highlights.
-float dark_gleam(const Light& albedo) {
+float dark_specular(const Light& albedo) {
   constexpr float kDarkestSkin = 0.055F;
   return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
 }
@@ -182,7 +182,7 @@ void ShadeBatch::add(const ShadePoint& point, float specular) {
   put(kRoughness,
       point.roughness >= 0 ? std::clamp(point.roughness, kMinRoughness, 1.0F) : material.roughness);
   const bool darkens = point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kAttachment;
-  put(kReflectance, material.reflectance * (darkens ? dark_gleam(point.albedo) : 1));
+  put(kReflectance, material.reflectance * (darkens ? dark_specular(point.albedo) : 1));
   put(kKey, point.key);
   put(kSky, point.sky);
   // Attachments are mostly hair, whose strands point in all directions and weaken highlights.

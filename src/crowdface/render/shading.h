@@ -16,7 +16,7 @@ struct ShadePoint {
   Eigen::Vector3f to_eye;  ///< unit vector
   Light albedo;
   SurfaceKind kind = SurfaceKind::kSkin;
-  bool inside = false;   ///< the back face is visible, as in nostrils or eye sockets
+  bool inside = false;   ///< whether the back of the surface is visible, as in nostrils
   float sky = 1;         ///< visible fraction of the sky
   float key = 1;         ///< visible fraction of the key light
   float roughness = -1;  ///< 0 … 1; negative: the roughness of the material
@@ -41,7 +41,7 @@ class ShadeBatch {
     return {at[0], at[kBlock], at[2 * kBlock]};
   }
 
-  /// Fields of a point. The layout is block by block, field by field, kBlock points each.
+  /// Fields of a point. Memory holds the blocks in order, each with kBlock values of every field.
   enum Field {
     kNormal,
     kToEye = kNormal + 3,

@@ -29,7 +29,7 @@ struct TexturedQuad {
 struct Stage {
   const std::vector<float>& points;  ///< x, y, z of each vertex
   const ScreenQuads& screen;         ///< rasterizer of all quads
-  /// meshes that occlude light: the full mesh or a reduced one
+                                     /// mesh that occludes light: the full mesh or a reduced mesh
   const RayScene& occluders;
   /// distance between a surface and the origins of rays that start there
   float clearance;
@@ -38,7 +38,7 @@ struct Stage {
   const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;            ///< #quads
-  const std::vector<std::optional<Light>>& paints;  ///< #quads, linear; or empty
+  const std::vector<std::optional<Light>>& paints;  ///< #quads linear colours, or empty
   const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
   const TextureSet* texture_set;                    ///< textures, or nullptr
   std::vector<float> skin_lightness;                ///< lightness for each texture of `texture_set`
@@ -47,7 +47,7 @@ struct Stage {
   Eigen::Vector3f gaze;
   const AttachmentStage* attachments;  ///< attachments, or nullptr
   bool occlusion;                      ///< whether the sky's light is occluded
-  Eigen::Vector3f viewer;
+  Eigen::Vector3f viewer;              ///< position of the camera
 
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {
     return Eigen::Map<const Eigen::Vector3f>(points.data() + std::size_t{3} * vertex);

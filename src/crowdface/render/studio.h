@@ -31,14 +31,15 @@ struct Studio {
 
 const Studio& studio();
 
-/// Albedo of this kind if no colour is given.
+/// Albedo of surfaces of this kind that have no colour of their own.
 Light albedo_of(SurfaceKind kind);
 
 /// Whether a surface with this normal reflects any light of the key lamp.
 bool faces_key(const Eigen::Vector3f& normal, SurfaceKind kind);
 
-/// Unit vector towards the centre of the key light, and the sine of its angular radius.
+/// Unit vector towards the centre of the key light.
 Eigen::Vector3f key_direction();
+/// Sine of the key light's angular radius.
 inline constexpr float kKeyRadius = 0.16F;
 
 /// Background colour, lighter at the top. \param y  from 0 (top) to 1.

@@ -27,14 +27,15 @@ enum class SurfaceKind : std::uint8_t {
 /// Materials and colours of the faces of a mesh.
 struct Surfaces {
   std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
-  /// #F colours (sRGB) that replace those of the kinds; or empty.
+  /// #F colours (sRGB) that replace the default colours of the kinds; or empty.
   std::vector<std::optional<Eigen::Array3f>> paints = {};
   /// #T by 2 texture coordinates, indexed by the topology's corners; or empty: no textures.
   TextureCoordinates uvs = {};
 };
 
-/// The kind that a material or group name suggests. Searches for known words anywhere in the name,
-/// ignoring case: "M_ScleraLeft" is an eye, "M_EyeLashes" is hidden. Skin if no word is found.
+/// The surface kind that a material or group name suggests. Searches for known words anywhere in
+/// the name, ignoring case: "M_ScleraLeft" is an eye, "M_EyeLashes" is hidden. Skin if no word is
+/// found.
 SurfaceKind surface_kind_of_material(std::string_view material_name);
 
 }  // namespace crowdface

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFontFile = "DejaVuSans.ttf";
 
-/// Folders with fonts: first those of the system, then the user's.
+/// Folders with fonts: first the system's folders, then the user's folders.
 std::vector<fs::path> font_folders() {
   std::vector<fs::path> folders = {"/usr/share/fonts", "/usr/local/share/fonts"};
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
@@ -50,7 +50,7 @@ fs::path find_font() {
       "apt install fonts-dejavu-core");
 }
 
-/// \throws std::bad_alloc; IoError if the font cannot be used.
+/// Throws if FreeType reports an error. \throws std::bad_alloc; IoError if the font cannot be used.
 void check(FT_Error error) {
   if (error == FT_Err_Out_Of_Memory) throw std::bad_alloc();
   if (error != FT_Err_Ok) throw IoError(concat(kFontFile, ": FreeType fails with error ", error));

@@ -33,22 +33,22 @@ Texture shrunk_texture(int width, int height, int max_px,
 /// \param steps    number of steps: how far colours spread, in texels
 void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 
-/// Bilinear interpolation between texel centres, clamped at the edges. Only the fractional part of
-/// the coordinates counts, so that every tile shows the same texture.
+/// The texture's colour, interpolated bilinearly between texel centres and clamped at the edges.
+/// Only the fractional part of the coordinates counts, so that every tile shows the same texture.
 Light colour_at(const Texture& texture, const Eigen::Vector2f& uv);
 
 /// A texture for each face of one head.
 struct TextureLayer {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::shared_ptr<const Texture>> textures;
-  /// #F rows of `textures`, or kNone; empty: no face has a texture
+  /// #F: index into `textures`, or kNone; empty: no face has a texture
   std::vector<std::uint32_t> of_face;
 };
 
 /// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the colour of
 /// their surface.
 struct TextureSet : TextureLayer {
-  /// From tangent-space normal maps: slopes to the right and upwards.
+  /// Slopes of the surface to the right and upwards, from tangent-space normal maps.
   TextureLayer slopes = {};
   TextureLayer roughness = {};  ///< in the first channel
 };

@@ -31,15 +31,15 @@ constexpr float kSameNormal = 0.985F;  // cosine of 10 degrees
 constexpr float kReliefNormal = 0.9F;  // cosine of 26 degrees
 constexpr float kSameAlbedo = 0.03F;
 
-/// The offset from `axis`, perpendicular to it, for a point of the unit disc.
-Vector around(const Vector& axis, const Eigen::Vector2f& disc) {
+/// Maps a point of the unit disc to an offset perpendicular to `axis`.
+Vector disc_offset(const Vector& axis, const Eigen::Vector2f& disc) {
   const auto [s, t] = perpendicular(axis);
   return disc.x() * s + disc.y() * t;
 }
 
-/// How the samples of a pixel differ from each other and from those of its neighbours: not at all,
-/// only in the normal, or in surface or colour.
-enum class Change : std::uint8_t { kNone, kRelief, kEdge };
+/// How the samples of a pixel differ from each other and from the neighbouring pixels' samples: not
+/// at all, only in the normal, or in surface or colour.
+enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 
 /// One list per field of PointLights, for a row of points.
 class PointLists {
@@ -91,7 +91,7 @@ CameraHit mean_of(std::span<const CameraHit> camera_hits) {
   return mean;
 }
 
-/// For each of some surface points, the visible fraction of the key light and of the sky.
+/// The visible fractions of the key light and of the sky at some surface points.
 struct Shares {
   std::vector<float> key, sky;
 };
@@ -135,27 +135,27 @@ class Tile {
                std::min(bottom_ + kRim, size)},
         pixels_(outer_.count()),
         memory_(tile_memory()) {
-    meetings_.clear();
+    camera_hits_.clear();
   }
 
   void render(Rgb8Image& image) {
     // Few samples in every pixel.
-    const PixelPlaces& first = stage_.attachments != nullptr ? sampling_.coarse : sampling_.middle;
-    look([&](const Pixel&) { return &first; });
+    const PixelSamples& first = stage_.attachments != nullptr ? sampling_.coarse : sampling_.centre;
+    trace_camera_rays([&](const Pixel&) { return &first; });
     // More samples where neighbouring pixels differ.
     if (sampling_.fine.count() > 1) {
       for (int y = rim_top_; y < rim_bottom_; ++y) {
         for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = change_at(x, y);
       }
-      look([&](const Pixel& pixel) -> const PixelPlaces* {
-        if (pixel.change == Change::kEdge) return &sampling_.fine;
-        const bool asks = pixel.change == Change::kRelief && &first != &sampling_.coarse;
+      trace_camera_rays([&](const Pixel& pixel) -> const PixelSamples* {
+        if (pixel.change == PixelVariation::kEdge) return &sampling_.fine;
+        const bool asks = pixel.change == PixelVariation::kRelief && &first != &sampling_.coarse;
         return asks ? &sampling_.coarse : nullptr;
       });
     }
     // Shadow rays.
-    ask_key();
-    if (stage_.occlusion) ask_sky();
+    trace_key_rays();
+    if (stage_.occlusion) trace_sky_rays();
     // Share the rays between pixels, and shade.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
@@ -163,9 +163,9 @@ class Tile {
 
  private:
   struct Pixel {
-    std::uint32_t first = 0, end = 0;  ///< range in `meetings_`
+    std::uint32_t first = 0, end = 0;  ///< range in `camera_hits_`
     std::uint32_t missed = 0;          ///< number of samples without a hit
-    Change change = Change::kNone;
+    PixelVariation change = PixelVariation::kNone;
     Light backdrop = Light::Zero();  ///< sum over the samples without a hit
   };
 
@@ -186,8 +186,8 @@ class Tile {
   /// Traces camera rays and stores their hits in the pixels.
   /// \param places_of  sample positions for a pixel; null keeps its earlier samples
   template <class PlacesOf>
-  void look(const PlacesOf& places_of) {
-    std::vector<const PixelPlaces*> places;
+  void trace_camera_rays(const PlacesOf& places_of) {
+    std::vector<const PixelSamples*> places;
     std::vector<Ray>& rays = memory_.rays;
     rays.clear();
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
@@ -206,73 +206,73 @@ class Tile {
     std::vector<std::optional<RayHit>> attachments;
     if (stage_.attachments != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
-        if (hits[r]) rays[r].furthest = hits[r]->distance;
+        if (hits[r]) rays[r].max_distance = hits[r]->distance;
       }
       attachments = stage_.attachments->scene().nearest_hits(rays);
     }
     std::size_t ray = 0;
     auto at = places.begin();
     for_each_pixel([&](int x, int y, Pixel& pixel) {
-      const PixelPlaces* const looked = *at++;
+      const PixelSamples* const looked = *at++;
       if (looked == nullptr) return;
-      pixel.first = static_cast<std::uint32_t>(meetings_.size());
+      pixel.first = static_cast<std::uint32_t>(camera_hits_.size());
       pixel.missed = 0;
       pixel.backdrop = Light::Zero();
       for (const Eigen::Vector2f& place : looked->list()) {
         prefetch_hits(stage_, hits, ray);
         if (!attachments.empty() && attachments[ray]) {
-          meetings_.push_back(attachment_hit(stage_, *attachments[ray], rays[ray].direction));
+          camera_hits_.push_back(attachment_hit(stage_, *attachments[ray], rays[ray].direction));
         } else if (hits[ray]) {
-          meetings_.push_back(camera_hit(stage_, *hits[ray], rays[ray].direction));
+          camera_hits_.push_back(camera_hit(stage_, *hits[ray], rays[ray].direction));
         } else {
           pixel.backdrop += background(on_image(x, y, place).y());
           ++pixel.missed;
         }
         ++ray;
       }
-      pixel.end = static_cast<std::uint32_t>(meetings_.size());
+      pixel.end = static_cast<std::uint32_t>(camera_hits_.size());
     });
   }
 
   std::span<CameraHit> hits_of(const Pixel& pixel) {
-    return std::span(meetings_).subspan(pixel.first, pixel.end - pixel.first);
+    return std::span(camera_hits_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
   /// Whether a pixel and its four neighbours differ in surface or colour.
-  Change change_at(int x, int y) {
+  PixelVariation change_at(int x, int y) {
     const Pixel& at = pixel(x, y);
     const std::span<const CameraHit> camera_hits = hits_of(at);
-    if (!camera_hits.empty() && at.missed > 0) return Change::kEdge;
-    Change most = Change::kNone;
+    if (!camera_hits.empty() && at.missed > 0) return PixelVariation::kEdge;
+    PixelVariation most = PixelVariation::kNone;
     for (const CameraHit& other : camera_hits)
       most = std::max(most, change(camera_hits.front(), other));
     if (stage_.attachments != nullptr) return most;  // the pixel's own samples suffice
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
       if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
       const std::span<const CameraHit> beside = hits_of(pixel(i, j));
-      if (beside.empty() != camera_hits.empty()) return Change::kEdge;
+      if (beside.empty() != camera_hits.empty()) return PixelVariation::kEdge;
       if (!beside.empty()) most = std::max(most, change(camera_hits.front(), beside.front()));
     }
     return most;
   }
 
-  Change change(const CameraHit& one, const CameraHit& other) const {
+  PixelVariation change(const CameraHit& one, const CameraHit& other) const {
     const ShadePoint &here = one.surface, &there = other.surface;
     const float height = (other.point - one.point).dot(here.normal);
     const float cosine = there.normal.dot(here.normal);
     if (there.kind != here.kind || there.inside != here.inside || cosine < kReliefNormal ||
         std::abs(height) > pixel_side() ||
         (there.albedo - here.albedo).abs().maxCoeff() > kSameAlbedo) {
-      return Change::kEdge;
+      return PixelVariation::kEdge;
     }
-    return cosine < kSameNormal ? Change::kRelief : Change::kNone;
+    return cosine < kSameNormal ? PixelVariation::kRelief : PixelVariation::kNone;
   }
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
   /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, direction by direction, so
-  /// that consecutive rays are similar. A pixel without change traces `directions.rays()` rays,
-  /// spread over its samples; a pixel with a change traces at least one per sample.
+  /// that consecutive rays are similar. A pixel without variation traces `directions.rays()` rays,
+  /// spread over its samples; a pixel with variation traces at least one ray per sample.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
@@ -291,7 +291,8 @@ class Tile {
               const std::span<CameraHit> camera_hits = hits_of(at);
               if (camera_hits.empty()) continue;
               const std::size_t first = k % camera_hits.size();
-              const std::size_t end = at.change != Change::kNone ? camera_hits.size() : first + 1;
+              const std::size_t end =
+                  at.change != PixelVariation::kNone ? camera_hits.size() : first + 1;
               for (std::size_t m = first; m < end; m += rays)
                 body(camera_hits[m], disc, opacity_seed);
             }
@@ -302,7 +303,7 @@ class Tile {
   }
 
   /// Traces the shadow rays towards a light and counts the results in `light` of each hit.
-  /// \param ray_of  ray of a hit in a direction; nothing if the light cannot reach it
+  /// \param ray_of  ray from a hit in a direction; nothing if the light cannot reach the hit
   /// \return whether each of `memory_.rays` is blocked
   template <class RayOf>
   std::vector<bool> trace_shadow_rays(const InterleavedDisc& directions,
@@ -326,24 +327,24 @@ class Tile {
     return blocked;
   }
 
-  void ask_key() {
+  void trace_key_rays() {
     const Vector key = key_direction();
     trace_shadow_rays(sampling_.key, &CameraHit::key,
                       [&](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
                         if (!hit.may_see_key) return std::nullopt;
                         const Vector start = hit.start + kThickness * hit.surface.normal;
-                        return Ray{start, key + kKeyRadius * around(key, disc)};
+                        return Ray{start, key + kKeyRadius * disc_offset(key, disc)};
                       });
   }
 
-  /// Rays are cosine-weighted.
-  void ask_sky() {
+  /// Traces cosine-weighted rays towards the sky.
+  void trace_sky_rays() {
     const std::vector<bool> blocked = trace_shadow_rays(
         sampling_.sky, &CameraHit::sky,
         [](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
           const Vector& normal = hit.surface.normal;
           const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
-          return Ray{hit.start, around(normal, disc) + height * normal, 0, kSkyReach};
+          return Ray{hit.start, disc_offset(normal, disc) + height * normal, 0, kSkyReach};
         });
     add_light_through(memory_.rays, memory_.asking, blocked);
   }
@@ -386,7 +387,7 @@ class Tile {
   }
 
   static bool shows_one(const Pixel& pixel) {
-    return pixel.change == Change::kNone && pixel.first < pixel.end;
+    return pixel.change == PixelVariation::kNone && pixel.first < pixel.end;
   }
 
   std::size_t light_index(int x, int y) const { return PixelLights::index(x - left_, y - top_); }
@@ -418,7 +419,7 @@ class Tile {
     memory_.batch.add(surface, skin_specular(surface.albedo, hit.skin_lightness));
   }
 
-  /// Adds each sample of a pixel with changes.
+  /// Adds each sample of a pixel whose samples vary to the batch for shading.
   void add_each(std::span<const CameraHit> camera_hits, int x, int y) {
     memory_.points.resize(camera_hits.size());
     for (std::size_t m = 0; m < camera_hits.size(); ++m) put(camera_hits[m], m, memory_.points);
@@ -474,7 +475,7 @@ class Tile {
   PixelRectangle outer_;
   std::vector<Pixel> pixels_;
   TileMemory& memory_;
-  std::vector<CameraHit>& meetings_ = memory_.camera_hits;
+  std::vector<CameraHit>& camera_hits_ = memory_.camera_hits;
 };
 
 }  // namespace

@@ -13,24 +13,24 @@ namespace crowdface {
 /// Sample positions in pixels, and ray directions towards the lights.
 struct Sampling {
   /// One sample in the centre of the pixel.
-  PixelPlaces middle;
-  /// For pixels with relief; also for all other pixels if there are attachments, which may be
-  /// transparent.
-  PixelPlaces coarse;
-  PixelPlaces fine;          ///< for pixels with edges
+  PixelSamples centre;
+  /// Samples for pixels with relief; also for all other pixels if there are attachments, which may
+  /// be transparent.
+  PixelSamples coarse;
+  PixelSamples fine;         ///< samples for pixels with edges
   InterleavedDisc key, sky;  ///< rays of a pixel towards each light
 
   Sampling(int samples_per_side, int key_rays, int sky_rays)
-      : middle(places_in_pixel(1)),
-        coarse(places_in_pixel(std::min(2, samples_per_side))),
-        fine(places_in_pixel(samples_per_side)),
+      : centre(sample_positions_in_pixel(1)),
+        coarse(sample_positions_in_pixel(std::min(2, samples_per_side))),
+        fine(sample_positions_in_pixel(samples_per_side)),
         key(key_rays),
         sky(sky_rays) {}
 };
 
 /// Renders one square of an image, independently of the other squares. Each pixel traces a few
-/// shadow rays, in other directions than its neighbours. Pixels that show the same surface use each
-/// other's rays, which reduces noise.
+/// shadow rays, in other directions than its neighbours. Pixels that show the same surface share
+/// the results of their rays, which reduces noise.
 /// \param left, top  upper left corner of the square; parts outside the image are skipped.
 void render_tile(const Stage& stage, const Sampling& sampling, int left, int top, Rgb8Image& image);
 

@@ -30,16 +30,17 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
                               const Positions& positions, Axis front);
 
 /// #V by 3: coordinates of eyeball vertices relative to the eyeball's centre, in units of its
-/// radius: two perpendicular to the gaze, the third along it. They are linear in the position, so
-/// that an iris painted from their interpolation is round even on a coarse mesh.
+/// radius: two perpendicular to the gaze, the third along the gaze. The coordinates are linear in
+/// the position, so that an iris painted from interpolated coordinates is round on coarse meshes.
 using EyeCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 inline constexpr float kNoEye = -2;  ///< third coordinate of vertices that belong to no eyeball
 
-/// \return nothing if there are no eyeballs, or if all have colours of their own.
+/// Computes the EyeCoordinates of all vertices.
+/// \return nothing if there are no eyeballs, or if all eyeballs have colours of their own.
 std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Surfaces& surfaces,
                                               const Positions& positions, Axis front);
 
-/// Shows one region's mask: `colour` where it is 1, pale clay where it is 0.
+/// Colours that show one region's mask: `colour` where the mask is 1, pale clay where it is 0.
 /// \param mask  #V, clamped to [0, 1].
 VertexColours mask_colours(const Eigen::Ref<const Eigen::VectorXd>& mask,
                            const Eigen::Vector3f& colour);

@@ -70,7 +70,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   std::vector<std::vector<DetailLevel>> of_items(items.size());
   parallel_for_each(items.size(), [&](std::size_t i) {
     // The body keeps every vertex of its ring.
-    const Borders borders = items[i] == body ? Borders::kStay : Borders::kCollapse;
+    const Borders borders = items[i] == body ? Borders::kKeep : Borders::kCollapse;
     of_items[i] = levels_of(*items[i], inputs.levels, borders);
   });
   for (std::size_t i = 0; i < items.size(); ++i) {

@@ -144,7 +144,7 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
       // Choose the candidates of each pair of leaves.
       const std::uint64_t once = one == other ? kOnce : ~std::uint64_t{0};
       std::uint64_t facing_it = overlap_mask(far[one], far[other]);
-      if (facing_it != 0) facing_it &= ~facing_alike(normals[one], normals[other], 0);
+      if (facing_it != 0) facing_it &= ~similar_normal_mask(normals[one], normals[other], 0);
       const std::uint64_t near = overlap_mask(close[one], close[other]) & once;
       const std::uint64_t always = (near | (facing_it & once)) & ~few_edges;
       const std::uint64_t folded = near & few_edges & ~joined;
@@ -196,8 +196,8 @@ std::vector<CrossingSearch::Pair> CrossingSearch::crossing(
     std::uint64_t left = (near.always | near.folded) &
                          overlap_mask(boxes.triangles[near.one], boxes.triangles[near.other]);
     if ((left & near.folded) != 0) {
-      left &=
-          near.always | ~facing_alike(boxes.normals[near.one], boxes.normals[near.other], kAlike);
+      left &= near.always |
+              ~similar_normal_mask(boxes.normals[near.one], boxes.normals[near.other], kAlike);
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The texture maps of all heads: #pictures by #heads, each map with its picture's size; null if a
-/// head has no map for a picture.
+/// The texture maps of all heads: #pictures by #heads; null if a head has no map for a picture.
+/// Each map has the size of its picture.
 using HeadMaps = std::vector<std::vector<std::shared_ptr<const TextureMap>>>;
 
 /// The textures of a crowd's heads in one common layout.
@@ -20,7 +20,7 @@ struct CrowdTextures {
   HeadMaps maps;
 };
 
-/// One picture of one face's texture: colours, or numbers such as normals.
+/// One picture of a face's texture: colours, or other numbers such as normals.
 struct BlendedPicture {
   int width = 0;
   int height = 0;

@@ -33,8 +33,8 @@ void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Va
   });
   const auto& gutter = texels.gutter();
   parallel_for_each(gutter.size(), kGutterPerBlock, [&](std::size_t i) {
-    std::copy_n(values + channels * std::size_t{gutter[i].from}, channels,
-                values + channels * std::size_t{gutter[i].to});
+    std::copy_n(values + channels * std::size_t{gutter[i].source}, channels,
+                values + channels * std::size_t{gutter[i].target});
   });
 }
 

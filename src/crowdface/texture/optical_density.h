@@ -8,7 +8,7 @@ namespace crowdface {
 
 /// Optical density: −ln of the reflected light, quantized to 16 bits. Densities of pigments add up.
 /// Value 0 is white and 65,535 black; 1/4096 is added to all light, so that black has a finite
-/// density. The steps of these values are finer than the steps of 8-bit sRGB everywhere.
+/// density. A step of this value is everywhere finer than a step of 8-bit sRGB.
 using Density = std::uint16_t;
 inline constexpr float kMaxDensity = 65535;
 
@@ -18,10 +18,10 @@ Density density_of_light(float light);
 /// The inverse of density_of_light: linear light, 0 … 1.
 float light_of_density(float density);
 
-/// Lookup tables: densities_of_srgb8 gives the density of each 8-bit sRGB value, srgb8_of_densities
-/// the nearest sRGB value of each density. Converting an sRGB value to density and back returns the
-/// same value.
+/// Lookup table: the density of each 8-bit sRGB value.
 const std::vector<Density>& densities_of_srgb8();
+/// Lookup table: the nearest 8-bit sRGB value of each density. Converting an sRGB value to density
+/// and back returns the same value.
 const std::vector<std::uint8_t>& srgb8_of_densities();
 
 }  // namespace crowdface

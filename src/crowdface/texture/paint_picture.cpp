@@ -64,7 +64,7 @@ std::uint16_t word_of(float share) {
   return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
 }
 
-/// Writes the colours of covered texels. Returns their sums per channel.
+/// Writes the colours of covered texels. Returns the sum of each channel's written values.
 /// \param sums  densities, one row per channel.
 /// \param out   the row of bytes.
 RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,

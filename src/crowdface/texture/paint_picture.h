@@ -8,9 +8,8 @@
 
 namespace crowdface {
 
-/// The input for one picture of one face, given at the vertices that the picture shows: a base
-/// value per channel, and a factor for each head's map. Values are interpolated linearly within
-/// triangles.
+/// The input for one picture of one face: at each vertex that the picture shows, a base value per
+/// channel and a factor for each head's map. Values are interpolated linearly within triangles.
 struct PictureFields {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending
@@ -20,8 +19,8 @@ struct PictureFields {
 
 /// Paints a picture: the value of a covered texel is base + Σ_h factor_h · (stored value of head
 /// h's map). Texels beyond the gutter get the mean of the covered texels.
-/// \param coding  meaning of the picture's numbers, and the range to which they are clamped.
-/// \param maps    #heads, all of the picture's size.
+/// \param coding  meaning of the picture's numbers, and the range to which the numbers are clamped.
+/// \param maps    #heads, each map with the size of the picture.
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,
                              const PictureFields& fields);

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-// Products are rounded before they are added (no FMA), so that results are bit-identical to plain
+// Kernels round products before adding them (no FMA), so that results are bit-identical to plain
 // loops on any instruction set.
 
 /// Largest number of floats that a kernel may write beyond the end of a row.
@@ -24,7 +24,7 @@ struct Ramp {
 /// \param rows  #ramps rows.
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
-/// One row of one head's map.
+/// One row of a head's texture map, with the head's factors.
 struct BorrowedRow {
   /// The head's factor at each texel.
   const float* factors;

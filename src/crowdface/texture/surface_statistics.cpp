@@ -15,7 +15,7 @@ namespace {
 
 using Colours = SurfaceStatistics::Colours;
 
-/// Largest number of sampled texels; more do not improve the means.
+/// Largest number of sampled texels; more samples do not improve the means.
 constexpr double kMaxSamples = 1 << 21;
 constexpr Index kBlock = 1024;
 
@@ -102,9 +102,9 @@ CompressedRows<Sample> sample_surface(const std::vector<SurfaceTexels>& texels,
       vertices, [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
 }
 
-/// Smooths vertex data with missing values by normalized convolution. Input rows are three values
-/// and a one, or zeros if the vertex has no values. Smoothed values are divided by the smoothed
-/// ones; vertices without data nearby get zeros.
+/// Smooths vertex data with missing values by normalized convolution. An input row holds three
+/// values and 1, or zeros if the vertex has no values. Each smoothed value is divided by the
+/// smoothed fourth number; vertices without data nearby get zeros.
 /// \param count   number of rows per vertex.
 /// \param row_of  row_of(i, vertex): input row i. Called by any thread.
 /// \param take    take(i, vertex, row): receives the smoothed row i. Called by any thread.
@@ -142,8 +142,8 @@ void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_
   }
 }
 
-/// The mean of a head's numbers over the samples at a vertex, and a one; zeros if the head has no
-/// map there.
+/// The means of a head's three channels over the samples at a vertex, and 1; zeros if the head has
+/// no map there.
 Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, std::size_t head) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double count = 0;
@@ -162,9 +162,10 @@ Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, s
 /// NaN where one of the heads has no map.
 void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& maps,
                       SurfaceStatistics& statistics) {
-  const std::size_t heads = statistics.coarse.size(), pairs = statistics.pairs;
+  const std::size_t heads = statistics.coarse_values.size(), pairs = statistics.pairs;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
-    // For each head: the differences from `coarse` in three channels, and a one if it has a map.
+    // For each head: the differences from `coarse_values` in three channels, and 1 if the head has
+    // a map.
     std::array<std::vector<float>, 4> detail;
     detail.fill(std::vector<float>(heads));
     std::vector<float> sums(pairs), counts(pairs);
@@ -179,7 +180,7 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
             difference = numbers_at(*map, sample.texel);
             for (std::size_t c = 0; c < 3; ++c) {
               difference -= sample.shares[c] *
-                            statistics.coarse[h].row(sample.vertices[c]).array().transpose();
+                            statistics.coarse_values[h].row(sample.vertices[c]).array().transpose();
             }
           }
           for (std::size_t c = 0; c < 3; ++c) detail[c][h] = difference[static_cast<Index>(c)];
@@ -201,8 +202,8 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Groups up to three consecutive pairs of heads that have maps for the same pictures: their
-/// products are known at the same vertices, so they can be smoothed as one row.
+/// Groups up to three consecutive pairs of heads that have maps for the same pictures. The products
+/// of these pairs are known at the same vertices, so that they can be smoothed as one row.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map
   for (std::size_t a = 0; a < maps.front().size(); ++a) {
@@ -256,19 +257,19 @@ SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
   const std::size_t heads = maps.front().size();
   const auto vertices = static_cast<std::size_t>(filter.vertex_count());
   const CompressedRows<Sample> samples = sample_surface(texels, vertices);
-  statistics.coarse.assign(heads, Colours(filter.vertex_count(), 3));
+  statistics.coarse_values.assign(heads, Colours(filter.vertex_count(), 3));
   smooth_known(
-      filter, scale.detail, heads,
+      filter, scale.detail_iterations, heads,
       [&](std::size_t head, std::uint32_t vertex) {
         return mean_numbers(samples.of(vertex), maps, head);
       },
       [&](std::size_t head, std::uint32_t vertex, const Row<float>& means) {
-        std::copy_n(means.value, 3, statistics.coarse[head].row(vertex).data());
+        std::copy_n(means.value, 3, statistics.coarse_values[head].row(vertex).data());
       });
   statistics.pairs = heads * (heads + 1) / 2;
   statistics.covariances.resize(vertices * statistics.pairs);
   multiply_details(samples, maps, statistics);
-  smooth_covariances(filter, scale.strength, maps, statistics);
+  smooth_covariances(filter, scale.covariance_iterations, maps, statistics);
   return statistics;
 }
 

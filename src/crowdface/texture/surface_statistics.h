@@ -9,38 +9,38 @@
 
 namespace crowdface {
 
-/// Low-frequency statistics of the heads' maps, stored per vertex. Computed on the mesh and not in
-/// texture space, so that texture seams do not affect them.
+/// Low-frequency statistics of the heads' texture maps, per vertex. They are computed on the mesh
+/// and not in texture space, so that texture seams have no effect.
 struct SurfaceStatistics {
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   std::vector<Colours>
-      coarse;  ///< #heads, each #V by 3: the map's values without detail, smoothed over the mesh
-  /// The covariance of the detail of heads a and b around a vertex: the mean product of the
-  /// differences between map and `coarse`, summed over the channels.
+      coarse_values;  ///< #heads, each #V by 3: values of the head's maps, smoothed over the mesh
+  /// The covariance of the details of heads a and b around a vertex, summed over the channels: the
+  /// mean product of both heads' differences between map and `coarse_values`.
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
     return covariances[vertex * pairs + pair(a, b)];
   }
-  /// Index of a pair of heads, in any order, in the packed lower triangle.
+  /// Index of a pair of heads, in any order, among `pairs`: packed lower triangle of a matrix.
   std::size_t pair(std::size_t a, std::size_t b) const {
     return a < b ? pair(b, a) : a * (a + 1) / 2 + b;
   }
 
-  std::size_t pairs = 0;
+  std::size_t pairs = 0;           ///< number of pairs of heads, each with itself included
   std::vector<float> covariances;  ///< #V by #pairs
 };
 
-/// Smoothing scales, in iterations of the lazy operator.
+/// Smoothing scales of the statistics, in iterations of the lazy operator.
 struct StatisticsScale {
-  /// Iterations that smooth detail away in `coarse`.
-  std::uint64_t detail = 4;
+  /// Iterations that remove detail from `coarse_values`.
+  std::uint64_t detail_iterations = 4;
   /// Iterations that smooth the covariances.
-  std::uint64_t strength = 16;
+  std::uint64_t covariance_iterations = 16;
 };
 
-/// Computes the statistics.
+/// Computes the statistics of the heads' maps.
 /// \param filter  a filter of the mesh, of either operator kind.
-/// \param texels  one for each picture.
+/// \param texels  #pictures: the rasterized surface in each picture.
 /// \param maps    #pictures by #heads.
 SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
                                      const std::vector<SurfaceTexels>& texels, const HeadMaps& maps,

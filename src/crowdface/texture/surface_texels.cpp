@@ -57,7 +57,7 @@ std::vector<SurfaceTexels::Gutter> grow_gutter(const Owners& owners,
   std::size_t ring_begin = 0;
   for (int ring = 1; ring < gutter_width(size); ++ring) {
     const std::size_t ring_end = gutter.size();
-    for (std::size_t g = ring_begin; g < ring_end; ++g) grow(gutter[g].to, gutter[g].from);
+    for (std::size_t g = ring_begin; g < ring_end; ++g) grow(gutter[g].target, gutter[g].source);
     ring_begin = ring_end;
   }
   return gutter;

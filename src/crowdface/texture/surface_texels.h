@@ -39,10 +39,10 @@ class SurfaceTexels {
     std::uint32_t triangle;
     std::uint16_t begin, end;
   };
-  /// An uncovered texel near the surface, and the covered texel whose colour it copies. The gutter
-  /// keeps texture filtering from blending in the background.
+  /// An uncovered texel near the surface (`target`), and the covered texel whose colour it copies
+  /// (`source`). The gutter keeps texture filtering from blending in the background.
   struct Gutter {
-    std::uint32_t to, from;  ///< row · width + column
+    std::uint32_t target, source;  ///< row · width + column of each texel
   };
 
   /// \throws BrokenPrecondition if a side of the picture is not within 1 … 65,535 texels.
@@ -51,7 +51,7 @@ class SurfaceTexels {
 
   int width() const { return size_.width; }
   int height() const { return size_.height; }
-  /// Vertices of the mesh, ascending.
+  /// Vertices of the mesh that the picture shows, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   std::span<const Span> row(int y) const {
@@ -59,6 +59,7 @@ class SurfaceTexels {
     return {spans_.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
   }
   const std::vector<Gutter>& gutter() const { return gutter_; }
+  /// Number of covered texels.
   std::size_t covered() const { return covered_; }
   std::size_t memory_bytes() const;
 

@@ -20,7 +20,8 @@ constexpr Index kVerticesPerBlock = 1024;
 
 using HeadWeights = std::vector<double>;  ///< #heads; the sum is one, or all are zero
 
-/// The heads' weights in the target: the recipe's colour weights, or else the target's shares.
+/// The heads' weights in the target: the recipe's colour weights, or else the heads' shares of the
+/// target shape.
 HeadWeights shares_by_head(const Recipe& recipe, std::size_t heads) {
   HeadWeights shares(heads, 0.0);
   for (const SourceWeight& share :
@@ -47,10 +48,10 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
 }
 
 /// Moves the weight of heads without a map to heads with a map: takes the first of `choices` that
-/// gives weight to a head with a map, and normalizes it over these heads. If no choice does, all
-/// heads with a map get equal weights.
-HeadWeights among_painted(std::initializer_list<const HeadWeights*> choices,
-                          const std::vector<std::shared_ptr<const TextureMap>>& maps) {
+/// gives weight to a head with a map, and normalizes it over the heads with a map. If there is no
+/// such choice, all heads with a map get equal weights.
+HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> choices,
+                                    const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
   const auto take = [&](const auto& of) {
     double sum = 0;
@@ -78,10 +79,11 @@ FaceWeights face_weights(const Recipe& recipe,
   const HeadWeights target = shares_by_head(recipe, maps.size());
   const std::vector<HeadWeights> regions = colour_weights(recipe, maps.size());
   const HeadWeights face = weights_of_whole(target, regions, region_shares);
-  FaceWeights weights{among_painted({&target, &face}, maps), among_painted({&face}, maps), {}};
+  FaceWeights weights{
+      normalized_over_painted({&target, &face}, maps), normalized_over_painted({&face}, maps), {}};
   for (const HeadWeights& region : regions) {
     const HeadWeights mixed = mean_of(face, region);
-    weights.of_region.push_back(among_painted({&mixed}, maps));
+    weights.of_region.push_back(normalized_over_painted({&mixed}, maps));
   }
   return weights;
 }
@@ -104,8 +106,8 @@ double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                                                        : 1 / std::sqrt(squares);
 }
 
-/// The common coding of all maps of a picture. Its range is the union of their ranges, so that a
-/// blend is clamped to the range of the heads.
+/// The common coding of all maps of a picture. Its range is the union of the maps' ranges, so that
+/// a blend is clamped to the range of the heads.
 MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   std::optional<MapCoding> common;
   float high = 0;
@@ -200,8 +202,8 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
   PictureFields fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
-    // Keep the head only if it lends to some vertex.
-    double most = options_.of_target.empty() ? 0.0 : weights.of_target[h];
+    // Keep the head only if it has weight at some vertex.
+    double most = options_.target_only.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);
   }
@@ -213,7 +215,7 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
         std::vector<double> lent(fields.heads.size());
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
           const std::size_t vertex = vertices[i];
-          const bool is_part = !options_.of_target.empty() && options_.of_target[vertex];
+          const bool is_part = !options_.target_only.empty() && options_.target_only[vertex];
           for (std::size_t s = 0; s < lent.size(); ++s) {
             const std::size_t head = fields.heads[s];
             lent[s] = is_part ? weights.of_target[head] : 0.0;
@@ -226,7 +228,7 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
           // step_h, because D_h = low_h + step_h · stored.
           const double gain = gain_at(statistics_, vertex, fields.heads, lent);
           const auto coarse = [&](std::size_t head) -> Eigen::Array3d {
-            return statistics_.coarse[head]
+            return statistics_.coarse_values[head]
                 .row(static_cast<Index>(vertex))
                 .array()
                 .transpose()
@@ -260,7 +262,7 @@ BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) 
 std::size_t TextureBlender::memory_bytes() const {
   std::size_t bytes =
       statistics_.covariances.size() * sizeof(float) + options_.areas.size() * sizeof(double);
-  for (const auto& colours : statistics_.coarse) {
+  for (const auto& colours : statistics_.coarse_values) {
     bytes += static_cast<std::size_t>(colours.size()) * sizeof(float);
   }
   for (const SurfaceTexels& texels : texels_) bytes += texels.memory_bytes();
@@ -276,7 +278,7 @@ std::size_t TextureBlender::blend_bytes() const {
     const std::size_t bytes =
         kBytesPerTexel * (is_colour ? 1 : kBytesPerWord) *
             static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(texels.height()) +
-        texels.vertices().size() * (3 + statistics_.coarse.size()) * sizeof(float);
+        texels.vertices().size() * (3 + statistics_.coarse_values.size()) * sizeof(float);
     most = std::max(most, bytes);
   }
   return most;

@@ -18,7 +18,7 @@ struct TextureBlending {
   /// #V: weight of each vertex in the mean over the face; not all zero.
   std::vector<double> areas;
   /// #V, or empty: vertices whose colours come from the target alone (eyes, teeth).
-  std::vector<bool> of_target;
+  std::vector<bool> target_only;
 };
 
 /// Blends a texture for each face from the textures of the heads (docs/textures.md). Let D_h be the
@@ -43,7 +43,7 @@ class TextureBlender {
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param filter             a filter of the mesh, of either operator kind.
-  /// \param regions, textures  must outlive this object; the maps must too.
+  /// \param regions, textures  must outlive this object, as must the maps of the textures.
   /// \param find               may return cached statistics.
   TextureBlender(
       const Topology& topology, const TextureCoordinates& uvs, const ChebyshevFilter& filter,
@@ -56,12 +56,13 @@ class TextureBlender {
 
   const SurfaceStatistics& statistics() const { return statistics_; }
 
-  /// Memory of this object, and additional memory to blend the largest picture, in bytes.
+  /// Memory of this object in bytes.
   std::size_t memory_bytes() const;
+  /// Additional memory to blend the largest picture, in bytes.
   std::size_t blend_bytes() const;
 
  private:
-  /// The base values and factors of one picture of a face.
+  /// Computes the base values and factors of one picture of a face.
   PictureFields fields(std::size_t picture, const Recipe& recipe) const;
 
   const RegionWeights& regions_;
@@ -77,16 +78,17 @@ class TextureBlender {
 /// \param areas  #V: weight of each vertex.
 std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas);
 
-/// Colour weights of the heads: `whole` for the face (W above), `of_target` for eyes and teeth.
+/// Colour weights of the heads: `face` for the skin (W of TextureBlender), `target` for eyes and
+/// teeth.
 struct FaceColourWeights {
-  std::vector<double> whole, of_target;  ///< #heads, each summing to one
+  std::vector<double> face, target;  ///< #heads, each summing to one
 };
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_shares);
 
-/// Colour weights of the heads in each region. If the recipe has colour weights, they hold in every
-/// region. Otherwise the weights are those of the region's finest band; if they sum to less than
-/// one (Normalization::kPrinted), the target gets the rest.
+/// Colour weights of the heads in each region: the recipe's colour weights, if it has any.
+/// Otherwise the weights of the region's finest band; if these sum to less than one
+/// (Normalization::kPrinted), the target gets the remaining weight.
 /// \return #regions by #heads, rows summing to one.
 std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads);
 

@@ -30,15 +30,15 @@ struct MapCoding {
   float low = 0;
   float step = 1;
 
+  /// The number that a stored value encodes.
   float number(Density stored) const { return low + step * static_cast<float>(stored); }
-  /// The nearest stored value; clamped to 0 … 65,535.
+  /// The nearest stored value of a number, clamped to 0 … 65,535.
   Density stored(float number) const;
 
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
   /// representable.
   static MapCoding slopes() { return {MapContent::kSlopes, 2, -8, 16.0F / 65534}; }
-  /// \param channels   1 or 3.
-  /// \param low, high  range of all numbers.
+  /// A coding of plain numbers. \param channels  1 or 3. \param low, high  range of all numbers.
   static MapCoding values(int channels, float low = 0, float high = 1) {
     return {MapContent::kValues, channels, low, high > low ? (high - low) / 65535 : 1};
   }
@@ -50,7 +50,7 @@ struct TextureMap {
   int height = 0;
   std::vector<Density> planes;  ///< one plane per channel: height by width, first row at v = 1
   MapCoding coding = {};
-  std::shared_ptr<const MappedFile> scratch = {};  ///< holds the planes instead after move_to_disk
+  std::shared_ptr<const MappedFile> scratch = {};  ///< holds the planes after move_to_disk
 
   float number(Density stored) const { return coding.number(stored); }
   std::size_t texels() const {
@@ -78,8 +78,8 @@ struct TextureMap {
 /// \throws CannotCreate, IoError.
 void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 
-/// A picture that is read row by row, from any thread. Rows contain linear light, or the numbers
-/// that a coding describes.
+/// A picture that is read row by row, from any thread. Rows contain linear light, or numbers that a
+/// MapCoding encodes.
 struct LightRows {
   int width = 0;
   int height = 0;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr Index kColouredPerBlock = 4096;
 
-/// Normalizes the weights of the heads that have colours; equal weights if all are zero.
-std::vector<double> among_coloured(std::vector<double> weights,
-                                   const std::vector<ColourRows>& heads) {
+/// Normalizes the weights over the heads that have colours; equal weights if all are zero.
+std::vector<double> normalized_over_coloured(std::vector<double> weights,
+                                             const std::vector<ColourRows>& heads) {
   double sum = 0, count = 0;
   for (std::size_t h = 0; h < heads.size(); ++h) {
     if (heads[h].rows() == 0) weights[h] = 0;
@@ -31,16 +31,16 @@ std::vector<double> among_coloured(std::vector<double> weights,
 
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,
-                                const std::vector<bool>& of_target) {
-  const std::vector<double> whole = among_coloured(weights.whole, heads),
-                            target = among_coloured(weights.of_target, heads);
+                                const std::vector<bool>& target_only) {
+  const std::vector<double> whole = normalized_over_coloured(weights.face, heads),
+                            target = normalized_over_coloured(weights.target, heads);
   const auto first = std::ranges::find_if(heads, [](const auto& rows) { return rows.rows() > 0; });
   ColourRows blended(first->rows(), 3);
   const std::vector<Density>& densities = densities_of_srgb8();
   const std::vector<std::uint8_t>& bytes = srgb8_of_densities();
   parallel_blocks(blended.rows(), kColouredPerBlock, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) {
-      const bool is_part = !of_target.empty() && of_target[static_cast<std::size_t>(v)];
+      const bool is_part = !target_only.empty() && target_only[static_cast<std::size_t>(v)];
       const std::vector<double>& lent = is_part ? target : whole;
       for (Index c = 0; c < 3; ++c) {
         double density = 0;

@@ -11,11 +11,11 @@ namespace crowdface {
 /// Blends vertex colours: the weighted mean of the heads' optical densities. The weights are
 /// constant over the face, so that forehead and chin match. Heads without colours get no weight.
 /// \param heads      #heads, each #V by 3 or without rows; at least one has rows.
-/// \param of_target  #V, or empty: vertices that use weights.of_target instead of weights.whole,
-///                   such as eyes.
+/// \param target_only  #V, or empty: vertices that use weights.target instead of weights.face,
+///                     such as eyes.
 /// \return           #V by 3.
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,
-                                const std::vector<bool>& of_target);
+                                const std::vector<bool>& target_only);
 
 }  // namespace crowdface

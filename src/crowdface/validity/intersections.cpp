@@ -24,7 +24,7 @@ std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
 
 NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index vertex_count,
                                    const std::vector<TrianglePair>& target_pairs)
-    : excused_(triangles.size(), false) {
+    : near_target_intersection_(triangles.size(), false) {
   std::vector<bool> there(static_cast<std::size_t>(vertex_count), false);
   for (const auto& [a, b] : target_pairs) {
     for (const std::uint32_t triangle : {a, b}) {
@@ -32,7 +32,7 @@ NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index
     }
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    excused_[t] =
+    near_target_intersection_[t] =
         std::ranges::any_of(triangles[t], [&](std::uint32_t vertex) { return there[vertex]; });
   }
 }
@@ -40,7 +40,7 @@ NewIntersections::NewIntersections(const std::vector<Triangle>& triangles, Index
 Index NewIntersections::count(const std::vector<TrianglePair>& face_pairs) const {
   std::vector<std::uint32_t> taking_part;
   for (const auto& [a, b] : face_pairs) {
-    if (excused_[a] && excused_[b]) continue;
+    if (near_target_intersection_[a] && near_target_intersection_[b]) continue;
     taking_part.push_back(a);
     taking_part.push_back(b);
   }

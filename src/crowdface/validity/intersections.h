@@ -33,7 +33,7 @@ class NewIntersections {
 
  private:
   /// #T: whether the triangle shares a vertex with a triangle that intersects in the target.
-  std::vector<bool> excused_;
+  std::vector<bool> near_target_intersection_;
 };
 
 }  // namespace crowdface

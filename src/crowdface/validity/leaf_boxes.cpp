@@ -37,7 +37,7 @@ Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
 
 void measure_boxes(const LeafCorners& corners, const float* points, float margin,
                    LeafBoxes& boxes) {
-  // A bound for the rounding of coordinates and margins to single precision.
+  // An upper bound of the error from rounding coordinates and margins to single precision.
   const auto rounding = hn::Set(kLanes, 1e-6F), grown = hn::Set(kLanes, margin);
   for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
     const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
@@ -101,8 +101,8 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
   return all;
 }
 
-/// Bit 8 i + j of the result is what `compare` returns for triangle i of one leaf and j of the
-/// other.
+/// Compares all pairs of triangles from two leaves. Bit 8 i + j of the result is the value of
+/// `compare` for triangle i of the first leaf and triangle j of the second.
 template <class Compare>
 std::uint64_t compared(const Compare& compare) {
   std::uint64_t all = 0;
@@ -150,15 +150,15 @@ std::uint64_t common_vertices(const LeafCorners& a, const LeafCorners& b) {
   });
 }
 
-std::uint64_t alike_normals(const LeafNormals& a, const LeafNormals& b, float least) {
+std::uint64_t alike_normals(const LeafNormals& a, const LeafNormals& b, float min_cosine) {
   return compared([&](std::size_t begin) {
     Lanes3 n;
     for (std::size_t c = 0; c < 3; ++c) n.x[c] = hn::LoadU(kLanes, &b.along[c][begin]);
-    return [&a, n, least](std::size_t i) {
+    return [&a, n, min_cosine](std::size_t i) {
       const auto part = [&](std::size_t c) {
         return hn::Mul(hn::Set(kLanes, a.along[c][i]), n.x[c]);
       };
-      return hn::Gt(hn::Add(hn::Add(part(0), part(1)), part(2)), hn::Set(kLanes, least));
+      return hn::Gt(hn::Add(hn::Add(part(0), part(1)), part(2)), hn::Set(kLanes, min_cosine));
     };
   });
 }
@@ -197,7 +197,7 @@ bool meets(const BoxRay& ray, const Box& box) {
   return near <= far * BoxRay::kRounding;
 }
 
-unsigned met(const BoxRay& ray, const LeafBoxes& boxes) {
+unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes) {
   return HWY_DYNAMIC_DISPATCH(met_boxes)(ray, boxes);
 }
 
@@ -205,12 +205,12 @@ std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b) {
   return HWY_DYNAMIC_DISPATCH(overlapping_boxes)(a, b);
 }
 
-std::uint64_t sharing_vertices(const LeafCorners& a, const LeafCorners& b) {
+std::uint64_t shared_vertex_mask(const LeafCorners& a, const LeafCorners& b) {
   return HWY_DYNAMIC_DISPATCH(common_vertices)(a, b);
 }
 
-std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least) {
-  return HWY_DYNAMIC_DISPATCH(alike_normals)(a, b, least);
+std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, float min_cosine) {
+  return HWY_DYNAMIC_DISPATCH(alike_normals)(a, b, min_cosine);
 }
 
 /// Branch-free, because branch prediction fails here.

@@ -11,20 +11,20 @@
 
 namespace crowdface {
 
-/// An axis-aligned box in single precision. It is rounded outwards, so that it contains the box in
-/// double precision.
+/// An axis-aligned box in single precision, rounded outwards: it contains the exact box.
 struct Box {
   std::array<float, 3> low, high;
 };
 
+/// Whether two boxes overlap.
 bool overlap(const Box& a, const Box& b);
 
-/// Up to eight neighbouring triangles in a layout for SIMD instructions. If there are fewer, copies
-/// of the first triangle fill the rest.
+/// Corners of up to eight neighbouring triangles (a leaf) in a layout for SIMD instructions. If the
+/// leaf has fewer triangles, copies of the first triangle fill the rest.
 struct LeafCorners {
   static constexpr std::size_t kCount = 8;
-  std::array<std::array<std::int32_t, kCount>, 3> vertex;
-  std::size_t count;
+  std::array<std::array<std::int32_t, kCount>, 3> vertex;  ///< [corner][triangle]
+  std::size_t count;                                       ///< number of triangles
 
   /// \param numbers  indices of the triangles, one to kCount
   LeafCorners(std::span<const std::uint32_t> numbers, std::span<const Triangle> triangles);
@@ -46,7 +46,7 @@ struct LeafBoxes {
 
 /// Unit normals of the triangles in a leaf.
 struct LeafNormals {
-  std::array<std::array<float, LeafCorners::kCount>, 3> along;
+  std::array<std::array<float, LeafCorners::kCount>, 3> along;  ///< [axis][triangle]
 
   LeafNormals() = default;
   LeafNormals(const LeafCorners& corners, const SingleRows& points);
@@ -62,19 +62,19 @@ struct BoxRay {
   BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction);
 };
 
-/// Whether a ray hits a box, with the slab method of Kay & Kajiya 1986. Never misses a box that the
-/// ray crosses.
+/// Whether a ray hits a box (slab method, Kay & Kajiya 1986). Rounding never causes a missed hit.
 bool meets(const BoxRay& ray, const Box& box);
 /// Tests a ray against all boxes of a leaf: bit i is set if the ray hits box i. Bits beyond the
 /// leaf's triangles are undefined.
-unsigned met(const BoxRay& ray, const LeafBoxes& boxes);
+unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes);
 
-/// Pairs of overlapping boxes from two leaves: bit 8 i + j belongs to box i of `a` and box j of
-/// `b`.
+/// Bit mask of the pairs of overlapping boxes from two leaves: bit 8 i + j belongs to box i of `a`
+/// and box j of `b`.
 std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b);
-/// Pairs of triangles with a common vertex, encoded like the pairs of `overlap_mask`.
-std::uint64_t sharing_vertices(const LeafCorners& a, const LeafCorners& b);
-/// Pairs of triangles whose normals have a cosine above `least`, encoded in the same way.
-std::uint64_t facing_alike(const LeafNormals& a, const LeafNormals& b, float least);
+/// Bit mask of the pairs of triangles with a common vertex, encoded like `overlap_mask`.
+std::uint64_t shared_vertex_mask(const LeafCorners& a, const LeafCorners& b);
+/// Bit mask of the pairs of triangles whose normals have a cosine above `min_cosine`, encoded like
+/// `overlap_mask`.
+std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, float min_cosine);
 
 }  // namespace crowdface

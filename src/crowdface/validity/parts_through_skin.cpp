@@ -31,12 +31,12 @@ double PartsThroughSkin::exposed_mm2(const Positions& positions) const {
   }
   std::vector<std::size_t> viewers(view_setup_.directions.size());
   std::iota(viewers.begin(), viewers.end(), 0);
-  std::vector<std::uint32_t> in_the_way(viewers.size(), kNoIndex);
+  std::vector<std::uint32_t> last_occluders(viewers.size(), kNoIndex);
   double exposed = 0;
   for (const std::uint32_t t : through) {
     const double share =
         visible_share(scene, corners_of(positions, triangles_[t]), t, view_setup_.mm_per_unit,
-                      view_setup_.directions, viewers, in_the_way);
+                      view_setup_.directions, viewers, last_occluders);
     exposed += 0.5 * share * area_vector(positions, triangles_[t]).norm();
   }
   return exposed * view_setup_.mm_per_unit * view_setup_.mm_per_unit;

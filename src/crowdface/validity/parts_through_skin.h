@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Measures how much of the parts behind the skin, such as gums and teeth, stands out of it. Const
-/// methods are thread-safe.
+/// Measures how much of the parts behind the skin, such as gums and teeth, protrudes through the
+/// skin. Const methods are thread-safe.
 class PartsThroughSkin {
  public:
   /// \param parts  components that are behind the skin
@@ -24,8 +24,8 @@ class PartsThroughSkin {
   double exposed_mm2(const Positions& positions) const;
 
  private:
-  std::vector<Triangle> triangles_;  ///< the skin's, then the parts'
-  std::uint32_t skin_count_ = 0;     ///< triangles of the skin
+  std::vector<Triangle> triangles_;  ///< triangles of the skin, then of the parts
+  std::uint32_t skin_count_ = 0;     ///< number of triangles of the skin
   TriangleTree tree_;
   ViewSetup view_setup_;
 };

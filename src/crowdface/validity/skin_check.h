@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The directions from which skin is viewed when SkinCheck measures how much of its back side is
-/// visible, and the length of the mesh's unit.
+/// The directions from which the skin is viewed to measure how much of its back side is visible,
+/// and the length of the mesh's unit.
 struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;
@@ -20,10 +20,10 @@ struct ViewSetup {
 
 /// Defects of a face's skin compared with its target's skin.
 struct SkinDefects {
-  LocalDefects local;
+  LocalDefects local;      ///< defects of single triangles
   Index intersecting = 0;  ///< triangles in intersections that the target does not have
-  /// How much a contact gap of the skin (such as between the lips) exceeds the widest such gap of
-  /// any head. Not set by SkinCheck; the caller who knows the contacts sets it.
+  /// How much a gap at a contact of the skin (such as between the lips) exceeds the widest such
+  /// gap of any head. Not set by SkinCheck, but by callers that know the contacts.
   double wider_mm = 0;
   double exposed_mm2 = 0;  ///< visible area of the skin's back side, in excess of the target's
 };

@@ -62,7 +62,7 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   }
 }
 
-/// Replaces a pair of nodes that are not both leaves by the overlapping pairs of their children.
+/// Adds to `into` the overlapping pairs of children of two nodes that are not both leaves.
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {
   const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
   const auto add = [&](std::uint32_t first, std::uint32_t second) {
@@ -84,12 +84,12 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
 template <class Keep>
 void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                                    std::vector<TrianglePair>& found) const {
-  // the bits 8 i + j with j > i: each pair of a leaf with itself once
-  constexpr std::uint64_t kLaterOnes = 0x0080c0e0f0f8fcfe;
+  // The bits 8 i + j with j > i: for a leaf compared with itself, each pair of triangles once.
+  constexpr std::uint64_t kPairsWithinLeaf = 0x0080c0e0f0f8fcfe;
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
   std::uint64_t left = overlap_mask(leaves_[one], leaves_[other]);
-  if (one == other) left &= kLaterOnes;
-  if (left != 0) left &= ~sharing_vertices(tree_.corners[one], tree_.corners[other]);
+  if (one == other) left &= kPairsWithinLeaf;
+  if (left != 0) left &= ~shared_vertex_mask(tree_.corners[one], tree_.corners[other]);
   for (; left != 0; left &= left - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(left));
     const std::uint32_t a = ones[bit / kLeaf], b = others[bit % kLeaf];
@@ -186,7 +186,8 @@ std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
-  // Size of the stack: sufficient for 2³² triangles, because each level halves their number.
+  // Size of the stack: sufficient for 2³² triangles, because each level of the tree halves their
+  // number.
   constexpr std::size_t kDeepest = 40;
   std::array<std::uint32_t, kDeepest> waiting;
   std::size_t count = 0;
@@ -203,7 +204,7 @@ std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
       waiting[count++] = right_first ? node.second : n + 1;
       continue;
     }
-    unsigned left = met(box_ray, leaves_[TriangleTree::leaf_number(node)]) &
+    unsigned left = hit_mask(box_ray, leaves_[TriangleTree::leaf_number(node)]) &
                     ((1U << (node.end - node.begin)) - 1);
     for (; left != 0; left &= left - 1) {
       const std::uint32_t place = node.begin + static_cast<std::uint32_t>(std::countr_zero(left));

@@ -18,7 +18,8 @@ using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
 /// tests use double precision.
 class TriangleScene {
  public:
-  /// \param triangles, tree, positions  must outlive the scene; the tree must hold these triangles.
+  /// \param triangles, tree, positions  must outlive the scene; the tree must be built of
+  ///        `triangles`.
   /// \param margin  distance by which the boxes grow on all sides.
   TriangleScene(const std::vector<Triangle>& triangles, const TriangleTree& tree,
                 const Positions& positions, double margin);
@@ -31,16 +32,16 @@ class TriangleScene {
   /// The pairs from near_pairs() whose triangles intersect, ascending.
   std::vector<TrianglePair> crossing_pairs() const;
 
-  /// Returns the leaves, from number `leaf` on, that may hold triangles whose boxes overlap boxes
-  /// of `leaf`; ascending.
+  /// Returns the leaves with indices from `leaf` on that may hold triangles whose boxes overlap
+  /// boxes of `leaf`, ascending.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
-  /// Finds any triangle that a ray hits, not necessarily the nearest; ignores `start`. Returns its
-  /// position in the tree's order, or kNoIndex if the ray hits nothing.
+  /// Finds any triangle that a ray hits, not necessarily the nearest; ignores triangle `start`.
+  /// Returns the position of the found triangle in the tree's order, or kNoIndex if there is none.
   /// \param direction  of any length except zero
   /// \param start      index of the triangle from which the ray starts, or kNoIndex
-  /// \param guess      position to test first, usually the result for the previous ray, because
-  ///                   neighbouring rays often hit the same triangle; or kNoIndex
+  /// \param guess      position in the tree's order to test first, usually the previous ray's
+  ///                   result, because neighbouring rays often hit the same triangle; or kNoIndex
   std::uint32_t intersected_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                std::uint32_t start, std::uint32_t guess) const;
 
@@ -61,7 +62,7 @@ class TriangleScene {
   template <class Keep>
   std::vector<TrianglePair> pairs_with(const Keep& keep) const;
   /// \param one, other  leaf numbers, equal or in ascending order
-  /// \param keep        selects the pairs to return
+  /// \param keep        keep(pair): whether to return the pair
   template <class Keep>
   void compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                       std::vector<TrianglePair>& found) const;
@@ -70,7 +71,7 @@ class TriangleScene {
   const TriangleTree& tree_;
   const Positions& positions_;
   std::vector<LeafBoxes> leaves_;
-  std::vector<Box> boxes_;  ///< boxes of the nodes
+  std::vector<Box> boxes_;  ///< boxes of the tree's nodes
 };
 
 }  // namespace crowdface

@@ -7,8 +7,8 @@
 namespace crowdface {
 namespace {
 
-/// Marks triangles at vertices with more than kMaxAround triangles. Their boxes all overlap:
-/// 60,000 triangles at one vertex took 90 seconds of pair tests per face.
+/// Marks triangles at vertices with more than kMaxAround triangles. The boxes of triangles at one
+/// vertex all overlap: with 60,000 such triangles, pair tests took 90 seconds per face.
 std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vertex_count) {
   constexpr std::uint32_t kMaxAround = 1000;
   std::vector<std::uint32_t> around(static_cast<std::size_t>(vertex_count), 0);

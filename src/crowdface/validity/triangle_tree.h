@@ -22,8 +22,8 @@ struct TriangleTree : MedianSplitTree {
 
   TriangleTree() = default;
   /// \param apart  distance by which triangles are shifted along their normals before the split, in
-  ///               the unit of the positions. It puts sheets that lie on each other into different
-  ///               leaves.
+  ///               the unit of the positions. The shift puts sheets that lie on each other into
+  ///               different leaves.
   TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
                double apart = 0);
 

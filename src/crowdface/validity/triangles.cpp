@@ -15,7 +15,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Scaled signed distances of the corners of `other` from the plane of `t`.
+/// Computes scaled signed distances of the corners of `other` from the plane of `t`.
 /// \return  whether `other` has corners strictly on both sides of the plane.
 bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
                    std::array<double, 3>& distance) {
@@ -71,8 +71,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const bool collapsed =
         normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
     if (turned || collapsed) ++defects.flipped;
-    // The squared largest singular value of the map from the frame, from the images x, y of its
-    // axes.
+    // The squared largest singular value of the map from the target triangle, from the images x, y
+    // of the frame's axes.
     const Vector x = u / frame.length;
     const Vector y = (v - frame.shift * x) / frame.height;
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();

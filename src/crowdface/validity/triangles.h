@@ -9,10 +9,10 @@
 
 namespace crowdface {
 
-/// Defects of single triangles under the map from the target to a face.
+/// Defects of single triangles of a face compared with the target's triangles.
 struct LocalDefects {
   Index compared = 0;  ///< triangles that are not degenerate in the target
-  Index flipped = 0;   ///< triangles turned by more than 90°, or shrunk below 1/50 of their area
+  Index flipped = 0;   ///< triangles turned by more than 90° or shrunk below 1/50 of their area
   double stretch = 1;  ///< 99th percentile of the largest stretch of a triangle (factor on lengths)
 };
 
@@ -39,6 +39,7 @@ class TargetTriangles {
 
 /// The positions of a triangle's corners.
 using Corners = std::array<Eigen::Vector3d, 3>;
+/// Returns the positions of a triangle's corners.
 Corners corners_of(const Positions& positions, const Triangle& triangle);
 
 /// Whether two triangles intersect. Triangles that only touch, and coplanar triangles, do not

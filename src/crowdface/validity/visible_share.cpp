@@ -23,7 +23,8 @@ double ray_margin(const Positions& positions) {
 
 double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
                      double mm_per_unit, std::span<const Eigen::Vector3d> directions,
-                     std::span<const std::size_t> viewers, std::span<std::uint32_t> in_the_way) {
+                     std::span<const std::size_t> viewers,
+                     std::span<std::uint32_t> last_occluders) {
   if (viewers.empty()) return 0;
   const int n = points_along_edge(at, mm_per_unit);
   int shown = 0;
@@ -31,7 +32,7 @@ double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_
     const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
     const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
     shown += std::ranges::any_of(viewers, [&](std::size_t viewer) {
-      std::uint32_t& other = in_the_way[viewer];
+      std::uint32_t& other = last_occluders[viewer];
       other = scene.intersected_by(point, directions[viewer], triangle, other);
       return other == kNoIndex;
     });

@@ -78,7 +78,7 @@ Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_s
   pose.scale = of_scan.scale / of_template.scale;
   pose.rotation = frame_of(of_scan.axes.up, of_scan.axes.front) *
                   frame_of(of_template.axes.up, of_template.axes.front).transpose();
-  pose.translation = of_scan.between - pose.scale * (pose.rotation * of_template.between);
+  pose.translation = of_scan.between_eyes - pose.scale * (pose.rotation * of_template.between_eyes);
   return pose;
 }
 

@@ -301,9 +301,10 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
     heat.push_back(of_head.render(result.positions, camera, &colours));
   }
   const std::vector<SheetCell> cells = {
-      {side_by_side(scans), "scan"},
-      {side_by_side(wrapped), doubts ? "wrapped template, doubtful parts red" : "wrapped template"},
-      {side_by_side(heat), "distance to the scan"}};
+      {joined_pictures(scans), "scan"},
+      {joined_pictures(wrapped),
+       doubts ? "wrapped template, doubtful parts red" : "wrapped template"},
+      {joined_pictures(heat), "distance to the scan"}};
   const Rgb8Image sheet =
       contact_sheet(cells, {.columns = 1, .title = title, .legend = HeatLegend{kScaleEndMm, "mm"}});
   return encode_png(sheet.width, sheet.height, 3, sheet.pixels);

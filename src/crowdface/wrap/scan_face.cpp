@@ -20,10 +20,10 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   const Positions samples =
       sample_skin(topology_of(scan.triangles, vertices), moved.scan.positions, all, kSkinSamples);
   auto match = match_relief(samples, axes, {});
-  if (match && (match->votes < kMinVotes || (hint && match->degrees_off > kMaxDegreesOff))) {
+  if (match && (match->score < kMinScore || (hint && match->degrees_off > kMaxDegreesOff))) {
     match.reset();
   }
-  if (match) match->between += moved.middle;
+  if (match) match->between_eyes += moved.middle;
   return match;
 }
 

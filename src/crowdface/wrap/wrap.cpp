@@ -215,8 +215,11 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   measure(wrapped, surface, result);
   if (face && shape.face) {
     Index between = 0;
-    (rest.rowwise() - shape.face->between.transpose()).rowwise().squaredNorm().minCoeff(&between);
-    result.face_off_mm = (row3(wrapped, between) - carried(back, face->between)).norm();
+    (rest.rowwise() - shape.face->between_eyes.transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&between);
+    result.face_off_mm = (row3(wrapped, between) - carried(back, face->between_eyes)).norm();
   }
 
   result.positions = shape.positions;
@@ -238,7 +241,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   } else if (standing && !standing->face) {
     standing->face = find_scan_face(scan, hint);
   }
-  if (standing && standing->face) standing->face->between -= moved.middle;
+  if (standing && standing->face) standing->face->between_eyes -= moved.middle;
   WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, standing);
   result.pose.translation += moved.middle;
   return result;
