@@ -135,7 +135,7 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   };
   const auto ancestry = [&](std::uint64_t index) {
     if (!dress) return std::string();
-    const MakeHumanPerson person = draw_makehuman_person(wanted.seed, index);
+    const MakeHumanPerson person = random_makehuman_person(wanted.seed, index);
     const std::string prevailing = prevailing_ancestry(person);
     return concat(prevailing, prevailing.empty() ? "" : ", ",
                   makehuman_hair_colour(person, wanted.seed, index), "_hair");

@@ -109,7 +109,7 @@ struct Seen {
   std::optional<Orientation> orientation;  ///< up and front axes
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
-  bool stands_apart = false;  ///< some head is rotated or shifted relative to the others
+  bool stands_apart = false;  ///< some head is rotated or shifted relative to the other heads
   double face = 0;            ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 

@@ -191,7 +191,7 @@ MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, i
 
 void MakeHumanDress::add_person(const fs::path& folder, const std::string& name, std::uint64_t seed,
                                 std::uint64_t index, std::vector<HeadFile>& files) {
-  const MakeHumanPerson person = draw_makehuman_person(seed, index);
+  const MakeHumanPerson person = random_makehuman_person(seed, index);
   const std::string colour = makehuman_eye_colour(person, seed, index);
   tags_.insert({person.male ? "male" : "female", std::string(age_class(person.years)),
                 prevailing_ancestry(person)});
@@ -282,7 +282,7 @@ void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttac
   }
   const std::string picture = concat("textures/", item.name, ".png");
   files.push_back({folder / concat(item.name, ".obj"), [mesh, name = item.name, this] {
-                     return encode_obj({mesh.topology, model_.on_neutral(mesh), mesh.uvs},
+                     return encode_obj({mesh.topology, model_.fitted_to_neutral(mesh), mesh.uvs},
                                        concat(name,
                                               " of the MakeHuman model, on base.obj, made "
                                               "by crowdface import; cm"),

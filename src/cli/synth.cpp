@@ -104,7 +104,7 @@ void synth(const SynthOptions& options) {
   SynthHair hair;
   for (std::uint64_t i = 1; i <= count; ++i) {
     const std::string name = head_name("synth", i);
-    const synth::Person person = synth::draw_person(seed, i);
+    const synth::Person person = synth::random_person(seed, i);
     tagged.push_back(
         {name, person.male > 0, person.age, options.hair ? hair.add_head(seed, i) : std::string()});
     const std::string library = skins ? concat(name, ".mtl") : std::string();

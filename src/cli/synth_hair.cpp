@@ -74,11 +74,11 @@ bool SynthHair::is_wished(const synth::HairCut& cut) const {
 }
 
 std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
-  const synth::Complexion look = synth::draw_complexion(seed, index);
+  const synth::Complexion look = synth::random_complexion(seed, index);
   const std::string skin = skin_tag(look.tone);
   const bool bald = look.receding > kBald;
-  const Wish wish{synth::draw_person(seed, index).male < 0, !bald && synth::has_curls(seed, index),
-                  bald};
+  const Wish wish{synth::random_person(seed, index).male < 0,
+                  !bald && synth::has_curls(seed, index), bald};
   wishes_.insert(wish);
   return concat(skin, ", ", synth::nearest_hair_colour(look.young_hair).name, "_hair, ",
                 form_tag(wish.curly, wish.bald));

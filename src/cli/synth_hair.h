@@ -21,7 +21,8 @@ namespace crowdface::cli {
 class SynthHair {
  public:
   /// Registers a head. \return its tags: skin, hair colour, and hair form, such as "light_skin,
-  /// brown_hair, straight_hair"; the colour is that of young years, the form is "bald" if the crown is bald.
+  /// brown_hair, straight_hair"; the colour is the colour of young years, the form is "bald" if the
+  /// crown is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
   /// Adds the files of the folder `attachments`, inside the folder of the heads: meshes, materials,

@@ -7,10 +7,10 @@
 
 namespace crowdface::multiscale {
 
-/// How far two faces are apart.
+/// Distances between two faces `a` and `b`.
 struct Differences {
-  double rms = 0, largest = 0;  ///< between the same vertices of both
-  double rms_to_surface = 0;    ///< of `b`'s vertices from the surface of `a`
+  double rms = 0, largest = 0;  ///< distances between the same vertices of both faces
+  double rms_to_surface = 0;    ///< rms distance of `b`'s vertices from the surface of `a`
 };
 /// \param a, b  #P by 3, in the patch's numbers.
 Differences differences(const FrontPatch& patch, const Positions& a, const Positions& b);
@@ -18,7 +18,8 @@ Differences differences(const FrontPatch& patch, const Positions& a, const Posit
 /// The energy of each wavelength band of a head, on the patch: Σ over its vertices of the squared
 /// length of S(finer bound) − S(coarser bound), where S is Laplacian smoothing (Eq. 1).
 /// \param positions  #V by 3 of whole heads, in millimetres.
-/// \param bounds_mm  half-amplitude wavelengths, ascending. The first band is finer than the first.
+/// \param bounds_mm  half-amplitude wavelengths, ascending. The first band is finer than the first
+///                   bound.
 std::vector<double> band_energies(const Topology& topology, const FrontPatch& patch,
                                   const Positions& positions, const std::vector<double>& bounds_mm);
 
@@ -26,9 +27,10 @@ std::vector<double> band_energies(const Topology& topology, const FrontPatch& pa
 double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
                             const Positions& b);
 
-/// By how many degrees the largest crease of a face exceeds what its heads have there: the largest,
-/// over the edges inside of region borders, of the angle between the normals of both triangles, less
-/// the largest such angle of any of the heads at this edge. 0 if no crease is larger.
+/// By how many degrees a face's creases exceed its heads' creases. At an edge, the crease is the
+/// angle between the normals of both triangles, and the excess is the face's crease minus the
+/// largest crease of any head at this edge. Returns the largest excess over the edges inside of
+/// region borders, or 0.
 /// \param border  #P: whether a vertex lies in the border between regions.
 double largest_new_crease(const FrontPatch& patch, const Positions& face,
                           const std::vector<Positions>& heads, const std::vector<bool>& border);

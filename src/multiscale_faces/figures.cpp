@@ -111,9 +111,9 @@ std::vector<double> everywhere(int base, double weight) {
   return std::vector<double>(static_cast<std::size_t>(kLevels - 1 - base), weight);
 }
 
-/// The face of the other method that is nearest to one of ours: over all base levels, with a weight
-/// for each level that the target and the lenders share. \param regions  #lenders: weight of each
-/// vertex of the patch, or empty.
+/// The face of the other method that is nearest to a given face of ours, over all base levels, with
+/// a weight for each level, which target and lenders share. \param regions  #lenders: weight of
+/// each vertex of the patch, or empty.
 struct Nearest {
   Positions face;
   int base = 0;
@@ -201,7 +201,7 @@ class Report {
   }
 
  private:
-  /// Energy of each band, as a share of that of the head that lends its detail.
+  /// Energy of each band, as a share of the same band's energy of the head that lends its detail.
   std::string kept(const Positions& face, int lender) {
     const Topology& topology = heads_.first().topology;
     const std::vector<double> of_face = band_energies(topology, heads_.patch(), face, kBounds);

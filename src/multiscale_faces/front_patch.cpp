@@ -17,7 +17,7 @@ namespace {
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The next vertex around the rims, by vertex: each directed edge whose reverse has no triangle. A
-/// vertex at which a rim touches itself has several.
+/// vertex at which a rim touches itself has several entries.
 std::multimap<std::uint32_t, std::uint32_t> rim_edges(const std::vector<Triangle>& triangles) {
   std::set<Edge> edges;
   for (const Triangle& t : triangles) {
@@ -39,8 +39,8 @@ void keep_largest(std::vector<Triangle>& triangles, Index vertex_count) {
                 [&](const Triangle& t) { return components.of_vertex[t[0]] != largest; });
 }
 
-/// Removes triangles until no rim touches itself and no triangle has all corners on rims, since these
-/// could become flat on a side of the square.
+/// Removes triangles until no rim touches itself and no triangle has all corners on rims. A
+/// triangle with all corners on rims could become flat on a side of the square.
 void tidy_rims(std::vector<Triangle>& triangles, Index vertex_count) {
   for (;;) {
     keep_largest(triangles, vertex_count);

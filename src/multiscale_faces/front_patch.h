@@ -15,9 +15,9 @@ namespace crowdface::multiscale {
 /// The front of a head as one connected surface, with its own vertex numbers. Its longest rim is
 /// its border; every other rim is a hole, such as an eye.
 struct FrontPatch {
-  std::vector<std::uint32_t> head_vertices;  ///< #P: the head's vertex of each patch vertex
-  std::vector<Triangle> triangles;           ///< in patch numbers; polygons are cut into triangles
-  std::vector<std::uint32_t> border;         ///< patch vertices around the border, in order
+  std::vector<std::uint32_t> head_vertices;       ///< #P: the head's vertex of each patch vertex
+  std::vector<Triangle> triangles;                ///< indices of patch vertices
+  std::vector<std::uint32_t> border;              ///< patch vertices around the border, in order
   std::vector<std::vector<std::uint32_t>> holes;  ///< patch vertices around each hole, in order
   /// Positions in `border` of the vertices that become the corners of the unit square, in the order
   /// of the border.
@@ -29,8 +29,8 @@ struct FrontPatch {
 };
 
 /// Cuts out the skin in front of the head's middle (FaceArea::kFront) that faces the front, so that
-/// eye sockets and the inside of the mouth become holes. Triangles are left out at which a rim
-/// touches itself or whose corners all lie on rims.
+/// eye sockets and the inside of the mouth become holes. Omits triangles where a rim touches itself
+/// and triangles whose corners all lie on rims.
 /// \param mean   #V by 3, the mean of all heads.
 /// \param up     axis towards the top of the head. \param front  axis along which heads look.
 /// \throws InvalidInput if the front has no border.

@@ -5,10 +5,10 @@
 
 namespace crowdface::multiscale {
 
-/// Lays a face out on the unit square: a discrete harmonic map (Eck et al. 1995), whose border goes
+/// Maps a face to the unit square by a discrete harmonic map (Eck et al. 1995). The border goes
 /// around the square by arc length, from corner to corner. Negative cotangent weights, which would
-/// fold triangles, become small positive ones, so that no triangle folds (Tutte 1963); a part that
-/// hangs on the rest by two vertices becomes flat. Vertices around holes are free.
+/// fold triangles, become small positive weights, so that no triangle folds (Tutte 1963); a part
+/// that is joined to the rest by two vertices becomes flat. Vertices around holes are free.
 /// \param positions  #P by 3, in the patch's numbers.
 /// \return #P by 2, each in [0, 1].
 /// \throws InvalidInput if the system cannot be solved.

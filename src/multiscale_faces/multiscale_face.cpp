@@ -73,8 +73,8 @@ SurfacePoint surface_point(const SplineLattice& surface, const Eigen::RowVector2
   return {jet.row(0).transpose(), normal.normalized()};
 }
 
-/// Moves (u, v) by Newton's method to where a normal meets a surface. \return the distance along the
-/// normal; nothing if the method does not converge, and (u, v) stays as it was.
+/// Moves (u, v) by Newton's method to the point where a normal meets a surface. \return the
+/// distance along the normal; nothing if the method does not converge, and (u, v) stays as it was.
 std::optional<double> distance_along(const SurfacePoint& from, const SplineLattice& surface,
                                      Eigen::Ref<Eigen::RowVector2d> start) {
   constexpr int kMaxSteps = 20;
@@ -100,7 +100,7 @@ std::optional<double> distance_along(const SurfacePoint& from, const SplineLatti
   return std::nullopt;
 }
 
-/// The displacement maps of a face with surfaces and base.
+/// Adds the displacement maps to a face that has surfaces and base.
 void add_displacements(MultiscaleFace& face) {
   const Index side = kSamplesPerSide;
   TextureCoordinates grid(side * side, 2);

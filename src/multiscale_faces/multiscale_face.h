@@ -21,30 +21,32 @@ inline constexpr Index kSamplesPerSide = 2 * kFinest + 1;
 /// A face in the method of Yoon, Lewis and Rhee (2017), as "Laplacian face blending" (Section 2.3)
 /// describes it: a smooth base surface and scalar displacements along its normals, one continuous
 /// displacement map for each finer level. Our choices where that description is open:
-/// - Samples lie on a regular grid of the square. In holes there are none; the splines close them.
-/// - A level's displacement is where the base's normal meets that level's surface. Where it does not
-///   (overhangs: nostrils, behind the wings of the nose), it is the difference of both surfaces at
-///   the same (u, v), projected onto the normal.
+/// - Samples lie on a regular grid of the square. Holes have no samples; the splines close the
+///   holes.
+/// - A level's displacement is the distance at which the base's normal meets the level's surface.
+///   If the normal misses the surface (overhangs: nostrils, behind the wings of the nose), the
+///   displacement is the difference of both surfaces at the same (u, v), projected onto the normal.
 struct MultiscaleFace {
   TextureCoordinates uvs;               ///< #P by 2, of the patch's vertices
   std::vector<SplineLattice> surfaces;  ///< by level, coarsest first; values are positions
   int base = 0;                         ///< the level of the base surface
   std::vector<SplineLattice>
-      displacements;        ///< by level from base + 1 on: added to the level before
+      displacements;        ///< by level from base + 1 on: added to the previous level
   double missed_share = 0;  ///< share of samples whose normal does not meet the finest surface
 };
 
+/// Computes the levels of a face.
 /// \param positions  #P by 3, in the patch's numbers. \param base  0 … kLevels − 2.
 MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions, int base);
 /// The same face with another base.
 MultiscaleFace with_base(MultiscaleFace face, int base);
 
-/// What a face lends to a new face.
+/// The details that a face lends to a new face.
 struct Details {
   const MultiscaleFace* face = nullptr;
-  /// By level from base + 1 on, for the whole patch.
+  /// By level from base + 1 on: weight of the level's detail in the whole patch.
   std::vector<double> level_weights;
-  /// #P, multiplied with `level_weights`; empty: 1 everywhere.
+  /// #P factors on `level_weights`; empty: 1 everywhere.
   std::vector<double> vertex_weights = {};
 };
 

@@ -24,11 +24,11 @@ Basis basis_at(double t) {
 }
 
 /// The 4 by 4 control points around a place, and its basis functions along u and v.
-struct Place {
+struct SplineSupport {
   Index first_row;  ///< row of the first of the 16 control points
   Basis u, v;
 };
-Place place_of(Index spans, const Eigen::RowVector2d& uv) {
+SplineSupport place_of(Index spans, const Eigen::RowVector2d& uv) {
   const auto split = [&](double x) {
     const double scaled = std::clamp(x, 0.0, 1.0) * static_cast<double>(spans);
     const Index span = std::min(static_cast<Index>(scaled), spans - 1);
@@ -52,7 +52,7 @@ SplineLattice SplineLattice::zero(Index spans, Index components) {
 }
 
 Eigen::RowVectorXd SplineLattice::value(const Eigen::RowVector2d& uv) const {
-  const Place place = place_of(spans_, uv);
+  const SplineSupport place = place_of(spans_, uv);
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(components());
   for (Index l = 0; l < 4; ++l) {
     for (Index k = 0; k < 4; ++k) {
@@ -65,7 +65,7 @@ Eigen::RowVectorXd SplineLattice::value(const Eigen::RowVector2d& uv) const {
 }
 
 Eigen::Matrix<double, 3, Eigen::Dynamic> SplineLattice::jet(const Eigen::RowVector2d& uv) const {
-  const Place place = place_of(spans_, uv);
+  const SplineSupport place = place_of(spans_, uv);
   const auto scale = static_cast<double>(spans_);
   Eigen::Matrix<double, 3, Eigen::Dynamic> jet(3, components());
   jet.setZero();
@@ -116,7 +116,7 @@ SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Colu
   Columns control = zero.control();
   Eigen::VectorXd weight_sum = Eigen::VectorXd::Zero(control.rows());
   for (Index s = 0; s < uvs.rows(); ++s) {
-    const Place place = place_of(spans, uvs.row(s));
+    const SplineSupport place = place_of(spans, uvs.row(s));
     double square_sum = 0;
     for (const double a : place.u.value) {
       for (const double b : place.v.value) square_sum += a * a * b * b;

@@ -40,14 +40,13 @@ class SplineLattice {
   Columns control_;
 };
 
-/// The paper's BA algorithm: each sample asks for the smallest control points that give its value,
-/// and each control point takes their weighted mean (Eqs. 3 to 5). Control points that no sample
-/// asks for are zero.
+/// The paper's BA algorithm: for each sample, the smallest control points that give its value; each
+/// control point is the weighted mean of these proposals (Eqs. 3 to 5), or zero without proposals.
 /// \param uvs  #S by 2. \param values  #S by C.
 SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Columns& values);
 
-/// The paper's MBA algorithm with refinement: the functions Ψ_0, Ψ_1, … Each adds an approximation,
-/// on a lattice with twice as many spans, of the errors that the one before leaves.
+/// The paper's MBA algorithm with refinement: the functions Ψ_0, Ψ_1, … Each function adds, on a
+/// lattice with twice as many spans, an approximation of the errors of the previous function.
 /// \param coarsest, finest  spans; finest is coarsest times a power of two.
 std::vector<SplineLattice> approximate_by_levels(Index coarsest, Index finest,
                                                  const TextureCoordinates& uvs,

@@ -16,7 +16,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// Two heads: a woman and an old man.
-AttachmentDraw draw_of(std::vector<AttachmentItem> items, std::map<std::string, double> none = {}) {
+AttachmentOptions draw_of(std::vector<AttachmentItem> items,
+                          std::map<std::string, double> none = {}) {
   return {7, std::move(items), std::move(none), {{"female"}, {"male", "old"}}};
 }
 
@@ -29,9 +30,9 @@ FacePlan face_of(std::uint64_t index, Index target = 0) {
 }
 
 /// Of a face that stands alone.
-std::vector<std::string> attachments_of(const AttachmentDraw& draw, const FacePlan& face) {
+std::vector<std::string> attachments_of(const AttachmentOptions& draw, const FacePlan& face) {
   std::vector<FacePlan> crowd = {face};
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   return crowd[0].attachments;
 }
 
@@ -57,7 +58,7 @@ std::vector<int> groups_of(const std::vector<FacePlan>& crowd) {
   return groups;
 }
 
-std::map<std::string, double> shares_of(const AttachmentDraw& draw, Index target = 0) {
+std::map<std::string, double> shares_of(const AttachmentOptions& draw, Index target = 0) {
   constexpr std::uint64_t kFaces = 20000;
   std::map<std::string, double> shares;
   for (std::uint64_t i = 1; i <= kFaces; ++i) {
@@ -81,16 +82,16 @@ TEST(AttachmentDraw, FollowsSharesAndNone) {
 }
 
 TEST(AttachmentDraw, GivesAtMostOneOfAKind) {
-  const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
+  const AttachmentOptions draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
   for (std::uint64_t i = 1; i < 100; ++i) {
     EXPECT_EQ(attachments_of(draw, face_of(i)).size(), 1U);
   }
 }
 
 TEST(AttachmentDraw, IsForTargetsWithAllTags) {
-  const AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}},
-                                       {"rim", "hair", {"male", "old"}, 1, {}},
-                                       {"quiff", "hair", {"male", "young"}, 1, {}}});
+  const AttachmentOptions draw = draw_of({{"bob", "hair", {"female"}, 1, {}},
+                                          {"rim", "hair", {"male", "old"}, 1, {}},
+                                          {"quiff", "hair", {"male", "young"}, 1, {}}});
   EXPECT_THAT(attachments_of(draw, face_of(1, 0)), ElementsAre("bob"));
   EXPECT_THAT(attachments_of(draw, face_of(1, 1)), ElementsAre("rim"));
 }
@@ -130,12 +131,12 @@ TEST(AttachmentDraw, DependsOnIndexAndKindAlone) {
 
 /// Faces on one head are much alike: unlike hair tells them apart.
 TEST(AttachmentDraw, FacesOnOneHeadTakeTurns) {
-  const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}},
-                                       {"bun", "hair", {}, 1, {}},
-                                       {"mop", "hair", {}, 1, {}},
-                                       {"curls", "hair", {}, 1, {}}});
+  const AttachmentOptions draw = draw_of({{"bob", "hair", {}, 1, {}},
+                                          {"bun", "hair", {}, 1, {}},
+                                          {"mop", "hair", {}, 1, {}},
+                                          {"curls", "hair", {}, 1, {}}});
   std::vector<FacePlan> crowd = crowd_of(16);
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   for (const Index head : {0, 1}) {
     std::vector<std::string> placed;
     for (const FacePlan& face : crowd) {
@@ -149,22 +150,22 @@ TEST(AttachmentDraw, FacesOnOneHeadTakeTurns) {
   }
   for (const char* name : {"bob", "bun", "mop", "curls"}) EXPECT_EQ(count(crowd, name), 4U);
   std::vector<FacePlan> small = crowd_of(7);
-  draw_attachments(draw, {}, small);
+  choose_attachments(draw, {}, small);
   for (std::size_t i = 0; i < small.size(); ++i)
     EXPECT_EQ(small[i].attachments, crowd[i].attachments) << "a larger crowd changes nobody";
 }
 
 TEST(AttachmentDraw, TurnsFollowShares) {
-  const AttachmentDraw draw =
+  const AttachmentOptions draw =
       draw_of({{"bob", "hair", {}, 3, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 0, {}}});
   std::vector<FacePlan> crowd = crowd_of(80);
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   EXPECT_NEAR(static_cast<double>(count(crowd, "bob")), 60, 2);
   EXPECT_NEAR(static_cast<double>(count(crowd, "bun")), 20, 2);
 }
 
 TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
-  const AttachmentDraw draw =
+  const AttachmentOptions draw =
       draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
   const auto sisters = [](const std::string& family) {
     std::vector<FacePlan> faces(3, face_of(1));
@@ -176,7 +177,7 @@ TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
     return faces;
   };
   std::vector<FacePlan> alone = sisters("kin");
-  draw_attachments(draw, {}, alone);
+  choose_attachments(draw, {}, alone);
   std::set<std::string> placed;
   for (const FacePlan& face : alone) placed.insert(face.attachments.at(0));
   EXPECT_EQ(placed.size(), 3U);
@@ -184,7 +185,7 @@ TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
   const std::vector<FacePlan> kin = sisters("kin");
   crowd.insert(crowd.end(), kin.begin(), kin.end());
   crowd.push_back(face_of(1));
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(crowd[3 + i].attachments, alone[i].attachments);
   EXPECT_EQ(crowd[6].attachments, attachments_of(draw, face_of(1)))
       << "families change no sampled face";
@@ -192,15 +193,15 @@ TEST(AttachmentDraw, SistersTakeTurnsWhateverOthersWear) {
 
 /// A review draws some faces anew, on other heads; all others keep what they wear.
 TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
-  const AttachmentDraw draw =
+  const AttachmentOptions draw =
       draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}, {"mop", "hair", {}, 1, {}}});
   std::vector<FacePlan> before = crowd_of(20);
-  draw_attachments(draw, {}, before);
+  choose_attachments(draw, {}, before);
   std::vector<FacePlan> after = crowd_of(20);
   std::vector<FacePlan> rejected = {after[2], after[5]};
   after[2].recipe.target = 1 - after[2].recipe.target;
   after[5].recipe.target = 1 - after[5].recipe.target;
-  draw_attachments(draw, {}, after, rejected);
+  choose_attachments(draw, {}, after, rejected);
   for (std::size_t i = 0; i < after.size(); ++i) {
     EXPECT_EQ(after[i].attachments.size(), 1U) << i;
     if (i != 2 && i != 5) {
@@ -211,7 +212,7 @@ TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
   std::vector<FacePlan> twice = after;
   rejected.push_back(after[5]);
   twice[5].recipe.target = 1 - twice[5].recipe.target;
-  draw_attachments(draw, {}, twice, rejected);
+  choose_attachments(draw, {}, twice, rejected);
   for (std::size_t i = 0; i < twice.size(); ++i) {
     if (i != 5) {
       EXPECT_EQ(twice[i].attachments, after[i].attachments) << i;
@@ -220,7 +221,7 @@ TEST(AttachmentDraw, RedrawnFacesAreDressedLast) {
 }
 
 TEST(AttachmentDraw, GoesByTheIdOfFacesThatAreNotSampled) {
-  const AttachmentDraw draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
+  const AttachmentOptions draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
   std::map<std::string, int> found;
   for (int i = 0; i < 100; ++i) {
     FacePlan face = face_of(1);
@@ -237,19 +238,19 @@ TEST(AttachmentDraw, LeavesAllWithoutAKindThatNobodyWears) {
 }
 
 TEST(AttachmentDraw, ServesQuotasExactlyInEachGroup) {
-  AttachmentDraw draw = draw_of({{"round", "glasses", {}, 1, {}},
-                                 {"full", "beard", {"male"}, 1, {}},
-                                 {"bob", "hair", {}, 1, {}, "blond"},
-                                 {"bun", "hair", {}, 1, {}, "black"}});
+  AttachmentOptions draw = draw_of({{"round", "glasses", {}, 1, {}},
+                                    {"full", "beard", {"male"}, 1, {}},
+                                    {"bob", "hair", {}, 1, {}, "blond"},
+                                    {"bun", "hair", {}, 1, {}, "black"}});
   draw.quotas = {{"glasses", 0.25}, {"beard", 0.5}, {"blond", 0.1}};
   std::vector<FacePlan> crowd = crowd_of(240);
-  draw_attachments(draw, groups_of(crowd), crowd);
+  choose_attachments(draw, groups_of(crowd), crowd);
   EXPECT_EQ(count(crowd, "round"), 60U);
   EXPECT_EQ(count(crowd, "full"), 60U) << "half of the men";
   EXPECT_EQ(count(crowd, "bob"), 24U);
   EXPECT_EQ(count(crowd, "bun"), 216U) << "those whom a colour's quota passes over wear another";
   std::vector<FacePlan> small = crowd_of(100);
-  draw_attachments(draw, groups_of(small), small);
+  choose_attachments(draw, groups_of(small), small);
   for (std::size_t i = 0; i < small.size(); ++i) {
     EXPECT_EQ(small[i].attachments, crowd[i].attachments) << "a larger crowd moves nobody";
   }
@@ -263,13 +264,13 @@ TEST(AttachmentDraw, ServesQuotasExactlyInEachGroup) {
 }
 
 TEST(AttachmentDraw, GivesOneFaceOneColour) {
-  const AttachmentDraw draw = draw_of({{"quiff", "hair", {}, 1, {}, "black"},
-                                       {"mop", "hair", {}, 1, {}, "brown"},
-                                       {"full", "beard", {}, 1, {}, "black"},
-                                       {"goatee", "beard", {}, 1, {}, "brown"},
-                                       {"red", "brow", {}, 1, {}, "red"}});
+  const AttachmentOptions draw = draw_of({{"quiff", "hair", {}, 1, {}, "black"},
+                                          {"mop", "hair", {}, 1, {}, "brown"},
+                                          {"full", "beard", {}, 1, {}, "black"},
+                                          {"goatee", "beard", {}, 1, {}, "brown"},
+                                          {"red", "brow", {}, 1, {}, "red"}});
   std::vector<FacePlan> crowd = crowd_of(60);
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   for (const FacePlan& face : crowd) {
     EXPECT_THAT(face.attachments, ::testing::AnyOf(ElementsAre("quiff", "full", "red"),
                                                    ElementsAre("mop", "goatee", "red")));
@@ -289,7 +290,7 @@ FacePlan child_of(std::vector<SourceWeight> shares, std::vector<std::string> par
 }
 
 TEST(AttachmentDraw, GoesByWhatMostOfAMixtureIs) {
-  AttachmentDraw draw =
+  AttachmentOptions draw =
       draw_of({{"bob", "hair", {"female"}, 1, {}}, {"crop", "hair", {"male"}, 1, {}}});
   draw.tags = {{"female", "young"}, {"male", "old"}, {"female", "young"}};
   // The man has the largest share, but women have more.
@@ -302,10 +303,10 @@ TEST(AttachmentDraw, GoesByWhatMostOfAMixtureIs) {
 }
 
 TEST(AttachmentDraw, ChildrenHaveAParentsColourWhateverTheirHeadHas) {
-  AttachmentDraw draw = draw_of({{"bob_red", "hair", {"female", "red_hair"}, 1, {}, "red"},
-                                 {"bob_black", "hair", {"female", "black_hair"}, 1, {}, "black"},
-                                 {"bob_grey", "hair", {"female", "grey_hair"}, 1, {}, "grey"},
-                                 {"crop_red", "hair", {"male", "red_hair"}, 1, {}, "red"}});
+  AttachmentOptions draw = draw_of({{"bob_red", "hair", {"female", "red_hair"}, 1, {}, "red"},
+                                    {"bob_black", "hair", {"female", "black_hair"}, 1, {}, "black"},
+                                    {"bob_grey", "hair", {"female", "grey_hair"}, 1, {}, "grey"},
+                                    {"crop_red", "hair", {"male", "red_hair"}, 1, {}, "red"}});
   draw.tags = {{"female", "red_hair"},
                {"male", "red_hair"},
                {"female", "black_hair"},
@@ -324,17 +325,17 @@ TEST(AttachmentDraw, ChildrenHaveAParentsColourWhateverTheirHeadHas) {
   // Faces that are parents, by what they wear.
   FacePlan mother = face_of(1, 0);
   std::vector<FacePlan> crowd = {mother, child_of({{2, 1}}, {mother.id, "eve"})};
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   EXPECT_THAT(crowd[1].attachments, ElementsAre("bob_red"));
 }
 
 TEST(AttachmentDraw, LetsColoursRunInFamilies) {
-  const AttachmentDraw draw = draw_of({{"bob", "hair", {"female"}, 1, {}, "black"},
-                                       {"braid", "hair", {"female"}, 1, {}, "red"},
-                                       {"bun", "hair", {"female"}, 1, {}, "blond"},
-                                       {"quiff", "hair", {"male"}, 1, {}, "black"},
-                                       {"mop", "hair", {"male"}, 1, {}, "red"},
-                                       {"rim", "hair", {"male", "old"}, 1, {}, "grey"}});
+  const AttachmentOptions draw = draw_of({{"bob", "hair", {"female"}, 1, {}, "black"},
+                                          {"braid", "hair", {"female"}, 1, {}, "red"},
+                                          {"bun", "hair", {"female"}, 1, {}, "blond"},
+                                          {"quiff", "hair", {"male"}, 1, {}, "black"},
+                                          {"mop", "hair", {"male"}, 1, {}, "red"},
+                                          {"rim", "hair", {"male", "old"}, 1, {}, "grey"}});
   const auto colour_of = [&](const FacePlan& face) {
     return std::find_if(draw.items.begin(), draw.items.end(),
                         [&](const auto& item) { return item.name == face.attachments.at(0); })
@@ -359,7 +360,7 @@ TEST(AttachmentDraw, LetsColoursRunInFamilies) {
     }
     for (int twin = 0; twin < 3; ++twin)
       add("_alone" + std::to_string(twin), 0).family = name + "b";
-    draw_attachments(draw, {}, crowd);
+    choose_attachments(draw, {}, crowd);
     const std::string mother = colour_of(crowd[0]), father = colour_of(crowd[1]);
     for (std::size_t child = 2; child < 6; ++child) {
       const std::string own = colour_of(crowd[child]);
@@ -382,8 +383,8 @@ AttachmentItem tinted_item(const std::string& name, const std::string& kind = "h
 }
 
 /// Four heads: a brown-haired and a red-haired woman, and two old women.
-AttachmentDraw hair_draw() {
-  AttachmentDraw draw{7, {tinted_item("bob"), tinted_item("bun"), tinted_item("long")}, {}, {}};
+AttachmentOptions hair_draw() {
+  AttachmentOptions draw{7, {tinted_item("bob"), tinted_item("bun"), tinted_item("long")}, {}, {}};
   draw.tags = {{"female", "young", "brown_hair"},
                {"female", "young", "red_hair"},
                {"female", "old", "brown_hair"},
@@ -400,10 +401,10 @@ std::vector<FacePlan> hair_crowd(std::uint64_t faces) {
 
 TEST(HairColour, IsOfFacesThatMayWearATint) {
   std::vector<FacePlan> crowd = crowd_of(4);
-  draw_attachments(draw_of({{"bob", "hair", {}, 1, {}}}), {}, crowd);
+  choose_attachments(draw_of({{"bob", "hair", {}, 1, {}}}), {}, crowd);
   EXPECT_FALSE(crowd[0].hair);
   crowd = hair_crowd(40);
-  draw_attachments(hair_draw(), {}, crowd);
+  choose_attachments(hair_draw(), {}, crowd);
   double young = 0, old = 0;
   for (const FacePlan& face : crowd) {
     ASSERT_TRUE(face.hair);
@@ -414,7 +415,7 @@ TEST(HairColour, IsOfFacesThatMayWearATint) {
   EXPECT_EQ(young, 0);
   EXPECT_GT(old, 0.5);
   std::vector<FacePlan> larger = hair_crowd(90);
-  draw_attachments(hair_draw(), {}, larger);
+  choose_attachments(hair_draw(), {}, larger);
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     EXPECT_EQ(larger[i].hair, crowd[i].hair);
     EXPECT_EQ(larger[i].attachments, crowd[i].attachments);
@@ -429,7 +430,7 @@ TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
       face.recipe.target = 0;  // young
       face.age = age;
     }
-    draw_attachments(hair_draw(), {}, crowd);
+    choose_attachments(hair_draw(), {}, crowd);
     double sum = 0;
     for (const FacePlan& face : crowd) sum += face.hair->grey / 200;
     return sum;
@@ -440,7 +441,7 @@ TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
 }
 
 TEST(HairColour, FollowsSharesExactlyInEachGroup) {
-  AttachmentDraw draw = hair_draw();
+  AttachmentOptions draw = hair_draw();
   draw.hair_colours = {{"", {{"blond", 0.3}}}, {"clan", {{"black", 1}}}};
   std::vector<FacePlan> crowd = hair_crowd(100);
   std::vector<int> groups;
@@ -450,7 +451,7 @@ TEST(HairColour, FollowsSharesExactlyInEachGroup) {
     face.group = clan ? "clan" : "others";
     groups.push_back(clan ? 1 : 0);
   }
-  draw_attachments(draw, groups, crowd);
+  choose_attachments(draw, groups, crowd);
   int blond = 0, grey = 0;
   for (const FacePlan& face : crowd) {
     if (*face.group == "clan") {
@@ -467,7 +468,7 @@ TEST(HairColour, FollowsSharesExactlyInEachGroup) {
 
 // Each group rounded down its part: of forty faces, four were red-haired where eight were asked.
 TEST(HairColour, FollowsSharesOverAllGroupsAndAllWhoHaveNoParents) {
-  AttachmentDraw draw = hair_draw();
+  AttachmentOptions draw = hair_draw();
   draw.tags = {{"young"}, {"young"}};
   draw.hair_colours = {{"", {{"red", 0.2}, {"brown", 0.4}, {"black", 0.4}}}};
   for (draw.seed = 1; draw.seed <= 20; ++draw.seed) {
@@ -482,7 +483,7 @@ TEST(HairColour, FollowsSharesOverAllGroupsAndAllWhoHaveNoParents) {
       groups.push_back(i <= 14 ? 0 : i <= 28 ? 1 : 2);
       face.group = std::to_string(groups.back());
     }
-    draw_attachments(draw, groups, crowd);
+    choose_attachments(draw, groups, crowd);
     const auto red = [](const FacePlan& face) { return face.hair->pheomelanin > 0.5; };
     EXPECT_EQ(std::ranges::count_if(crowd, red), 8) << draw.seed;
     const std::vector<FacePlan> before = crowd;
@@ -490,17 +491,17 @@ TEST(HairColour, FollowsSharesOverAllGroupsAndAllWhoHaveNoParents) {
       crowd.push_back(face_of(i, 0));
       groups.push_back(-1);
     }
-    draw_attachments(draw, groups, crowd);
+    choose_attachments(draw, groups, crowd);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(crowd[i].hair, before[i].hair);
   }
 }
 
 // Two of thirteen old people were grey in a crowd with hair_colours.
 TEST(HairColour, ThatIsAskedForGreysWithAge) {
-  AttachmentDraw draw = hair_draw();
+  AttachmentOptions draw = hair_draw();
   draw.hair_colours = {{"", {{"red", 1}}}};
   std::vector<FacePlan> crowd = hair_crowd(40);
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   int grey = 0;
   for (const FacePlan& face : crowd) {
     EXPECT_NEAR(face.hair->pheomelanin, 0.8, 0.11);
@@ -519,7 +520,7 @@ TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {
     child.parents = {"ann", "dot"};  // brown, and red that age has made grey
     child.recipe.target = 2;         // has the tag old, which makes the child's own hair grey
     std::vector<FacePlan> crowd = {child};
-    draw_attachments(hair_draw(), {}, crowd);
+    choose_attachments(hair_draw(), {}, crowd);
     const HairColour hair = *crowd[0].hair;
     EXPECT_GE(hair.eumelanin, 0.2);
     EXPECT_LE(hair.eumelanin, 0.55);
@@ -530,7 +531,7 @@ TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {
 }
 
 TEST(HairColour, OfTwinsIsTheSame) {
-  AttachmentDraw draw = hair_draw();
+  AttachmentOptions draw = hair_draw();
   draw.twins = {"clan"};
   std::vector<FacePlan> crowd(2);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -539,13 +540,13 @@ TEST(HairColour, OfTwinsIsTheSame) {
     crowd[i].parents = {"cyd", "dot"};
     crowd[i].recipe.target = 3;
   }
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   EXPECT_EQ(crowd[0].hair, crowd[1].hair);
 }
 
 TEST(AttachmentDraw, UsesAllThatFitBeforeItRepeatsOne) {
   std::vector<FacePlan> crowd = hair_crowd(30);
-  draw_attachments(hair_draw(), {}, crowd);
+  choose_attachments(hair_draw(), {}, crowd);
   for (std::size_t i = 0; i + 3 <= crowd.size(); i += 3) {
     std::set<std::string> worn;
     for (std::size_t k = i; k < i + 3; ++k) worn.insert(crowd[k].attachments.at(0));
@@ -556,26 +557,26 @@ TEST(AttachmentDraw, UsesAllThatFitBeforeItRepeatsOne) {
 }
 
 TEST(AttachmentDraw, NeighboursDoNotShareCutAndColour) {
-  AttachmentDraw draw = hair_draw();
+  AttachmentOptions draw = hair_draw();
   draw.items[0].share = 50;  // nearly everybody would wear it
   std::vector<FacePlan> crowd = hair_crowd(60);
   for (FacePlan& face : crowd) face.recipe.target = 0;
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   for (std::size_t i = 1; i < crowd.size(); ++i) {
     EXPECT_NE(crowd[i].attachments, crowd[i - 1].attachments) << crowd[i].id;
   }
   draw.items.resize(1);  // unless nothing else fits
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   EXPECT_EQ(count(crowd, "bob"), 60U);
 }
 
 TEST(AttachmentDraw, LeavesOutWhoseTagsAreExcluded) {
-  AttachmentDraw draw = hair_draw();
+  AttachmentOptions draw = hair_draw();
   for (AttachmentItem& item : draw.items) {
     if (item.name != "bun") item.without = {"old"};
   }
   std::vector<FacePlan> crowd = hair_crowd(12);
-  draw_attachments(draw, {}, crowd);
+  choose_attachments(draw, {}, crowd);
   for (const FacePlan& face : crowd) {
     if (face.recipe.target < 2) continue;
     EXPECT_THAT(face.attachments, ElementsAre("bun"));

@@ -15,8 +15,8 @@ using ::testing::ElementsAre;
 constexpr Index kHeads = 6;
 
 /// Heads 0 to 2 are women, 3 to 5 men; 0 and 3 are pale.
-ColourDraw six_heads() {
-  ColourDraw draw;
+ColourOptions six_heads() {
+  ColourOptions draw;
   draw.seed = 5;
   draw.heads = {"a", "b", "c", "d", "e", "f"};
   draw.tags = {{"pale", "woman"}, {"woman"}, {"woman"}, {"man", "pale"}, {"man"}, {"man"}};
@@ -52,7 +52,7 @@ TEST(ColourDraw, AreThoseOfHeadsWithTheSameTagsEachAsOften) {
   std::vector<FacePlan> crowd;
   constexpr std::uint64_t kFaces = 3000;
   for (std::uint64_t i = 1; i <= kFaces; ++i) crowd.push_back(face_on(i % 2 == 0 ? 1 : 4, i));
-  draw_colours(six_heads(), crowd);
+  choose_colours(six_heads(), crowd);
   std::map<Index, int> first;
   for (const FacePlan& face : crowd) {
     const auto& colours = face.recipe.colours;
@@ -69,10 +69,10 @@ TEST(ColourDraw, AreThoseOfHeadsWithTheSameTagsEachAsOften) {
 }
 
 TEST(ColourDraw, WithoutAListAllTagsCountAndWithoutTagsNone) {
-  ColourDraw draw = six_heads();
+  ColourOptions draw = six_heads();
   draw.alike.reset();
   std::vector<FacePlan> crowd = {face_on(0, 1), face_on(5, 2)};
-  draw_colours(draw, crowd);
+  choose_colours(draw, crowd);
   EXPECT_THAT(crowd[0].recipe.colours, ElementsAre(SourceWeight{0, 1})) << "no other is like her";
   for (const SourceWeight& one : crowd[1].recipe.colours) EXPECT_GE(one.head, 4);
 
@@ -80,7 +80,7 @@ TEST(ColourDraw, WithoutAListAllTagsCountAndWithoutTagsNone) {
   std::map<Index, int> seen;
   for (std::uint64_t i = 1; i <= 200; ++i) {
     std::vector<FacePlan> one = {face_on(0, i)};
-    draw_colours(draw, one);
+    choose_colours(draw, one);
     for (const SourceWeight& part : one[0].recipe.colours) ++seen[part.head];
   }
   EXPECT_EQ(seen.size(), 6U);
@@ -90,19 +90,19 @@ TEST(ColourDraw, NoFaceMattersToAnother) {
   std::vector<FacePlan> few, many;
   for (std::uint64_t i = 1; i <= 20; ++i) many.push_back(face_on(static_cast<Index>(i % 6), i));
   few.assign(many.begin() + 7, many.begin() + 12);
-  draw_colours(six_heads(), few);
-  draw_colours(six_heads(), many);
+  choose_colours(six_heads(), few);
+  choose_colours(six_heads(), many);
   for (std::size_t i = 0; i < few.size(); ++i) {
     EXPECT_EQ(few[i].recipe.colours, many[i + 7].recipe.colours);
   }
   std::vector<FacePlan> drawn_again = {face_on(1, 3)};
   drawn_again[0].notes.attempt = 4;
-  draw_colours(six_heads(), drawn_again);
+  choose_colours(six_heads(), drawn_again);
   EXPECT_NE(drawn_again[0].recipe.colours, many[2].recipe.colours);
 }
 
 TEST(ColourDraw, AFamilyHasOneComplexionAndAChildHasHalfOfEitherParents) {
-  ColourDraw draw = six_heads();
+  ColourOptions draw = six_heads();
   draw.alike = std::vector<std::string>{};
   std::vector<FacePlan> crowd = {face_on(0, 1),
                                  face_on(4, 2),
@@ -111,7 +111,7 @@ TEST(ColourDraw, AFamilyHasOneComplexionAndAChildHasHalfOfEitherParents) {
                                  relative("child", 5, "children", {"face_1", "face_2"}),
                                  relative("ward", 5, "wards", {"face_1", "b"}),
                                  relative("grandchild", 5, "grandchildren", {"child", "child"})};
-  draw_colours(draw, crowd);
+  choose_colours(draw, crowd);
   EXPECT_EQ(crowd[2].recipe.colours, crowd[3].recipe.colours);
   std::map<Index, double> half;
   for (const std::size_t parent : {0U, 1U}) {
@@ -132,7 +132,7 @@ TEST(ColourDraw, ASonHasNoneOfHisMothersThatASonCannotHave) {
   std::vector<FacePlan> crowd = {face_on(0, 1), face_on(3, 2),
                                  relative("son", 5, "sons", {"face_1", "face_2"}),
                                  relative("boy", 5, "boys", {"face_1", "face_1"})};
-  draw_colours(six_heads(), crowd);
+  choose_colours(six_heads(), crowd);
   EXPECT_EQ(crowd[2].recipe.colours, crowd[1].recipe.colours);
   for (const SourceWeight& one : crowd[3].recipe.colours) EXPECT_GE(one.head, 3);
 }
@@ -142,7 +142,7 @@ TEST(ColourDraw, WhatIsWrittenByHandStaysAndIsHandedDown) {
   written.family.reset();
   written.recipe.colours = {{1, 0.25}, {2, 0.75}};
   std::vector<FacePlan> crowd = {written, relative("child", 1, "c", {"anna", "anna"})};
-  draw_colours(six_heads(), crowd);
+  choose_colours(six_heads(), crowd);
   EXPECT_EQ(crowd[0].recipe.colours, written.recipe.colours);
   EXPECT_EQ(crowd[1].recipe.colours, written.recipe.colours);
 }

@@ -46,7 +46,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
   casting.groups = {group};
   const FaceKind kind = kind_of_group(casting, 0);
   for (std::uint64_t index = 1; index <= 50; ++index) {
-    const FacePlan face = draw_face(casting, index, 0, kind);
+    const FacePlan face = random_face(casting, index, 0, kind);
     EXPECT_EQ(face.group, "elderly");
     EXPECT_TRUE(face.recipe.target == 1 || face.recipe.target == 3);
     for (const RegionRecipe& region : face.recipe.regions) {
@@ -55,7 +55,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
         EXPECT_TRUE(source.head == 1 || source.head == 3);
       }
     }
-    EXPECT_FALSE(draw_face(casting, index, 0, kind_of_group(casting)).group)
+    EXPECT_FALSE(random_face(casting, index, 0, kind_of_group(casting)).group)
         << "of none: by the numbers of the crowd";
   }
 }
@@ -63,7 +63,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
 TEST(Ageing, CanBeTakenBack) {
   CastingOptions casting = example();
   casting.sampling.old_heads = {1, 4};
-  const FacePlan young = draw_face(casting, 7, 0, kind_of_group(casting));
+  const FacePlan young = random_face(casting, 7, 0, kind_of_group(casting));
   FacePlan face = young;
   apply_age(face, 0.4, {casting.anchors, casting.tags}, casting.sampling);
   take_back_age(face, {casting.anchors, casting.tags}, casting.sampling);
@@ -155,7 +155,7 @@ TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
   hand.regions[0].extrapolation = Range{0.7, 0.7};
   hand.regions[0].bands.resize(3);
   hand.regions[0].bands[2].weights = {{1, 1}};
-  const RegionRecipe region = draw_manual_recipe(casting, hand).recipe.regions[0];
+  const RegionRecipe region = complete_recipe(casting, hand).recipe.regions[0];
   const std::vector<SourceWeight> halves = {{0, 0.5}, {3, 0.5}};
   EXPECT_EQ(region.weights, halves);
   EXPECT_EQ(region.finer[0].weights, halves);
@@ -170,7 +170,7 @@ TEST(Bands, BeginNoHigherThanTheBandBefore) {
   hand.regions.resize(2);
   hand.regions[0].smoothness =
       SmoothnessDistribution{SmoothnessDistribution::Unit::kFraction, {0.05, 0.05}};
-  const RegionRecipe region = draw_manual_recipe(casting, hand).recipe.regions[0];
+  const RegionRecipe region = complete_recipe(casting, hand).recipe.regions[0];
   EXPECT_EQ(region.iterations, 50U);
   EXPECT_EQ(region.finer[0].iterations, 50U);
   EXPECT_EQ(region.finer[1].iterations, 10U);
@@ -215,8 +215,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
 /// Hand-written recipes, then the first draw of each face.
 std::vector<FacePlan> draw_crowd(const CastingOptions& casting) {
   std::vector<FacePlan> crowd;
-  for (const ManualRecipe& hand : casting.recipes)
-    crowd.push_back(draw_manual_recipe(casting, hand));
+  for (const ManualRecipe& hand : casting.recipes) crowd.push_back(complete_recipe(casting, hand));
   for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_any_face(casting, i));
   return crowd;
 }

@@ -30,7 +30,7 @@ TEST(Likeness, OfNobodyIsEmpty) {
 TEST(Likeness, OfOneFaceIsThatFace) {
   const Likeness likeness = find_likeness({place_at(1, 2)}, 4);
   EXPECT_EQ(likeness.order, std::vector<std::size_t>{0});
-  EXPECT_TRUE(likeness.near[0].empty());
+  EXPECT_TRUE(likeness.neighbours[0].empty());
 }
 
 TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
@@ -42,8 +42,8 @@ TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
       if (other != face) mm.push_back(FaceSpace::distance(points[face], points[other]));
     }
     std::sort(mm.begin(), mm.end());
-    ASSERT_EQ(likeness.near[face].size(), 5U);
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(likeness.near[face][k].mm, mm[k]);
+    ASSERT_EQ(likeness.neighbours[face].size(), 5U);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(likeness.neighbours[face][k].mm, mm[k]);
   }
 }
 
@@ -87,7 +87,7 @@ TEST(Likeness, OrderIsThatOfASearchThroughAll) {
     }
     std::sort(all.begin(), all.end());
     for (std::size_t k = 0; k < 6; ++k) {
-      EXPECT_EQ(likeness.near[face][k].face, all[k].second) << face << ", number " << k;
+      EXPECT_EQ(likeness.neighbours[face][k].face, all[k].second) << face << ", number " << k;
     }
   }
 }
@@ -105,8 +105,8 @@ TEST(Likeness, FacesThatAreEachOthersNearestStandSideBySide) {
   for (std::size_t i = 0; i < 300; ++i) point[likeness.order[i]] = i;
   int pairs = 0;
   for (std::size_t face = 0; face < 300; ++face) {
-    const std::size_t other = likeness.near[face][0].face;
-    if (likeness.near[other][0].face != face) continue;
+    const std::size_t other = likeness.neighbours[face][0].face;
+    if (likeness.neighbours[other][0].face != face) continue;
     ++pairs;
     EXPECT_EQ(std::max(point[face], point[other]) - std::min(point[face], point[other]), 1U);
   }

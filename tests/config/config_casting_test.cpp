@@ -68,7 +68,7 @@ TEST_F(ConfigTest, GroupsTakeWhatTheyDoNotSayFromSampling) {
   EXPECT_EQ(rest.sampling.max_sources, 2);
   const FamilyOptions& kin = config->families[0];
   EXPECT_EQ(kin.group, 1U);
-  EXPECT_TRUE(kin.parents[0].drawn);
+  EXPECT_TRUE(kin.parents[0].is_new);
   EXPECT_EQ(kin.parents[0].id, "kin_mother");
   EXPECT_FALSE(kin.parents[0].group);
   EXPECT_EQ(kin.parents[1].group, 0U);
@@ -346,9 +346,9 @@ TEST_F(ConfigTest, MirroringIsReadAndWritten) {
            "recipes: [{id: mine, asymmetry: 0.3, mirrored: true}, {id: open}]\n");
   ASSERT_TRUE(config) << told();
   EXPECT_EQ(config->sampling.asymmetry, (Range{0.5, 1.2}));
-  EXPECT_EQ(config->sampling.mirror, Mirroring::kDrawn);
+  EXPECT_EQ(config->sampling.mirror, Mirroring::kRandom);
   EXPECT_EQ(config->groups[0].sampling.asymmetry, (Range{0, 0}));
-  EXPECT_EQ(config->groups[0].sampling.mirror, Mirroring::kDrawn) << "as in sampling";
+  EXPECT_EQ(config->groups[0].sampling.mirror, Mirroring::kRandom) << "as in sampling";
   EXPECT_FALSE(mirrors(config->groups[1].sampling));
   EXPECT_EQ(config->recipes[0].asymmetry, (Range{0.3, 0.3}));
   EXPECT_EQ(config->recipes[0].mirrored, true);

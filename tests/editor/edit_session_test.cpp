@@ -284,7 +284,7 @@ TEST(EditSession, TellsFaultsOfTheWholeMesh) {
 
 TEST(EditSession, DrawsAnewButForWhatIsLocked) {
   const Editor editor("basis");
-  DrawRequest request{editor.face(some_recipe()), {1}, std::nullopt};
+  SampleRequest request{editor.face(some_recipe()), {1}, std::nullopt};
   request.count = 3;
   const std::vector<FacePlan> faces = editor.session->draw(request);
   ASSERT_EQ(faces.size(), 3U);
@@ -310,7 +310,7 @@ TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
   recipe["regions"]["top"] = Json::parse(R"({"weights": {"head_0": 1}, "smoothness": 1,
     "bands": {"skin": {"weights": {"head_2": 1}, "smoothness": 0.9}}})");
   constexpr std::size_t kSkinOfTop = 1;
-  DrawRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
+  SampleRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
   request.count = 3;
   const BandRecipe& locked = request.from.recipe.regions[0].finer[0];
   for (const FacePlan& face : editor.session->draw(request)) {
@@ -324,7 +324,7 @@ TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
 
 TEST(EditSession, FacesLikeAnotherAreNearerToItTheSmallerTheAmount) {
   const Editor editor("basis");
-  DrawRequest request{editor.face(some_recipe()), {}, editor.face(some_recipe())};
+  SampleRequest request{editor.face(some_recipe()), {}, editor.face(some_recipe())};
   request.amount = 0;
   const FacePlan same = editor.session->draw(request).front();
   EXPECT_EQ(same.recipe.regions[0].position, request.like->recipe.regions[0].position);

@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::size_t face : known.likeness.order) {
       if (face >= ids.size()) std::abort();
     }
-    for (const auto& near : known.likeness.near) {
+    for (const auto& near : known.likeness.neighbours) {
       for (const auto& neighbour : near) {
         if (neighbour.face >= ids.size()) std::abort();
       }

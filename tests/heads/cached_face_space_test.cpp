@@ -42,9 +42,9 @@ SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
     }
     sampled.mean += head / 4;
     sampled.heads.push_back(head);
-    sampled.own.push_back(trajectory);
+    sampled.owned_trajectories.push_back(trajectory);
   }
-  sampled.trajectories = sampled.own;
+  sampled.trajectories = sampled.owned_trajectories;
   sampled.alpha = Columns(kSamples, 2);
   for (Index s = 0; s < kSamples; ++s) {
     sampled.alpha(s, 0) = static_cast<double>(s) / kSamples;

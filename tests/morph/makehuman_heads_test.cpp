@@ -54,7 +54,7 @@ TEST_F(StandIn, HeadsAreTheWeightedSumOfTargets) {
   const MakeHumanMesh mesh =
       read_makehuman_mesh(folder_ / "public/data/models/human_full_size.json");
   Positions expected = mesh.head.positions;
-  for (const TargetWeight& target : makehuman_targets(draw_makehuman_person(3, 5), 3, 5)) {
+  for (const TargetWeight& target : makehuman_targets(random_makehuman_person(3, 5), 3, 5)) {
     const auto place =
         std::ranges::find(files_.targets, "data/targets/" + target.target + ".target");
     ASSERT_NE(place, files_.targets.end()) << target.target;
@@ -103,7 +103,7 @@ TEST_F(StandIn, DamagedPackagesAreRefused) {
 TEST(MakeHumanPerson, SharesSumToOneAndPeopleDiffer) {
   int men = 0, old = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
-    const MakeHumanPerson person = draw_makehuman_person(1, i);
+    const MakeHumanPerson person = random_makehuman_person(1, i);
     men += person.male ? 1 : 0;
     old += person.years >= 55 ? 1 : 0;
     EXPECT_NEAR(person.ancestry[0] + person.ancestry[1] + person.ancestry[2], 1, 1e-14);
@@ -128,7 +128,7 @@ TEST(MakeHumanTargets, EachIsNamedOnceAndNoneIsUnannounced) {
   EXPECT_GT(announced.size(), 200U);
   for (std::uint64_t i = 0; i < 50; ++i) {
     std::set<std::string> seen;
-    for (const TargetWeight& target : makehuman_targets(draw_makehuman_person(4, i), 4, i)) {
+    for (const TargetWeight& target : makehuman_targets(random_makehuman_person(4, i), 4, i)) {
       EXPECT_TRUE(announced.contains(target.target)) << target.target;
       EXPECT_TRUE(seen.insert(target.target).second) << target.target;
     }

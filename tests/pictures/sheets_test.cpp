@@ -108,8 +108,8 @@ TEST(LikenessFile, ReadsBackWhatWasWritten) {
   const CrowdLikeness read = read_likeness(path, names, ids);
   EXPECT_EQ(read.anchors[1], likeness.anchors[1]);
   EXPECT_EQ(read.likeness.order, likeness.likeness.order);
-  EXPECT_EQ(read.likeness.near[2][1].face, 1U);
-  EXPECT_EQ(read.likeness.near[2][1].mm, 4);
+  EXPECT_EQ(read.likeness.neighbours[2][1].face, 1U);
+  EXPECT_EQ(read.likeness.neighbours[2][1].mm, 4);
   testing::expect_error(ExitCode::kBadData, {"likeness.json"}, [&] {
     read_likeness(path, names, {"a", "b", "d"});
   });

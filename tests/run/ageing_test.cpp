@@ -35,7 +35,7 @@ class TenPeople {
       const Mesh mesh{synthetic.topology(), synthetic.positions(kSeed, h), synthetic.uvs()};
       const std::string name = concat("head_", 10 + h);
       encode_obj(mesh, "").write(folder_ / concat("heads/", name, ".obj"));
-      const synth::Person person = synth::draw_person(kSeed, h);
+      const synth::Person person = synth::random_person(kSeed, h);
       const char* age = person.age < 35 ? "young" : person.age < 55 ? "adult" : "old";
       tags_ += concat(h > 1 ? ", " : "", name, ": [", person.male > 0 ? "male" : "female", ", ",
                       age, "]");

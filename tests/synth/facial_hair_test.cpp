@@ -75,8 +75,8 @@ TEST(FacialHair, BrowsRiseLittleFromTheNose) {
 TEST(Complexion, MostWomenWearNoLipstickAndNoMan) {
   double women = 0, painted = 0;
   for (std::uint64_t i = 0; i < 1000; ++i) {
-    const bool wears = draw_complexion(1, i).lipstick > 0.1;
-    if (draw_person(1, i).male > 0) {
+    const bool wears = random_complexion(1, i).lipstick > 0.1;
+    if (random_person(1, i).male > 0) {
       EXPECT_FALSE(wears) << i;
       continue;
     }

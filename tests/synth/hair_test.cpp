@@ -34,7 +34,7 @@ TEST(Hair, IsThickOnTheCrownUnlessItWentWithTheYears) {
   int bald = 0;
   for (std::uint64_t h = 0; h < kHeads; ++h) {
     const Hair hair(kSeed, h);
-    const double receding = draw_complexion(kSeed, h).receding;
+    const double receding = random_complexion(kSeed, h).receding;
     if (receding > 0.9) {
       ++bald;
       EXPECT_LT(hair.thickness(kCrown), 0.05) << h;
@@ -51,7 +51,7 @@ TEST(Hair, SomeWomenWearItLongAndNoMan) {
   int women = 0;
   for (std::uint64_t h = 0; h < kHeads; ++h) {
     const bool falls = Hair(kSeed, h).thickness(kBehindEar) > 1;
-    if (draw_person(kSeed, h).male > 0) {
+    if (random_person(kSeed, h).male > 0) {
       EXPECT_FALSE(falls) << h;
     }
     women += falls ? 1 : 0;

@@ -132,7 +132,7 @@ TEST(Measures, AreManyAndEachIsDrawnForItself) {
 TEST(Person, SexesAndAgesAreAllThere) {
   int men = 0, old = 0, young = 0;
   for (std::uint64_t i = 0; i < kPeople; ++i) {
-    const Person person = draw_person(kPeopleSeed, i);
+    const Person person = random_person(kPeopleSeed, i);
     men += person.male > 0 ? 1 : 0;
     old += person.age >= 55 ? 1 : 0;
     young += person.age < 35 ? 1 : 0;

@@ -14,7 +14,7 @@ constexpr std::uint64_t kReliefSeed = 5;
 std::vector<std::uint64_t> old_heads() {
   std::vector<std::uint64_t> heads;
   for (std::uint64_t h = 0; h < 60; ++h) {
-    if (draw_person(kReliefSeed, h).age > 62) heads.push_back(h);
+    if (random_person(kReliefSeed, h).age > 62) heads.push_back(h);
   }
   return heads;
 }

@@ -87,7 +87,7 @@ TEST(SyntheticSkins, EveryToneOccursAndShows) {
   std::array<bool, 5> seen{};
   double lightest = 0, darkest = 255;
   for (std::uint64_t i = 0; i < 10; ++i) {
-    const double tone = synth::draw_complexion(1, i).tone;
+    const double tone = synth::random_complexion(1, i).tone;
     seen[static_cast<std::size_t>(5 * tone)] = true;
     const double light = colour_near(skins().albedo(1, i), kForehead, 1.5).mean();
     lightest = std::max(lightest, light);
@@ -125,7 +125,7 @@ TEST(SyntheticSkins, LipsAreRedderThanTheForeheadAndCheeksAreNotGrey) {
 /// The first head of seed 1 of this sex within these ages.
 std::uint64_t head_of(bool male, double from, double to) {
   for (std::uint64_t i = 0; i < 200; ++i) {
-    const synth::Person person = synth::draw_person(1, i);
+    const synth::Person person = synth::random_person(1, i);
     if ((person.male > 0) == male && person.age >= from && person.age < to) return i;
   }
   ADD_FAILURE() << "no such head";
@@ -139,14 +139,14 @@ TEST(SyntheticSkins, MenHaveBeardsAndWomenHaveNone) {
   };
   std::optional<std::uint64_t> bearded;
   for (std::uint64_t i = 0; i < 100 && !bearded; ++i) {
-    if (synth::draw_complexion(1, i).beard == 1 && synth::draw_complexion(1, i).tone < 0.5)
+    if (synth::random_complexion(1, i).beard == 1 && synth::random_complexion(1, i).tone < 0.5)
       bearded = i;
   }
   ASSERT_TRUE(bearded);
   EXPECT_LT(chin_against_forehead(*bearded), 0.8);
   for (std::uint64_t i = 0; i < 40; ++i) {
-    if (synth::draw_person(1, i).male > 0) continue;
-    EXPECT_EQ(synth::draw_complexion(1, i).beard, 0) << i;
+    if (synth::random_person(1, i).male > 0) continue;
+    EXPECT_EQ(synth::random_complexion(1, i).beard, 0) << i;
   }
   EXPECT_GT(chin_against_forehead(head_of(false, 18, 40)), 0.85);
 }
@@ -154,8 +154,8 @@ TEST(SyntheticSkins, MenHaveBeardsAndWomenHaveNone) {
 TEST(SyntheticSkins, HairGoesGreyAndRecedesWithTheYears) {
   double young = 0, old = 0, receding_young = 0, receding_old = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
-    const synth::Person person = synth::draw_person(1, i);
-    const synth::Complexion look = synth::draw_complexion(1, i);
+    const synth::Person person = synth::random_person(1, i);
+    const synth::Complexion look = synth::random_complexion(1, i);
     if (person.age < 35) young = std::max(young, look.hair.minCoeff());
     if (person.age > 72) old = std::max(old, look.hair.minCoeff());
     if (person.male > 0 && person.age < 30)
@@ -168,7 +168,7 @@ TEST(SyntheticSkins, HairGoesGreyAndRecedesWithTheYears) {
 
 TEST(SyntheticSkins, ScalpHasHairInItsColour) {
   const std::uint64_t woman = head_of(false, 18, 35);
-  const Colour hair = 255 * synth::draw_complexion(1, woman).hair;
+  const Colour hair = 255 * synth::random_complexion(1, woman).hair;
   const Colour crown = colour_near(skins().albedo(1, woman), kCrown, 2.5);
   EXPECT_LT((crown - hair).abs().maxCoeff(), 25);
 }
@@ -179,7 +179,7 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
   const std::vector<synth::SkinPlace> atlas = synth::skin_atlas(kLarge);
   for (std::uint64_t i = 0; i < 4; ++i) {
     const std::vector<std::uint8_t> albedo = large.albedo(1, i);
-    const Colour iris = 255 * synth::draw_complexion(1, i).iris;
+    const Colour iris = 255 * synth::random_complexion(1, i).iris;
     Colour in_iris = Colour::Zero(), white = Colour::Zero();
     double irises = 0, whites = 0;
     for (std::size_t t = 0; t < atlas.size(); ++t) {
@@ -202,8 +202,8 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
 TEST(SyntheticSkins, MenAreShavenStubblyOrBearded) {
   double men = 0, shaven = 0, stubbly = 0, moustaches = 0, bearded = 0;
   for (std::uint64_t i = 0; i < 1000; ++i) {
-    if (synth::draw_person(1, i).male < 0) continue;
-    const synth::Complexion look = synth::draw_complexion(1, i);
+    if (synth::random_person(1, i).male < 0) continue;
+    const synth::Complexion look = synth::random_complexion(1, i);
     ++men;
     shaven += look.moustache < 0.2 ? 1 : 0;
     stubbly += look.moustache > 0.3 && look.moustache < 0.9 ? 1 : 0;
@@ -220,8 +220,8 @@ TEST(SyntheticSkins, EachSexHasEveryTone) {
   for (const bool male : {false, true}) {
     std::array<int, 5> seen{};
     for (std::uint64_t i = 10; i < 20; ++i) {
-      if ((synth::draw_person(4, i).male > 0) != male) continue;
-      ++seen[static_cast<std::size_t>(5 * synth::draw_complexion(4, i).tone)];
+      if ((synth::random_person(4, i).male > 0) != male) continue;
+      ++seen[static_cast<std::size_t>(5 * synth::random_complexion(4, i).tone)];
     }
     EXPECT_EQ(seen, (std::array<int, 5>{1, 1, 1, 1, 1})) << male;
   }

@@ -32,11 +32,12 @@ class AgedHeads {
   }
 
   bool has(Index head) const { return std::ranges::binary_search(heads_, head); }
-  /// Returns the nearest head of the class. A mean of several would have no wrinkles.
+  /// Returns the nearest head of the age class. A mean of several heads would have no wrinkles.
   Index nearest_to(Index head) const {
     return *std::ranges::min_element(heads_, {}, [&](Index other) { return rank(head, other); });
   }
-  /// Moves a fraction of the weight of each head outside the class to the nearest head in it.
+  /// Moves a fraction of the weight of each head outside the age class to the nearest head in the
+  /// class.
   std::vector<SourceWeight> with_moved(const std::vector<SourceWeight>& weights,
                                        double fraction) const {
     std::map<Index, double> sums;
@@ -105,7 +106,7 @@ void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOpt
       const double share = share_of(*face.age, sampling, b);
       known = known && share <= 1 - kRounding;
       if (share == 0 || share > 1 - kRounding) continue;
-      // The weights outside the class were scaled by 1 − share.
+      // The weights outside the age class were scaled by 1 − share.
       std::vector<SourceWeight>& weights = band_of(region, b).weights;
       weights = aged.with_moved(weights, -share / (1 - share));
       std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });

@@ -16,13 +16,13 @@ struct HeadRelations {
 
 /// Ages a face: in every region, the fraction |age| of the weight of each head moves to the nearest
 /// head tagged old (age above 0) or young (below 0); weights of heads with this tag stay. The paper
-/// does the same when it transfers an older person's detail to a younger one (Fig. 2). Nearest is a
-/// head of the same sex, then with the most tags in common, then nearest on the plane: different
-/// people take the detail of different heads, so they remain different people. A band multiplies
-/// the fraction by its `ageing`. The weights no longer correspond to a position, so the positions
-/// are removed.
+/// does the same when it transfers an older person's detail to a younger person (Fig. 2). The
+/// nearest head has the same sex, then the most tags in common, then the smallest distance on the
+/// plane: different people take the detail of different heads, so they remain different people. A
+/// band's `ageing` is a factor on the fraction. The weights no longer correspond to a position, so
+/// the positions are removed.
 ///
-/// \param sampling  of the face's group, or of the crowd.
+/// \param sampling  parameters of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.
 void apply_age(FacePlan& face, double age, const HeadRelations& heads,
                const SamplingOptions& sampling);

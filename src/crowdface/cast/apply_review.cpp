@@ -63,7 +63,7 @@ class Redrawing {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];
     const FamilyPlan* family = family_of(cast_, redraw.face);
-    // Exclude the face's own family: within a family, the family's own distances apply.
+    // Leave out the face's family: within a family, the family's own distances apply.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
@@ -76,22 +76,22 @@ class Redrawing {
     }
     const FamilySeparation family_separation = kinship_without(family, settled);
     const AvoidedChanges changes(cast_, casting_.diversity.min_distance_mm, settled);
-    FaceSearch::Draw draw;
+    FaceSearch::Generate generate;
     const std::vector<FaceSpace::Point> rejected = reject(at);
     FaceSearch::Refuses refuses;
-    std::optional<FamilyDraws> family_draws;
+    std::optional<FamilySampler> family_draws;
     if (family != nullptr) {
       const FamilyOptions& options = options_of(*family);
       family_draws.emplace(casting_, options, judge_, unrelated_, others);
       const int member = static_cast<int>(redraw.face - family->begin) + 1;
-      draw = [&, member](std::uint32_t attempt) {
+      generate = [&, member](std::uint32_t attempt) {
         return family_draws->member(*family, member, attempt);
       };
       refuses = [&](const FaceSpace::Point& point) {
         return family_draws->refuses(*family, point, own, family_separation);
       };
     } else {
-      draw = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
+      generate = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
       refuses = [&](const FaceSpace::Point& point) { return family_separation.refuses(point); };
     }
     const int candidates = old.index ? casting_.diversity.candidates_for(*old.index) : 1;
@@ -99,7 +99,7 @@ class Redrawing {
     Rejections rejections;
     for (const double least : distances_to_rejected(family, own, *redraw.mark)) {
       FaceSearch search(
-          [&](std::uint32_t attempt) { return with_locked(draw(attempt), old, *redraw.mark); },
+          [&](std::uint32_t attempt) { return with_locked(generate(attempt), old, *redraw.mark); },
           judge_, casting_.diversity, candidates, old.notes.attempt + 1);
       found = search.settle(others, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
         for (const FaceSpace::Point& other : rejected) {
@@ -124,7 +124,7 @@ class Redrawing {
  private:
   /// Records that a face was rejected.
   ///
-  /// \return  The points of this face and of all faces rejected in its place before.
+  /// \return  The points of this face and of its earlier rejected versions.
   std::vector<FaceSpace::Point> reject(std::size_t face) {
     cast_.rejected.push_back(cast_.crowd[face]);
     cast_.rejected_from.push_back(cast_.crowd.size());
@@ -170,9 +170,9 @@ class Redrawing {
   FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: redraw the values that it does not specify
       const auto hand = std::ranges::find(casting_.recipes, old.id, &ManualRecipe::id);
-      return draw_manual_recipe(casting_, *hand, attempt);
+      return complete_recipe(casting_, *hand, attempt);
     }
-    return draw_face(casting_, *old.index, attempt, kind_of(*old.index));
+    return random_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
   /// Copies the locked parts of the old face. They require the same target, mirroring and
@@ -182,7 +182,7 @@ class Redrawing {
     if (face.recipe.target != old.recipe.target && old.index) {
       FaceKind kind = kind_of(*old.index);
       kind.targets = {{old.recipe.target, 1}};
-      face = draw_face(casting_, *old.index, face.notes.attempt, kind);
+      face = random_face(casting_, *old.index, face.notes.attempt, kind);
     }
     keep_locked(mark.locked, old.recipe, face.recipe);
     return face;

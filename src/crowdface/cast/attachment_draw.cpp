@@ -19,7 +19,7 @@ namespace {
 using Items = std::vector<const AttachmentItem*>;
 
 template <class Wanted>
-Items those(const Items& items, const Wanted& wanted) {
+Items matching_items(const Items& items, const Wanted& wanted) {
   Items found = items;
   std::erase_if(found, [&](const AttachmentItem* item) { return !wanted(*item); });
   return found;
@@ -30,7 +30,7 @@ Items those(const Items& items, const Wanted& wanted) {
 /// \return  Whether any item is wanted.
 template <class Wanted>
 bool narrow(Items& items, const Wanted& wanted) {
-  Items found = those(items, wanted);
+  Items found = matching_items(items, wanted);
   if (found.empty()) return false;
   items = std::move(found);
   return true;
@@ -41,11 +41,11 @@ bool says_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
 }
 
-/// Number of faces that got each item, by the item's name.
+/// By name of each item: number of faces that wear it.
 using Turns = std::map<std::string, int>;
 
-/// Keeps the items that remain below their share if one more face is counted.
-void leave_due(const Turns& turns, Items& items) {
+/// Keeps the items that stay within their share if one more face wears them.
+void keep_due(const Turns& turns, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
     const auto found = turns.find(item->name);
@@ -61,8 +61,8 @@ void leave_due(const Turns& turns, Items& items) {
   });
 }
 
-/// Keeps the items with the fewest faces, relative to their shares.
-void leave_fewest(const Turns& turns, Items& items) {
+/// Keeps the items that the fewest faces wear, relative to the items' shares.
+void keep_fewest(const Turns& turns, Items& items) {
   const auto level = [&](const AttachmentItem* item) {
     const auto found = turns.find(item->name);
     return found == turns.end() ? 0.0 : found->second / item->share;
@@ -73,7 +73,7 @@ void leave_fewest(const Turns& turns, Items& items) {
 }
 
 /// The attachments of a face, and its hair colour if it may wear items with a tint.
-struct Drawn {
+struct ChosenAttachments {
   std::vector<std::string> names;
   std::optional<HairColour> hair;
 };
@@ -91,55 +91,57 @@ struct KindQuotas {
 class AttachmentDrawing {
  public:
   /// \param crowd   all faces, in the order of the plan.
-  /// \param beside  faces that must not look like the face before or after them.
-  AttachmentDrawing(const AttachmentDraw& draw, const std::vector<int>& groups,
-                    const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& beside)
-      : draw_(draw) {
-    for (const AttachmentItem& item : draw.items) {
+  /// \param sequence  faces, in order, that must not look like the face before or after them.
+  AttachmentDrawing(const AttachmentOptions& options, const std::vector<int>& groups,
+                    const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& sequence)
+      : options_(options) {
+    for (const AttachmentItem& item : options.items) {
       if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
     }
     for (const int group : groups) places_.emplace_back(group, sizes_[group]++);
-    for (const auto& quota : draw.quotas) {
+    for (const auto& quota : options.quotas) {
       const std::string& word = quota.first;
-      const auto first = std::find_if(draw.items.begin(), draw.items.end(),
+      const auto first = std::find_if(options.items.begin(), options.items.end(),
                                       [&](const auto& item) { return is_called(item, word); });
-      if (first == draw.items.end()) continue;
+      if (first == options.items.end()) continue;
       quotas_[first->kind].words.push_back(word);
       quotas_[first->kind].shares.push_back(quota.second);
     }
-    if (std::ranges::any_of(draw.items,
+    if (std::ranges::any_of(options.items,
                             [](const auto& item) { return item.tint != Tint::kNone; })) {
-      hair_.emplace(HairOptions{draw.seed, draw.tags, draw.heads, draw.hair_colours, draw.twins},
+      hair_.emplace(HairOptions{options.seed, options.tags, options.heads, options.hair_colours,
+                                options.twins},
                     crowd);
-      for (std::size_t i = 1; i < beside.size(); ++i) {
-        if (is_beside(beside[i - 1], beside[i])) {
-          neighbours_[beside[i].id].push_back(beside[i - 1].id);
-          neighbours_[beside[i - 1].id].push_back(beside[i].id);
+      for (std::size_t i = 1; i < sequence.size(); ++i) {
+        if (must_differ(sequence[i - 1], sequence[i])) {
+          neighbours_[sequence[i].id].push_back(sequence[i - 1].id);
+          neighbours_[sequence[i - 1].id].push_back(sequence[i].id);
         }
       }
     }
     for (auto& [kind, quotas] : quotas_) {
       for (const auto& [group, faces] : sizes_) {
-        quotas.schedules[group] = scatter_shares(quotas.shares, faces, draw.seed,
+        quotas.schedules[group] = scatter_shares(quotas.shares, faces, options.seed,
                                                  concat("attachment quotas/", kind, '/', group));
       }
     }
   }
 
-  Drawn of(const FacePlan& face) {
-    heads_[face.id] = typical_head(face.recipe, draw_.tags);
+  ChosenAttachments choose(const FacePlan& face) {
+    heads_[face.id] = typical_head(face.recipe, options_.tags);
     std::optional<HairColour> hair;
-    if (hair_) hair = hairs_[face.id] = hair_->of(face, heads_[face.id]);
+    if (hair_) hair = hairs_[face.id] = hair_->colour_of(face, heads_[face.id]);
     Items placed;
     for (const std::string& kind : kinds_) {
       const AttachmentItem* one = draw_one(kind, face, placed);
       if (one == nullptr) continue;
       placed.push_back(one);
-      ++turns_[alike(face)][one->name];
+      ++turns_[turn_set_of(face)][one->name];
       if (face.index) ++all_turns_[one->name];
     }
     std::vector<std::string> names = without_excluded(placed);
-    placed_[face.id] = those(placed, [&](const auto& item) { return contains(names, item.name); });
+    placed_[face.id] =
+        matching_items(placed, [&](const auto& item) { return contains(names, item.name); });
     if (face.family) {
       for (const AttachmentItem* item : placed_[face.id]) {
         if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
@@ -150,7 +152,7 @@ class AttachmentDrawing {
 
  private:
   const std::vector<std::string>& tags_of(Index head) const {
-    return draw_.tags[static_cast<std::size_t>(head)];
+    return options_.tags[static_cast<std::size_t>(head)];
   }
 
   /// Returns the items of a kind that a head's tags allow.
@@ -160,7 +162,7 @@ class AttachmentDrawing {
   Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;
-    for (const AttachmentItem& item : draw_.items) {
+    for (const AttachmentItem& item : options_.items) {
       const bool may = std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
         return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
       });
@@ -177,31 +179,32 @@ class AttachmentDrawing {
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
-    const auto drawn = random_pair({draw_.seed, face.index.value_or(0), purpose});
+    const auto drawn = random_pair({options_.seed, face.index.value_or(0), purpose});
     if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, placed, items);
     if (items[0]->tint == Tint::kNone) return next_of(items, face, drawn[1]);
     avoid_neighbours(face, items);
     if (face.index) {
-      leave_fewest(all_turns_, items);
-    } else if (const auto own = turns_.find(alike(face)); own != turns_.end()) {
-      leave_fewest(own->second, items);
+      keep_fewest(all_turns_, items);
+    } else if (const auto own = turns_.find(turn_set_of(face)); own != turns_.end()) {
+      keep_fewest(own->second, items);
     }
     return weighted_choice(items, drawn[1], &AttachmentItem::share);
   }
 
-  /// Returns whether the second face must not look like the first. A sampled face does not depend
-  /// on faces that are not sampled, because a larger crowd has more faces in between.
-  static bool is_beside(const FacePlan& first, const FacePlan& second) {
+  /// Returns whether the second of two successive faces must not look like the first. A sampled
+  /// face does not depend on faces that are not sampled: in a larger crowd, more faces are between
+  /// them.
+  static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
 
-  /// Leaves out what the face's neighbours wear in a similar colour, unless nothing else fits.
+  /// Removes the items that the face's neighbours wear in a similar colour, unless no item is left.
   void avoid_neighbours(const FacePlan& face, Items& items) const {
-    const auto beside = neighbours_.find(face.id);
-    if (beside == neighbours_.end()) return;
+    const auto neighbours = neighbours_.find(face.id);
+    if (neighbours == neighbours_.end()) return;
     narrow(items, [&](const AttachmentItem& item) {
-      return std::ranges::none_of(beside->second, [&](const std::string& other) {
+      return std::ranges::none_of(neighbours->second, [&](const std::string& other) {
         const auto placed = placed_.find(other);
         return placed != placed_.end() && contains(placed->second, &item) &&
                are_alike(hairs_.at(other), hairs_.at(face.id));
@@ -210,18 +213,19 @@ class AttachmentDrawing {
   }
 
   /// Returns the name of the set of similar faces among which items take turns.
-  std::string alike(const FacePlan& face) const {
+  std::string turn_set_of(const FacePlan& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// Draws one of the items that are due among similar faces. If several are due, only those that
-  /// are also due among all sampled faces take part. Probabilities are proportional to the items' shares.
+  /// Chooses at random one of the items that are due among similar faces. If several items are due,
+  /// considers only items that are also due among all sampled faces. Probabilities are proportional
+  /// to the items' shares.
   const AttachmentItem* next_of(const Items& items, const FacePlan& face, double drawn) const {
     Items next = items;
-    if (const auto own = turns_.find(alike(face)); own != turns_.end())
-      leave_due(own->second, next);
-    if (face.index) leave_due(all_turns_, next);
+    if (const auto own = turns_.find(turn_set_of(face)); own != turns_.end())
+      keep_due(own->second, next);
+    if (face.index) keep_due(all_turns_, next);
     return weighted_choice(next, drawn, &AttachmentItem::share);
   }
 
@@ -230,8 +234,8 @@ class AttachmentDrawing {
   /// \return  Whether the face wears an item of the kind.
   bool serve_quotas(const std::string& kind, const FacePlan& face, double drawn,
                     Items& items) const {
-    const auto none = draw_.none.find(kind);
-    const bool bare = none != draw_.none.end() && drawn < none->second;
+    const auto none = options_.none.find(kind);
+    const bool bare = none != options_.none.end() && drawn < none->second;
     const auto found = quotas_.find(kind);
     if (found == quotas_.end()) return !bare;
     const KindQuotas& quotas = found->second;
@@ -255,8 +259,8 @@ class AttachmentDrawing {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps the items whose colour matches that of the face's other items, or else that of its
-  /// family.
+  /// Keeps the items whose colour matches the colour of the face's other items, or else the colour
+  /// of the family's items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -274,13 +278,14 @@ class AttachmentDrawing {
     const Index head = heads_.at(face.id);
     std::vector<std::string> parents = face.parents;
     const std::string purpose = concat("attachment/", kind, "/parent/", face.id);
-    if (random_unit({draw_.seed, 0, purpose}) < 0.5) std::reverse(parents.begin(), parents.end());
+    if (random_unit({options_.seed, 0, purpose}) < 0.5)
+      std::reverse(parents.begin(), parents.end());
     for (const std::string& parent : parents) {
       const std::string colour = colour_of(kind, parent);
       if (!contains(tags_of(head), "old") && is_of_age(kind, colour)) continue;
       if (take(colour)) return;
-      Items others = those(wearable(kind, head, colour),
-                           [&](const auto& item) { return item.colour == colour; });
+      Items others = matching_items(wearable(kind, head, colour),
+                                    [&](const auto& item) { return item.colour == colour; });
       if (colour.empty() || others.empty()) continue;
       items = std::move(others);
       return;
@@ -291,14 +296,14 @@ class AttachmentDrawing {
   Index head_of(const std::string& parent) const {
     const auto face = heads_.find(parent);
     if (face != heads_.end()) return face->second;
-    const auto head = std::find(draw_.heads.begin(), draw_.heads.end(), parent);
-    return head == draw_.heads.end() ? -1 : head - draw_.heads.begin();
+    const auto head = std::find(options_.heads.begin(), options_.heads.end(), parent);
+    return head == options_.heads.end() ? -1 : head - options_.heads.begin();
   }
 
-  /// Returns whether only the old may wear items of this colour, such as grey.
+  /// Returns whether only old faces may wear items of this colour, such as grey.
   bool is_of_age(const std::string& kind, const std::string& colour) const {
-    for (std::size_t head = 0; head < draw_.tags.size(); ++head) {
-      if (contains(draw_.tags[head], "old")) continue;
+    for (std::size_t head = 0; head < options_.tags.size(); ++head) {
+      if (contains(options_.tags[head], "old")) continue;
       const Items items = wearable(kind, static_cast<Index>(head));
       if (std::any_of(items.begin(), items.end(),
                       [&](const auto* item) { return item->colour == colour; })) {
@@ -308,11 +313,12 @@ class AttachmentDrawing {
     return true;
   }
 
-  /// Returns the colour that a parent wears. If the parent wears none, but all items that it may
-  /// wear have the same colour, returns this colour.
+  /// Returns the colour of the item of this kind that a parent wears. If the parent wears no such
+  /// item, but all items that the parent may wear have the same colour, returns this colour.
   std::string colour_of(const std::string& kind, const std::string& parent) const {
     if (const auto found = placed_.find(parent); found != placed_.end()) {
-      const Items own = those(found->second, [&](const auto& item) { return item.kind == kind; });
+      const Items own =
+          matching_items(found->second, [&](const auto& item) { return item.kind == kind; });
       if (!own.empty()) return own[0]->colour;
     }
     const Index head = head_of(parent);
@@ -327,27 +333,27 @@ class AttachmentDrawing {
   /// Returns the names of the remaining items, in their order, after each item in turn removed the
   /// items it excludes.
   std::vector<std::string> without_excluded(const Items& placed) const {
-    std::vector<bool> left(draw_.items.size(), false);
+    std::vector<bool> left(options_.items.size(), false);
     for (const AttachmentItem* item : placed) {
-      left[static_cast<std::size_t>(item - draw_.items.data())] = true;
+      left[static_cast<std::size_t>(item - options_.items.data())] = true;
     }
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (!left[i]) continue;
       for (std::size_t j = 0; j < left.size(); ++j) {
-        const std::vector<std::string>& excluded = draw_.items[i].excludes;
-        const bool taken =
-            contains(excluded, draw_.items[j].name) || contains(excluded, draw_.items[j].kind);
+        const std::vector<std::string>& excluded = options_.items[i].excludes;
+        const bool taken = contains(excluded, options_.items[j].name) ||
+                           contains(excluded, options_.items[j].kind);
         if (i != j && taken) left[j] = false;
       }
     }
     std::vector<std::string> names;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (left[i]) names.push_back(draw_.items[i].name);
+      if (left[i]) names.push_back(options_.items[i].name);
     }
     return names;
   }
 
-  const AttachmentDraw& draw_;
+  const AttachmentOptions& options_;
   std::vector<std::string> kinds_;  ///< in the order of their first items
   std::map<std::string, KindQuotas> quotas_;
   /// for each sampled face: its group, and its index within the group
@@ -360,22 +366,22 @@ class AttachmentDrawing {
   /// the Turns of each set of similar faces, by the set's name
   std::map<std::string, Turns> turns_;
   Turns all_turns_;                                             ///< the Turns of all sampled faces
-  std::optional<HairDraw> hair_;                                ///< if an item has a tint
+  std::optional<HairChooser> hair_;                             ///< if an item has a tint
   std::map<std::string, HairColour> hairs_;                     ///< by the face's id
   std::map<std::string, std::vector<std::string>> neighbours_;  ///< by the face's id
 };
 
 }  // namespace
 
-void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
-                      const std::vector<std::size_t>& rejected_from) {
-  AttachmentDrawing drawing(draw, groups, crowd, crowd);
-  const auto dress = [](FacePlan& face, Drawn drawn) {
+void choose_attachments(const AttachmentOptions& options, const std::vector<int>& groups,
+                        std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
+                        const std::vector<std::size_t>& rejected_from) {
+  AttachmentDrawing drawing(options, groups, crowd, crowd);
+  const auto dress = [](FacePlan& face, ChosenAttachments drawn) {
     face.attachments = std::move(drawn.names);
     face.hair = drawn.hair;
   };
-  // all versions of a redrawn face, by id: the rejected ones in order, then the final one
+  // all versions of a redrawn face, by id: the rejected versions in order, then the final version
   std::map<std::string, std::vector<const FacePlan*>> before;
   for (const FacePlan& face : rejected) {
     if (face.index) before[face.id].push_back(&face);
@@ -385,7 +391,8 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
     if (found != before.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // The replacements, in the order of the reviews, as soon as the crowd has the reviewed size.
+  // Process the replacements in the order of the reviews, as soon as the crowd has the reviewed
+  // size.
   std::map<std::string, std::size_t> times;
   std::size_t next = 0;
   const auto replace_up_to = [&](std::size_t size) {
@@ -393,7 +400,7 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
       if (!rejected_from.empty() && rejected_from[next] > size) return;
       const std::string& id = rejected[next].id;
       if (!redrawn.contains(id)) continue;
-      dress(*redrawn[id], drawing.of(*before[id][++times[id]]));
+      dress(*redrawn[id], drawing.choose(*before[id][++times[id]]));
     }
   };
   // Each face first gets attachments as it was before any review, so that a redrawn face changes
@@ -403,23 +410,23 @@ void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups
     FacePlan& face = crowd[i];
     const auto found = before.find(face.id);
     if (found == before.end()) {
-      dress(face, drawing.of(face));
+      dress(face, drawing.choose(face));
       continue;
     }
-    drawing.of(*found->second.front());
+    drawing.choose(*found->second.front());
     redrawn[face.id] = &face;
   }
   replace_up_to(crowd.size());
 }
 
-void draw_attachments_alone(const AttachmentDraw& draw, const std::vector<int>& groups,
-                            const std::vector<FacePlan>& crowd, FacePlan& face) {
-  AttachmentDrawing drawing(draw, groups, crowd, {});
+void choose_attachments_alone(const AttachmentOptions& options, const std::vector<int>& groups,
+                              const std::vector<FacePlan>& crowd, FacePlan& face) {
+  AttachmentDrawing drawing(options, groups, crowd, {});
   for (const FacePlan& earlier : crowd) {
     if (earlier.index || earlier.id == face.id) break;
-    drawing.of(earlier);
+    drawing.choose(earlier);
   }
-  Drawn drawn = drawing.of(face);
+  ChosenAttachments drawn = drawing.choose(face);
   face.attachments = std::move(drawn.names);
   face.hair = drawn.hair;
 }

@@ -13,45 +13,45 @@
 
 namespace crowdface {
 
-/// The attachments that faces of a crowd may wear.
-struct AttachmentDraw {
+/// The attachments that faces of a crowd may wear, and how they are chosen.
+struct AttachmentOptions {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
   /// by kind: fraction of the faces that wear no item of this kind
   std::map<std::string, double> none;
   HeadTags tags;  ///< #heads
-  /// By kind, name or colour: fraction of each group's sampled faces that wear such an item. A kind
-  /// has either a quota of its own or quotas for some of its names and colours.
+  /// By kind, name or colour of items: fraction of each group's sampled faces that wear such an
+  /// item. A kind has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
   /// By group: fractions of the faces with a named hair colour, before age makes it grey; "" is for
   /// groups without an entry and faces without a group. Children have a colour of their parents,
-  /// all other faces that of their heads.
+  /// all other faces a colour of their heads.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twins = {};  ///< families whose members are twins
 };
 
 /// Chooses the attachments of each face: names, in the order of the items, at most one per kind.
-/// The draw for a kind uses random numbers that depend only on the kind and on the face's index (or
-/// its id, if the face is not sampled). So a draw does not change if faces or other kinds are
-/// added. docs/attachments.md explains the rules:
+/// The random numbers for a kind depend only on the kind and on the face's index (or its id, if the
+/// face is not sampled). So a choice does not change if faces or other kinds are added.
+/// docs/attachments.md explains the rules:
 ///
 /// - Colours: if an earlier item of the face has a colour, later kinds use this colour where the
 /// face may wear it. Otherwise the colour comes from a parent or from the family. A child may wear
 /// a parent's colour even if the child's own tags name another colour. Only old children inherit
 /// colours that only the old wear (grey).
 /// - Quotas: each quota fixes in advance which of a group's sampled faces it applies to,
-/// independently of all other draws. If such a face may not wear the item, the face is drawn as if
-/// there were no quota.
+///   independently of all other choices. If such a face may not wear the item, its items are chosen
+///   as if there were no quota.
 /// - Turns: among the sampled faces on one head, and among the members of one family, an item is
 /// skipped once it has reached its share of the earlier faces. If several items are left, sampled
 /// faces also skip items that have reached their share of all sampled faces.
 ///
 /// Items with a tint follow other rules:
 ///
-/// - Each face has a hair colour: a child's is one of its parents' colours or lies between them;
-/// a family without parents shares one; otherwise it is drawn from `hair_colours` or is the colour
-/// that the head's tags name (`brown_hair`). Age makes it grey.
+/// - Each face has a hair colour: a child has one of its parents' colours or a colour between them;
+///   a family without parents shares one colour; any other face has a random colour from
+///   `hair_colours` or the colour that the head's tags name (`brown_hair`). Age makes hair grey.
 /// - A sampled face gets an item that the fewest earlier sampled faces wear. A member of a family
 /// gets an item that the fewest earlier members wear.
 /// - If a face may wear another item, it does not wear the item of the previous face in a similar
@@ -64,14 +64,14 @@ struct AttachmentDraw {
 /// \param rejected  Faces that reviews rejected, in order. Their replacements are processed after
 ///                  all faces of the crowd that was reviewed, so that no other face changes.
 /// \param rejected_from  #rejected: size of the crowd that was reviewed. Empty: the whole crowd.
-void draw_attachments(const AttachmentDraw& draw, const std::vector<int>& groups,
-                      std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
-                      const std::vector<std::size_t>& rejected_from = {});
+void choose_attachments(const AttachmentOptions& options, const std::vector<int>& groups,
+                        std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
+                        const std::vector<std::size_t>& rejected_from = {});
 
 /// Chooses the attachments of a face that was changed, as if it were the only sampled face, so that
 /// they do not depend on other sampled faces and do not change these.
 /// \param crowd  In the order of the plan; may contain the face as it was before.
-void draw_attachments_alone(const AttachmentDraw& draw, const std::vector<int>& groups,
-                            const std::vector<FacePlan>& crowd, FacePlan& face);
+void choose_attachments_alone(const AttachmentOptions& options, const std::vector<int>& groups,
+                              const std::vector<FacePlan>& crowd, FacePlan& face);
 
 }  // namespace crowdface

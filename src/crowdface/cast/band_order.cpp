@@ -26,7 +26,7 @@ void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& r
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     RegionRecipe& region = recipe.regions[k];
     const std::size_t bands = band_count(region);
-    const BandRecipe* finer = nullptr;  // the next finer band among those copied
+    const BandRecipe* finer = nullptr;  // the next finer band among the copied bands
     for (std::size_t b = bands; b-- > 0;) {
       BandRecipe& band = band_of(region, b);
       if (taken.contains(k * bands + b)) {

@@ -6,14 +6,14 @@
 
 namespace crowdface {
 
-/// Forecasts, while first fit places faces, how many faces can keep the minimum distance. A
-/// candidate is too near to one of n faces with probability p(n). While the crowd is sparse, p
-/// grows by C per face, where C is the probability that two candidates are too near to each other.
-/// First fit ends at about 4/C faces (docs/method.md). Dense parts of the face space fill first,
-/// and then p grows more slowly; so C is estimated from the recent growth of p.
+/// Forecasts, while first fit places faces, how many faces can keep the minimum distance. With
+/// probability p(n), a candidate is too near to one of n faces. While the crowd is sparse, p grows
+/// by C per face, where C is the probability that two candidates are too near to each other. First
+/// fit ends at about 4/C faces (docs/method.md). Dense parts of the face space fill first, and then
+/// p grows more slowly; so C is estimated from the recent growth of p.
 class CapacityForecast {
  public:
-  /// Adds the counts of the candidates for one placed face.
+  /// Counts the candidates for one placed face.
   ///
   /// \param too_near  Number of candidates that were too near to a face of the crowd.
   /// \param wanted    Number of candidates that were far enough; above zero.
@@ -24,7 +24,7 @@ class CapacityForecast {
   std::optional<double> faces() const;
 
  private:
-  /// Counts over the faces number `begin` to 2·`begin`.
+  /// Counts over the faces with numbers `begin` to 2·`begin`.
   struct Stretch {
     std::uint64_t begin = 16;
     std::uint64_t too_near = 0;
@@ -33,7 +33,8 @@ class CapacityForecast {
     double middle() const { return 1.5 * static_cast<double>(begin); }
   };
   std::uint64_t placed_ = 0;
-  Stretch now_, last_, before_;  ///< current stretch, and the two complete ones before it
+  Stretch current_, previous_,
+      second_last_;  ///< current stretch, and the two complete stretches before it
 };
 
 }  // namespace crowdface

@@ -18,7 +18,7 @@ namespace {
 
 /// Casts sampled faces `from` … `to`, each against all earlier faces.
 ///
-/// \param diversity  with the smallest distance of all these faces.
+/// \param diversity  its `min_distance_mm` holds for all these faces.
 void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
                     const FaceJudge& judge, const std::vector<FaceKind>& kinds,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
@@ -37,7 +37,7 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
       const FaceKind& kind = kinds[static_cast<std::size_t>(result.kinds[index - 1] + 1)];
       searches.emplace_back(
           [&casting, &kind, index](std::uint32_t attempt) {
-            return draw_face(casting, index, attempt, kind);
+            return random_face(casting, index, attempt, kind);
           },
           judge, diversity, DiversityOptions::candidates_for(index));
     }
@@ -79,14 +79,14 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
   }
 }
 
-/// Draws what a hand-written recipe does not specify, until the face meets the recipe's limits on
+/// Completes a hand-written recipe with random values, until the face meets the recipe's limits on
 /// measurements. \return  nothing if no attempt does.
-std::optional<FacePlan> draw_by_hand(const CastingOptions& casting, const ManualRecipe& hand,
-                                     const FaceJudge& judge) {
+std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const ManualRecipe& hand,
+                                           const FaceJudge& judge) {
   const auto attempts =
-      kDrawsWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
+      kAttemptFactorWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
-    FacePlan face = draw_manual_recipe(casting, hand, attempt);
+    FacePlan face = complete_recipe(casting, hand, attempt);
     const TraitRules* rules = hand.traits.empty() ? nullptr : judge.traits();
     if (rules == nullptr) return face;
     if (rules->check(face, rules->measurer().landmarks(face.recipe))) continue;
@@ -148,7 +148,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   CrowdSoFar& crowd = *so_far;
   for (const ManualRecipe& hand : casting.recipes) {
-    std::optional<FacePlan> face = draw_by_hand(casting, hand, judge);
+    std::optional<FacePlan> face = complete_by_limits(casting, hand, judge);
     if (!face) {
       Rejections rejections;
       rejections.add(Reason::kTraits);

@@ -21,19 +21,19 @@ namespace crowdface {
 struct Shortfall {
   std::uint64_t reached = 0;  ///< number of sampled faces that were cast
   Rejections rejections;      ///< why candidates for the next face were rejected
-  int kind = -1;              ///< group of the face that could not be found, or −1
+  int kind = -1;              ///< group of the sampled face that could not be found, or −1
   std::string family = {};    ///< name of the family that could not be cast, if any
   std::string reviewed = {};  ///< id of the face that could not be redrawn, if any
-  std::string recipe = {};    ///< id of the hand-written face that could not be drawn, if any
+  std::string recipe = {};    ///< id of the hand-written face that could not be cast, if any
   std::string changed = {};   ///< id of the face that could not be changed, if any
 };
 
 struct ChangedFace;
 
-/// A change of a face, and who asks for it.
+/// A change of a face, and its origin.
 struct AppliedChange {
   FaceChange change;
-  std::string by;  ///< such as "review 2"
+  std::string origin;  ///< who asks for the change, such as "review 2"
   /// The other face with its changes, as it was before this change; null if there is none.
   std::shared_ptr<const ChangedFace> variant_of;
   double min_distance_mm = 0;  ///< smallest distance of the changed face from the faces before it
@@ -45,7 +45,7 @@ struct ChangedFace {
   FaceSpace::Point point;
   std::vector<AppliedChange> changes = {};             ///< as applied: changes of the config first
   TraitLimits traits = {};                             ///< the limits of all changes
-  bool is_other_person = false;                        ///< the face was drawn again
+  bool is_other_person = false;                        ///< whether the face was redrawn
   std::shared_ptr<const ChangedFace> variant_of = {};  ///< the face that this is a variant of
 };
 
@@ -65,13 +65,13 @@ struct CastingResult {
   std::optional<Shortfall> shortfall;
 };
 
-/// Number of sampled faces whose candidates are drawn in parallel, before these faces are chosen one
-/// after the other.
+/// Number of sampled faces whose candidates are generated in parallel, before these faces are
+/// chosen one after the other.
 inline constexpr std::uint64_t kCastTogether = 64;
 
 /// Called after each sampled face that joins the crowd; may be empty.
 ///
-/// \param thrown  Rejected candidates for this face: many if the crowd is nearly full.
-using FaceJoined = std::function<void(const Rejections& thrown)>;
+/// \param rejected  Rejected candidates for this face: many if the crowd is nearly full.
+using FaceJoined = std::function<void(const Rejections& rejected)>;
 
 }  // namespace crowdface

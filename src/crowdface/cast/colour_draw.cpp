@@ -15,7 +15,7 @@ constexpr double kMaxOfSecond = 0.5;
 
 class ColourDrawing {
  public:
-  explicit ColourDrawing(const ColourDraw& draw) : draw_(draw) {
+  explicit ColourDrawing(const ColourOptions& draw) : draw_(draw) {
     for (const auto& all : draw.tags) {
       std::vector<std::string> counted = all;
       std::erase_if(counted, [&](const std::string& tag) {
@@ -26,13 +26,14 @@ class ColourDrawing {
     }
   }
 
-  /// Returns whether the colours of one head go with the shape of the other.
+  /// Returns whether the colours of one head suit the shape of the other.
   bool alike(Index a, Index b) const {
     return counted_.empty() ||
            counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];
   }
 
-  /// \param who  Separates the draws of different faces and families.
+  /// Returns random colours for a face. \param who  separates the random numbers of faces and
+  /// families.
   std::vector<SourceWeight> drawn(Index typical, std::uint64_t index, std::uint32_t attempt,
                                   const std::string& who) const {
     std::vector<Index> heads;
@@ -58,7 +59,7 @@ class ColourDrawing {
   }
 
  private:
-  const ColourDraw& draw_;
+  const ColourOptions& draw_;
   std::vector<std::vector<std::string>> counted_;  ///< #heads: the tags that must agree, sorted
 };
 
@@ -89,7 +90,7 @@ class Parents {
 
 }  // namespace
 
-void draw_colours(const ColourDraw& draw, std::vector<FacePlan>& crowd) {
+void choose_colours(const ColourOptions& draw, std::vector<FacePlan>& crowd) {
   const ColourDrawing drawing(draw);
   Parents parents(draw.heads, crowd);
   for (FacePlan& face : crowd) {

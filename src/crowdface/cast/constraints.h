@@ -41,14 +41,14 @@ struct Constraint {
   double DiversityOptions::*diversity = nullptr;
   /// the limit, if it is a believability option
   double BelievabilityOptions::*believability = nullptr;
-  /// unit of the limit, preceded by a space
+  /// unit of the limit, after a space
   std::string_view unit = {};
   /// what is wrong with a face that violates the constraint; the key follows
   std::string_view broken = {};
   /// What users can change if too few faces meet the constraint; most promising first.
   std::span<const std::string_view> advice;
 
-  /// Returns whether the limit is a distance, so that a smaller limit fits more faces.
+  /// Returns whether the limit is a distance, so that more faces satisfy a smaller limit.
   bool is_distance() const { return diversity != nullptr && unit == " mm"; }
 };
 const Constraint& constraint_of(Reason reason);

@@ -22,13 +22,14 @@ class CrowdSoFar {
   Index size() const { return index_.size(); }
   /// Marks the beginning of the sampled faces: all faces added later are sampled.
   void begin_sampled() { first_sampled_ = size(); }
-  /// Only the distance from the sampled faces decides which candidate wins, so that an additional
-  /// recipe or family does not change the winner. (All faces must still be far enough from all
-  /// other faces.)
+  /// Index of the first sampled face. Only the distance from sampled faces decides which candidate
+  /// wins, so that an additional recipe or family does not change the winner. (All faces must still
+  /// be far enough from all other faces.)
   Index first_sampled() const { return first_sampled_; }
   const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
-  /// Move the faces and their points out. No other member may be called afterwards.
+  /// Moves the faces out of this object; `take_points` moves the points. Afterwards, only these two
+  /// may be called.
   std::vector<FacePlan> take_faces() { return std::move(faces_); }
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
   const FacePointIndex& index() const { return index_; }

@@ -13,7 +13,7 @@ struct DiversityOptions {
     /// accept candidates that are far enough from all earlier faces; a larger crowd changes no
     /// earlier face
     kFirstFit,
-    kSpread,  ///< choose the most spread set from a pool many times as large as the crowd
+    kSpread,  ///< choose faces far from each other from a pool many times as large as the crowd
   };
   Mode mode = Mode::kFirstFit;
   double min_distance_mm = 0;  ///< smallest distance between any two faces
@@ -21,26 +21,26 @@ struct DiversityOptions {
   /// {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2 mm, faces 25 … 40 have 1 mm.
   std::map<std::uint64_t, double> min_distance_of_first_mm = {};
   double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
-  /// Between a rejected face and its replacement; empty: half the crowd's median distance.
+  /// Smallest distance between a rejected face and its replacement; empty: half the crowd's median
+  /// distance.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;  ///< largest weight of one head in one region
-  /// number of draws for one face before casting gives up
-  int max_attempts = 1000;
+  double max_weight = 1;    ///< largest weight of one head in one region
+  int max_attempts = 1000;  ///< number of candidates for one face before casting gives up
   /// Below this distance, a face passes for a head.
   static constexpr double kSamePersonMm = 0.5;
-  /// In its first draws, a face also keeps away from heads that it would pass for. Later draws do
-  /// not, because some configs only give faces near heads.
-  static constexpr std::uint32_t kDrawsAwayFromHeads = 100;
+  /// Number of candidates for one face that are rejected if they pass for a head. Later candidates
+  /// are not, because some configs only give faces near heads.
+  static constexpr std::uint32_t kCandidatesUnlikeHeads = 100;
   /// kSpread: size of the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPool = 10;
 
-  /// Number of acceptable candidates for one face, of which kFirstFit keeps the one farthest from
-  /// the crowd. Must not depend on the size of the crowd.
+  /// Number of acceptable candidates for one face, of which kFirstFit keeps the candidate farthest
+  /// from the crowd. Must not depend on the size of the crowd.
   ///
   /// \param index  Index of the face, from 1.
   static int candidates_for(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
 
-  /// Smallest distance of a sampled face from all earlier faces. \param index  0: of families.
+  /// Smallest distance of a sampled face from all earlier faces. \param index  0: a family's face.
   double min_distance_of(std::uint64_t index) const {
     const auto first = min_distance_of_first_mm.lower_bound(index);
     return first == min_distance_of_first_mm.end() ? min_distance_mm : first->second;
@@ -53,7 +53,7 @@ struct DiversityOptions {
   }
 };
 
-/// Limits for a believable face. The defaults accept faces between the heads (although scans have
+/// Limits for a believable face. The defaults accept mixtures of the heads (although scans have
 /// sliver triangles and touching lips) and reject excessive extrapolation. docs/casting.md has
 /// figures.
 struct BelievabilityOptions {
@@ -63,7 +63,8 @@ struct BelievabilityOptions {
     kAuto,  ///< up to 200,000 polygons
     kAll,
     kNone,
-    /// casting builds and judges each candidate's mesh before accepting it, and reports it too
+    /// casting builds and judges each candidate's mesh before it accepts the candidate; reported,
+    /// too
     kJudge,
   };
   Meshes meshes = Meshes::kAuto;
@@ -73,11 +74,11 @@ struct BelievabilityOptions {
   double max_stretch = 3;  ///< 99th percentile of the stretch of the skin's triangles
   /// fraction of the skin's triangles that are turned over or collapsed
   double max_flipped = 0.003;
-  /// fraction of triangles that intersect others where the target's do not
+  /// fraction of triangles that intersect others where the target's triangles do not
   double max_intersecting = 0.01;
   /// how much farther apart the lips may be than in any head, see SkinContacts
   double max_gap_mm = 0.5;
-  /// Area of skin that may show its back side, in addition to that of the target; see skin_check.h.
+  /// Area of skin that may show its back side, in excess of the target's; see skin_check.h.
   double max_exposed_mm2 = 3;
 };
 

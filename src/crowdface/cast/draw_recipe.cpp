@@ -15,18 +15,18 @@
 namespace crowdface {
 namespace {
 
-/// Number of random lanes reserved for drawing one position.
+/// Number of lanes of random numbers that are reserved for one position.
 constexpr std::uint32_t kLanesOfPosition = 64;
-/// If a position gives one head too much weight, another position is drawn, at most
+/// If a position gives one head too much weight, another position is tried, at most
 /// kPositionRetries times. With each retry, the largest step away from the anchor grows by the
 /// factor kFartherEachTime.
 constexpr std::uint32_t kPositionRetries = 20;
 constexpr double kFartherEachTime = 0.1;
 
-/// Random numbers of one face. They depend only on its key and their purpose.
-class FaceDraws {
+/// Random numbers of one face. They depend only on the face's key and on their purpose.
+class FaceRandom {
  public:
-  FaceDraws(std::uint64_t seed, const DrawKey& key) : seed_(seed), key_(key) {}
+  FaceRandom(std::uint64_t seed, const FaceRandomKey& key) : seed_(seed), key_(key) {}
 
   std::array<double, 2> pair(std::string_view what, std::string_view region,
                              std::uint32_t lane = 0) const {
@@ -43,13 +43,13 @@ class FaceDraws {
 
  private:
   std::uint64_t seed_;
-  const DrawKey& key_;
+  const FaceRandomKey& key_;
 };
 
-/// Draws a uniform point in the unit disc by rejection from the square. (Without sine or cosine,
-/// whose bits depend on the library.) The probability of 64 misses is below 10⁻⁴²; then returns the
-/// centre.
-PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::uint32_t first) {
+/// Returns a uniform random point in the unit disc by rejection from the square. (Without sine or
+/// cosine, whose bits depend on the library.) The probability of 64 misses is below 10⁻⁴²; then
+/// returns the centre.
+PlanePoint random_in_disc(const FaceRandom& draws, const std::string& region, std::uint32_t first) {
   for (std::uint32_t lane = 0; lane < 64; ++lane) {
     const auto [u, v] = draws.pair("position", region, first + lane);
     PlanePoint point(2 * u - 1, 2 * v - 1);
@@ -58,9 +58,9 @@ PlanePoint draw_in_disc(const FaceDraws& draws, const std::string& region, std::
   return PlanePoint::Zero();
 }
 
-/// Draws a uniform point in the convex hull of the sources' anchors.
-PlanePoint draw_in_hull(const CastingOptions& casting, const std::vector<Index>& sources,
-                        const FaceDraws& draws, const std::string& region, std::uint32_t first) {
+/// Returns a uniform random point in the convex hull of the sources' anchors.
+PlanePoint random_in_hull(const CastingOptions& casting, const std::vector<Index>& sources,
+                          const FaceRandom& draws, const std::string& region, std::uint32_t first) {
   std::vector<PlanePoint> anchors;
   for (const Index head : sources) {
     anchors.push_back(casting.anchors[static_cast<std::size_t>(head)]);
@@ -72,9 +72,9 @@ PlanePoint draw_in_hull(const CastingOptions& casting, const std::vector<Index>&
 
 /// \param retry  Number of earlier positions that gave one head too much weight. Each retry may go
 ///               farther from the anchor.
-PlanePoint draw_position(const CastingOptions& casting, const PositionDistribution& distribution,
-                         const std::vector<Index>& sources, Index target, const FaceDraws& draws,
-                         const std::string& region, std::uint32_t retry) {
+PlanePoint random_position(const CastingOptions& casting, const PositionDistribution& distribution,
+                           const std::vector<Index>& sources, Index target, const FaceRandom& draws,
+                           const std::string& region, std::uint32_t retry) {
   require(!sources.empty(), "a position is drawn among sources, and there is none");
   const std::uint32_t first = kLanesOfPosition * retry;
   switch (distribution.kind) {
@@ -83,10 +83,10 @@ PlanePoint draw_position(const CastingOptions& casting, const PositionDistributi
     case PositionDistribution::Kind::kAround: {
       const Index head = distribution.head.value_or(target);
       return casting.anchors[static_cast<std::size_t>(head)] +
-             distribution.radius * draw_in_disc(draws, region, first);
+             distribution.radius * random_in_disc(draws, region, first);
     }
     case PositionDistribution::Kind::kUniform:
-      return draw_in_hull(casting, sources, draws, region, first);
+      return random_in_hull(casting, sources, draws, region, first);
     case PositionDistribution::Kind::kAnchored:
       break;
   }
@@ -96,11 +96,11 @@ PlanePoint draw_position(const CastingOptions& casting, const PositionDistributi
   const PlanePoint anchor = casting.anchors[static_cast<std::size_t>(head)];
   const double step =
       how_far * std::min(distribution.pull + kFartherEachTime * static_cast<double>(retry), 1.0);
-  return anchor + step * (draw_in_hull(casting, sources, draws, region, first) - anchor);
+  return anchor + step * (random_in_hull(casting, sources, draws, region, first) - anchor);
 }
 
 void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
-                     const FaceDraws& draws, const std::string& region, BandRecipe& recipe) {
+                     const FaceRandom& draws, const std::string& region, BandRecipe& recipe) {
   const double drawn = draws.in(distribution.range, "smoothness", region);
   switch (distribution.unit) {
     case SmoothnessDistribution::Unit::kFraction:
@@ -125,17 +125,17 @@ double largest_weight(const BandRecipe& band) {
   return largest;
 }
 
-/// The distributions of one band. The band's own values override those of its region.
-struct BandDraw {
+/// The distributions of one band. The band's own values override the region's values.
+struct BandDistributions {
   std::string name;  ///< name of the region, and of the band except the first
   std::size_t band = 0;
   RegionSampling sampling;
   ManualRecipe::Band hand;
 };
 
-BandDraw band_draw(const CastingOptions& casting, const SamplingOptions& all, std::size_t k,
-                   std::size_t b, const ManualRecipe::Region& region) {
-  BandDraw draw{casting.region_names[k], b, all.regions[k], {}};
+BandDistributions band_draw(const CastingOptions& casting, const SamplingOptions& all,
+                            std::size_t k, std::size_t b, const ManualRecipe::Region& region) {
+  BandDistributions draw{casting.region_names[k], b, all.regions[k], {}};
   if (!all.bands.empty()) {
     const BandSampling& band = all.bands[b];
     const BandSampling::Region& own = band.regions[k];
@@ -155,10 +155,10 @@ BandDraw band_draw(const CastingOptions& casting, const SamplingOptions& all, st
   return draw;
 }
 
-/// Draws the values of a band that a hand-written recipe does not specify; for a sampled face, all
-/// values.
-BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index target,
-                     const FaceDraws& draws, const BandDraw& draw) {
+/// Returns a band with random values where the hand-written recipe has none; for a sampled face,
+/// all values are random.
+BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Index target,
+                       const FaceRandom& draws, const BandDistributions& draw) {
   const SamplingOptions& all = *kind.sampling;
   const std::vector<Index>& sources = sources_of(kind, draw.band);
   const ManualRecipe::Band& hand = draw.hand;
@@ -168,19 +168,20 @@ BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index 
     recipe.weights = weights_at(casting.anchors, target, sources, position, casting.normalization,
                                 all.max_sources);
   };
-  const auto take_drawn = [&](std::uint32_t retry) {
-    take(draw_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
+  const auto take_random = [&](std::uint32_t retry) {
+    take(
+        random_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
   };
   if (!hand.weights.empty()) {
     recipe.weights = written_weights(hand.weights);
   } else if (hand.position) {
     take(*hand.position);
   } else {
-    take_drawn(0);
+    take_random(0);
     for (std::uint32_t retry = 1;
          retry <= kPositionRetries && largest_weight(recipe) > casting.diversity.max_weight;
          ++retry) {
-      take_drawn(retry);
+      take_random(retry);
     }
   }
   draw_smoothness(hand.smoothness.value_or(draw.sampling.smoothness), casting.scale, draws,
@@ -191,13 +192,13 @@ BandRecipe draw_band(const CastingOptions& casting, const FaceKind& kind, Index 
 }
 
 RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, std::size_t k,
-                         Index target, const FaceDraws& draws, const ManualRecipe::Region& hand) {
+                         Index target, const FaceRandom& draws, const ManualRecipe::Region& hand) {
   const SamplingOptions& all = *kind.sampling;
   RegionRecipe recipe;
   recipe.finer.resize(band_count(all) - 1);
   for (std::size_t b = 0; b < band_count(all); ++b) {
     band_of(recipe, b) =
-        draw_band(casting, kind, target, draws, band_draw(casting, all, k, b, hand));
+        random_band(casting, kind, target, draws, band_draw(casting, all, k, b, hand));
   }
   keep_order(recipe);
   return recipe;
@@ -230,9 +231,9 @@ FaceKind kind_of_group(const CastingOptions& casting, std::optional<std::size_t>
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
-FacePlan draw_recipe(const CastingOptions& casting, const ManualRecipe& hand, const DrawKey& key,
-                     const FaceKind& kind) {
-  const FaceDraws draws(casting.seed, key);
+FacePlan random_recipe(const CastingOptions& casting, const ManualRecipe& hand,
+                       const FaceRandomKey& key, const FaceKind& kind) {
+  const FaceRandom draws(casting.seed, key);
   const SamplingOptions& sampling = *kind.sampling;
   FacePlan face;
   face.id = hand.id;
@@ -252,24 +253,24 @@ FacePlan draw_recipe(const CastingOptions& casting, const ManualRecipe& hand, co
   apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""),
             {casting.anchors, casting.tags}, sampling);
   face.recipe.asymmetry = draws.in(hand.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
-  face.recipe.mirrored = hand.mirrored.value_or(sampling.mirror == Mirroring::kDrawn &&
+  face.recipe.mirrored = hand.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
                                                 draws.unit("mirror", "") < 0.5);
   return face;
 }
 
-FacePlan draw_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
-                   const FaceKind& kind) {
+FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
+                     const FaceKind& kind) {
   ManualRecipe open;
   open.id = face_id(casting.name, index);
-  FacePlan face = draw_recipe(casting, open, {index, attempt}, kind);
+  FacePlan face = random_recipe(casting, open, {index, attempt}, kind);
   face.index = index;
   return face;
 }
 
-FacePlan draw_manual_recipe(const CastingOptions& casting, const ManualRecipe& hand,
-                            std::uint32_t attempt) {
-  return draw_recipe(casting, hand, {0, attempt, concat("recipe/", hand.id)},
-                     kind_of_group(casting));
+FacePlan complete_recipe(const CastingOptions& casting, const ManualRecipe& hand,
+                         std::uint32_t attempt) {
+  return random_recipe(casting, hand, {0, attempt, concat("recipe/", hand.id)},
+                       kind_of_group(casting));
 }
 
 }  // namespace crowdface

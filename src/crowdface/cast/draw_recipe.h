@@ -39,18 +39,18 @@ struct CastingOptions {
   std::vector<Review> reviews = {};          ///< applied one after the other
   std::vector<Group> groups = {};            ///< groups of the sampled faces
   HeadTags tags = {};                        ///< #heads, or empty
-  std::vector<TraitTarget> population = {};  ///< asked distributions of measurements
+  std::vector<TraitTarget> population = {};  ///< requested distributions of measurements
   std::vector<FaceChange> changes = {};      ///< applied after all reviews
 };
 
-/// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
-/// possible targets.
+/// The distribution of a random face: the parameters of the crowd or of a group, and the possible
+/// targets.
 struct FaceKind {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
-  /// For each band, the heads that lend detail in place of those in `sampling`. If this list, or
-  /// the entry of a band, is empty, the heads in `sampling` are used.
+  /// For each band, the heads that lend detail in place of the sources in `sampling`, which are
+  /// used if this list, or the entry of a band, is empty.
   std::vector<std::vector<Index>> sources = {};
 };
 /// Returns the heads that lend detail to a band of a face of this kind.
@@ -69,27 +69,27 @@ std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& writt
 std::string face_id(const std::string& crowd, std::uint64_t index);
 
 /// Key of a face's random numbers. Each combination has independent numbers.
-struct DrawKey {
+struct FaceRandomKey {
   std::uint64_t index = 0;    ///< index of the face, from 1
-  std::uint32_t attempt = 0;  ///< number of earlier draws of this face that were rejected
+  std::uint32_t attempt = 0;  ///< number of earlier rejected attempts at this face
   /// empty for a sampled face; otherwise separates the random numbers of other faces
   std::string who = {};
 };
 
-/// Draws everything that `hand` does not specify; for a sampled face, `hand` specifies nothing. A
-/// pure function of its arguments, so a face does not depend on the crowd's size or on the order of
-/// draws.
-FacePlan draw_recipe(const CastingOptions& casting, const ManualRecipe& hand, const DrawKey& key,
-                     const FaceKind& kind);
+/// Chooses at random everything that `hand` does not specify; for a sampled face, `hand` specifies
+/// nothing. A pure function of its arguments, so a face does not depend on the crowd's size or on
+/// the order of the calls.
+FacePlan random_recipe(const CastingOptions& casting, const ManualRecipe& hand,
+                       const FaceRandomKey& key, const FaceKind& kind);
 
-/// Draws attempt `attempt` at sampled face `index` (from 1).
-FacePlan draw_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
-                   const FaceKind& kind);
+/// Returns attempt `attempt` at sampled face `index` (from 1), a random face.
+FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
+                     const FaceKind& kind);
 
 /// Completes a hand-written recipe. Random numbers depend on the recipe's id.
 ///
 /// \throws BrokenPrecondition if its weights cannot be normalised.
-FacePlan draw_manual_recipe(const CastingOptions& casting, const ManualRecipe& hand,
-                            std::uint32_t attempt = 0);
+FacePlan complete_recipe(const CastingOptions& casting, const ManualRecipe& hand,
+                         std::uint32_t attempt = 0);
 
 }  // namespace crowdface

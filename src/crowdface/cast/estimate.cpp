@@ -15,7 +15,7 @@ constexpr int kCountHalvings = 7;
 /// Smallest ratio of the pool's size to a set's size.
 constexpr std::uint64_t kPoolPerFace = 5;
 
-/// Returns how many candidates first fit keeps at this distance, taking the pool in order. Stops
+/// Returns how many candidates of a pool, in its order, first fit keeps at this distance. Stops
 /// counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
   FacePointIndex kept(pool.points[0].as_built.size());
@@ -31,10 +31,10 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
-  // Groups would need one pass each; the estimate ignores them.
+  // Each group would need a pass of its own; the estimate ignores groups.
   CastingOptions free = casting;
   free.groups.clear();
-  const CandidatePool pool = draw_pool(free, judge, face_kinds(free), pool_size);
+  const CandidatePool pool = sample_pool(free, judge, face_kinds(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
   std::vector<double> closest;  // closest pair of the first n picks

@@ -17,7 +17,7 @@ struct EstimateRow {
 };
 
 /// Estimates the capacity of the heads: the distance that crowds of several sizes can keep, from a
-/// pool of candidates drawn as in casting. One greedy pass gives the spread sets of all sizes;
+/// pool of candidates sampled as in casting. One greedy pass gives the spread sets of all sizes;
 /// first fit is tried at a few distances for each size.
 ///
 /// \param counts     Crowd sizes, ascending. Sizes that are too large for the pool are left out.

@@ -14,9 +14,9 @@ enum class FaceArea {
   kSkin,   ///< the whole skin, including the back of the head and the neck
 };
 
-/// Returns the weight of each vertex in a distance, #V: the area around it on the mean head (each
-/// polygon divided equally among its corners), zero outside the area. The skin is the largest
-/// component, so eyeballs, teeth and lashes have weight zero.
+/// Returns the weight of each vertex in a face distance, #V: the surface around the vertex on the
+/// mean head (each polygon's surface divided equally among its corners), zero outside the area. The
+/// skin is the largest component, so eyeballs, teeth and lashes have weight zero.
 ///
 /// \param mask  #V, multiplied with the weights; or empty.
 std::vector<double> face_areas(const Topology& topology, const Components& components,

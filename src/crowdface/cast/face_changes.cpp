@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-/// Change of the age with `older` and `younger`.
+/// Change of the age by the words `older` and `younger`.
 constexpr double kAgeStep = 0.5;
 
 std::size_t face_called(const std::string& id, const CastingResult& cast) {
@@ -67,7 +67,7 @@ double least_share(const Holds& holds) {
   return share;
 }
 
-/// Whether a change that draws a face again asks for measurements only.
+/// Whether a change that redraws a face only sets limits on measurements.
 bool limits_only(const FaceChange& change) {
   return !change.group && change.locked.empty();
 }
@@ -87,7 +87,8 @@ class Changing {
       if (cast_.shortfall) return;
       ++number_;
       apply(change);
-      changed_.face.notes.changes.push_back(concat(change.by, ": ", join(changed_keys(change))));
+      changed_.face.notes.changes.push_back(
+          concat(change.origin, ": ", join(changed_keys(change))));
     }
     changed_.point = judge_.space().point(changed_.face.recipe);
     note_nearest();
@@ -101,9 +102,9 @@ class Changing {
     if (applied.variant_of) {
       changed_.variant_of = applied.variant_of;
       change_into(search(vary(change), CrowdSoFar(judge_.space().dimensions())));
-    } else if (change.draws_again() && !(limits_only(change) && meets_limits(changed_.face))) {
+    } else if (change.needs_redraw() && !(limits_only(change) && meets_limits(changed_.face))) {
       changed_.variant_of.reset();
-      change_into(search(draw_again(change), faces_before()));
+      change_into(search(make_redraw(change), faces_before()));
     }
     if (change.age_step) {
       const double step = *change.age_step == FaceChange::AgeStep::kOlder ? kAgeStep : -kAgeStep;
@@ -113,7 +114,7 @@ class Changing {
   }
 
   /// Returns random numbers that differ for each change and for each redraw of the face.
-  DrawKey key(std::uint32_t attempt) const {
+  FaceRandomKey key(std::uint32_t attempt) const {
     const FacePlan& original = cast_.crowd[at_];
     return {*original.index, attempt, concat("change/", number_, '/', original.notes.attempt)};
   }
@@ -136,7 +137,7 @@ class Changing {
     return faces;
   }
 
-  FaceSearch::Draw vary(const FaceChange& change) const {
+  FaceSearch::Generate vary(const FaceChange& change) const {
     FacePlan other = changed_.variant_of->face;
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
@@ -148,7 +149,7 @@ class Changing {
       open.target = other.recipe.target;
       open.age = Range{0, 0};
       const FacePlan drawn =
-          draw_recipe(casting_, open, key(attempt), kind_called(other.group, casting_));
+          random_recipe(casting_, open, key(attempt), kind_called(other.group, casting_));
       const auto at = [&](double share) {
         FacePlan face = drawn;
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.scale);
@@ -165,7 +166,7 @@ class Changing {
     };
   }
 
-  FaceSearch::Draw draw_again(const FaceChange& change) const {
+  FaceSearch::Generate make_redraw(const FaceChange& change) const {
     const FacePlan& now = changed_.face;
     FaceKind kind = kind_called(change.group ? change.group : now.group, casting_);
     ManualRecipe open;
@@ -174,7 +175,7 @@ class Changing {
     if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
     const bool only_traits = limits_only(change);
     return [=, this](std::uint32_t attempt) {
-      FacePlan drawn = draw_recipe(casting_, open, key(attempt), kind);
+      FacePlan drawn = random_recipe(casting_, open, key(attempt), kind);
       drawn.index = now.index;
       if (!change.locked.empty()) keep_locked(change.locked, now.recipe, drawn.recipe);
       if (!only_traits || !meets_limits(drawn)) return drawn;
@@ -183,7 +184,7 @@ class Changing {
         face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.scale);
         return face;
       };
-      // The limits hold a little before the drawn face, so that the whole mesh meets them too.
+      // Require the limits with a margin, so that the whole mesh meets them too.
       constexpr double kMargin = 0.05;
       const double share = least_share([&](double part) { return meets_limits(at(part)); });
       return at(share + kMargin * (1 - share));
@@ -195,7 +196,8 @@ class Changing {
     return measurer.meets(changed_.traits, measurer.landmarks(face.recipe));
   }
 
-  std::optional<FaceSearch::Found> search(const FaceSearch::Draw& draw, const CrowdSoFar& others) {
+  std::optional<FaceSearch::Found> search(const FaceSearch::Generate& generate,
+                                          const CrowdSoFar& others) {
     FaceJudge judge = judge_;
     CastingOptions limited;
     std::optional<TraitRules> rules;
@@ -211,7 +213,7 @@ class Changing {
     }
     DiversityOptions diversity = casting_.diversity;
     diversity.min_distance_mm = min_distance_mm_;
-    FaceSearch found(draw, judge, diversity, 1);
+    FaceSearch found(generate, judge, diversity, 1);
     auto face = found.settle(others);
     cast_.rejections.add(found.rejections());
     if (!face) {
@@ -254,8 +256,8 @@ class Changing {
   std::size_t at_;
   CastingResult& cast_;
   ChangedFace& changed_;
-  int number_ = 0;              ///< of the current change, from 1
-  double min_distance_mm_ = 0;  ///< of the current change
+  int number_ = 0;              ///< number of the current change, from 1
+  double min_distance_mm_ = 0;  ///< smallest distance for the current change
 };
 
 /// \param first  whether the changes come before the known changes of the faces.

@@ -13,17 +13,17 @@
 
 namespace crowdface {
 
-/// Applies the changes of a review to faces, after their earlier changes; see
-/// CastingResult::changed. If a face cannot be drawn, sets the shortfall.
+/// Applies the changes of a review to faces, after the faces' earlier changes; see
+/// CastingResult::changed. If a face cannot be redrawn, sets the shortfall.
 ///
-/// - A face that is drawn again keeps its group and its age, unless it gets another group. It keeps
-///   the crowd's distances from the first versions of the faces before it in the plan. So it does
-///   not change when the crowd grows or other faces are redrawn.
-/// - A variant is a mixture of the other face, as it is before these changes, and a drawn face on
-///   the same target, at the asked distance from the other face.
-/// - With limits on measurements only, the face is a mixture of itself and a drawn face that meets
-///   the limits. The share of the drawn face is as small as the limits allow: none if the face meets
-///   them.
+/// - A redrawn face keeps its group and its age, unless it gets another group. It keeps the crowd's
+///   distances from the first versions of the faces before it in the plan. So it does not change
+///   when the crowd grows or other faces are redrawn.
+/// - A variant is a mixture of the other face, as it is before these changes, and a random face on
+///   the same target, at the requested distance from the other face.
+/// - With limits on measurements only, the face is a mixture of itself and a random face that meets
+///   the limits. The share of the random face is as small as the limits allow: none if the face
+///   already meets them.
 ///
 /// \param by  the origin of the changes, such as "review 2".
 /// \throws InvalidInput if a face is not in the crowd.
@@ -38,14 +38,15 @@ class AvoidedChanges {
   /// \param settled  #crowd: faces that are not being redrawn. Empty: all.
   AvoidedChanges(const CastingResult& cast, double min_distance_mm,
                  const std::vector<bool>& settled = {});
+  /// Returns why a point is rejected; nothing if it is accepted.
   std::optional<Reason> refuses(const FaceSpace::Point& point) const;
 
  private:
   double min_distance_mm_;
-  std::vector<FaceSpace::Point> points_;  ///< of the changed faces
+  std::vector<FaceSpace::Point> points_;  ///< points of the changed faces
 };
 
-/// Applies the changes of the config, before those of the reviews.
+/// Applies the changes of the config, before the reviews' changes.
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
                              CastingResult& cast);
 

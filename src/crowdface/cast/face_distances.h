@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Returns the distance (`face_distance`) of every two faces, N by N, symmetric. The faces may be in
-/// somebody else's memory; they are not copied.
+/// Returns the distances (`face_distance`) between all pairs of faces, N by N, symmetric. The faces
+/// are not copied; other objects may own their memory.
 ///
 /// \param areas  #V, weights of the vertices; not all zero.
 Eigen::MatrixXd face_distances(std::span<const Eigen::Map<const Positions>> faces,

@@ -63,10 +63,11 @@ std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
   return std::nullopt;
 }
 
-std::optional<Reason> FaceJudge::check_draw(const Recipe& recipe, const FaceSpace::Point& point,
-                                            std::uint32_t draw) const {
+std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
+                                                 const FaceSpace::Point& point,
+                                                 std::uint32_t earlier) const {
   if (const auto why = check_recipe(recipe, point)) return why;
-  const bool passes_for_head = draw < DiversityOptions::kDrawsAwayFromHeads &&
+  const bool passes_for_head = earlier < DiversityOptions::kCandidatesUnlikeHeads &&
                                heads_.nearest(point, same_person_mm_).face >= 0;
   return passes_for_head ? std::optional(Reason::kMinDistanceToFaces) : std::nullopt;
 }

@@ -20,7 +20,7 @@ std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const Ski
 /// any thread.
 using MeshDefects = std::function<SkinDefects(const Recipe&)>;
 
-/// Judges a candidate by itself, independently of the crowd.
+/// Judges single candidates, independently of the crowd.
 class FaceJudge {
  public:
   /// \param skin    Coarse skin for close checks. Null: shapes are not checked.
@@ -32,20 +32,21 @@ class FaceJudge {
   /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
   void limit_traits(const TraitRules* rules) { traits_ = rules; }
   const TraitRules* traits() const { return traits_; }
-  /// Checks the limits on measurements as exactly as on written meshes.
+  /// Checks the limits on measurements with the landmarks of the whole mesh.
   std::optional<Reason> check_traits(const FacePlan& face) const;
 
-  /// Checks everything that follows from the recipe and its point, in microseconds: weights,
-  /// distance from the input heads, plausibility.
+  /// Checks in microseconds everything that follows from a recipe and its point: weights, distance
+  /// from the input heads, plausibility.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
 
-  /// Like `check_recipe`. The first draws of a face (DiversityOptions::kDrawsAwayFromHeads) also
-  /// fail if the face would pass for a head.
-  /// \param draw  number of earlier draws of this face
-  std::optional<Reason> check_draw(const Recipe& recipe, const FaceSpace::Point& point,
-                                   std::uint32_t draw) const;
+  /// Like `check_recipe`. Also rejects the first candidates for a face if they pass for a head; see
+  /// DiversityOptions::kCandidatesUnlikeHeads.
+  ///
+  /// \param earlier  Number of earlier candidates for the same face.
+  std::optional<Reason> check_candidate(const Recipe& recipe, const FaceSpace::Point& point,
+                                        std::uint32_t earlier) const;
 
   /// Checks the shape of the skin: flips, stretch, intersections. Takes a millisecond on the
   /// samples, a tenth of a second on a mesh of 28,000 triangles.

@@ -14,7 +14,7 @@ namespace crowdface {
 /// few vertices only, whose positions follow from the heads' levels there.
 class FaceMeasurer {
  public:
-  /// A landmark as a weighted mean of samples; all weights are zero if nobody needs it.
+  /// A landmark as a weighted mean of samples; all weights are zero if no measurement needs it.
   struct Landmark {
     std::array<Index, 3> samples = {};
     std::array<double, 3> shares = {};
@@ -33,11 +33,11 @@ class FaceMeasurer {
         spread_(std::move(spread)),
         exactly_(std::move(exactly)) {}
 
-  /// The landmarks of a face, #landmarks by 3 in millimetres, in microseconds. Leaves out what
-  /// happens to a mesh after blending: the correction of the gap between the lips, which moves the
-  /// skin around the mouth by fractions of a millimetre.
+  /// Computes the landmarks of a face, #landmarks by 3 in millimetres, in microseconds. Ignores the
+  /// correction of the gap between the lips after blending, which moves the skin around the mouth
+  /// by fractions of a millimetre.
   Positions landmarks(const Recipe& recipe) const;
-  /// The landmarks of the mesh that is written for a recipe, in about a millisecond.
+  /// Computes the landmarks of the mesh that is written for a recipe, in about a millisecond.
   Positions exact_landmarks(const Recipe& recipe) const { return exactly_(recipe); }
 
   const TraitSpread& spread() const { return spread_; }

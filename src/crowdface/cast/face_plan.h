@@ -21,7 +21,7 @@ struct Nearest {
 
 /// How a face was found. Meshes do not depend on it.
 struct CastingNotes {
-  std::uint32_t attempt = 0;  ///< number of rejected draws before this one
+  std::uint32_t attempt = 0;  ///< number of rejected candidates before this face
   std::optional<Nearest> nearest;
   std::optional<std::string> review;  ///< a reviewer's note
   /// Changes of the face, in order: who changed which keys, such as "review 2: age, hair".
@@ -38,13 +38,13 @@ struct FacePlan {
   std::optional<double> age;  ///< −1 … 1, if the face was aged
   /// mother and father, if the family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
-  /// #regions by #bands: which parent the detail comes from; empty without parents
+  /// #regions by #bands: the parent that the detail comes from; empty without parents
   std::vector<std::string> inherits;
   double mother_share = 0;  ///< mother's fraction of the coarse shape, if the face inherits it
   std::vector<std::string> attachments;  ///< names
   /// values of the measurements that the plan records (PlanNames::traits); empty: not measured
   std::vector<double> traits = {};
-  std::optional<HairColour> hair;  ///< of faces whose attachments may have a tint
+  std::optional<HairColour> hair;  ///< hair colour, if attachments of the face may have a tint
   CastingNotes notes;
 };
 

@@ -44,8 +44,8 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
       bounds.box.low[d] = bounds.box.high[d] = points_.value(begin, static_cast<Index>(d));
     }
     for (Index at = begin; at < end; ++at) {
-      bounds.least = std::min(bounds.least, points_.number(at));
-      bounds.greatest = std::max(bounds.greatest, points_.number(at));
+      bounds.min_number = std::min(bounds.min_number, points_.number(at));
+      bounds.max_number = std::max(bounds.max_number, points_.number(at));
       for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
         const float value = points_.value(at, static_cast<Index>(d));
         bounds.box.low[d] = std::min(bounds.box.low[d], value);
@@ -59,14 +59,14 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
 void PointTree::search(const std::vector<float>& query, Index begin, Index end, double enough,
                        NearestPoint& best) const {
   const auto wanted = [&](float squared, const Bounds& node) {
-    return !(best.squared < enough) && node.least < end && node.greatest >= begin &&
-           static_cast<double>(squared) * (1 - PointBlocks::kRounding) <= best.squared;
+    return !(best.squared_distance < enough) && node.min_number < end && node.max_number >= begin &&
+           static_cast<double>(squared) * (1 - PointBlocks::kRounding) <= best.squared_distance;
   };
   visit(query, wanted, [&](Index block) { points_.search(query, block, begin, end, best); });
 }
 
 void PointTrees::add(const Eigen::VectorXf& point) {
-  newest_.add(size_++, newest_.padded(point).data());
+  newest_.add(size_++, newest_.padded_query(point).data());
   if (newest_.size() < kNewest) return;
   // Merge the newest points with all trees that are not larger.
   std::vector<const PointBlocks*> joined = {&newest_};
@@ -85,10 +85,10 @@ void PointTrees::add(const Eigen::VectorXf& point) {
 NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
                                  double enough) const {
   NearestPoint best{-1, limit};
-  const std::vector<float> padded = newest_.padded(query);
+  const std::vector<float> padded = newest_.padded_query(query);
   for (const PointTree& tree : trees_) {
     tree.search(padded, begin, end, enough, best);
-    if (best.point >= 0 && best.squared < enough) return best;
+    if (best.point >= 0 && best.squared_distance < enough) return best;
   }
   const Index first_newest = size_ - newest_.size();
   const Index last = std::min(end - first_newest, newest_.size());
@@ -110,13 +110,13 @@ FacePointIndex::Nearest FacePointIndex::nearest(const FaceSpace::Point& point, d
   if (end < 0) end = size();
   const double enough = enough_mm * enough_mm;
   NearestPoint hit = as_built_.nearest(point.as_built, limit_mm * limit_mm, begin, end, enough);
-  const bool done = hit.point >= 0 && hit.squared < enough;
+  const bool done = hit.point >= 0 && hit.squared_distance < enough;
   if (!done && (extrapolated_ || point.as_built != point.unit)) {
-    const NearestPoint other = unit_.nearest(point.unit, hit.squared, begin, end, enough);
+    const NearestPoint other = unit_.nearest(point.unit, hit.squared_distance, begin, end, enough);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};
-  return {hit.point, std::sqrt(hit.squared)};
+  return {hit.point, std::sqrt(hit.squared_distance)};
 }
 
 }  // namespace crowdface

@@ -26,9 +26,9 @@ class PointTree {
   /// Bounds of the points of a node.
   struct Bounds {
     LeadingBox box;
-    Index least, greatest;  ///< smallest and largest number of the node's points
+    Index min_number, max_number;  ///< of the node's points
   };
-  /// Visits the blocks of leaves. Of two child nodes, visits the one nearer to the query first.
+  /// Visits the blocks of leaves. Of two child nodes, visits the node nearer to the query first.
   ///
   /// \param wanted  (squared distance, bounds) → whether to visit the node.
   /// \param use     Called with the number of each block.
@@ -70,8 +70,8 @@ class PointTrees {
   /// Returns the nearest of the points [begin, end) with a squared distance below `limit`; of
   /// equally near points, the first. The result's bits do not depend on the other points.
   ///
-  /// \param enough  Squared distance, at most `limit`: the search ends at any point nearer than
-  ///                this.
+  /// \param enough  Squared distance, at most `limit`: the search ends at the first point nearer
+  ///                than this.
   NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
                        double enough = 0) const;
 
@@ -97,13 +97,13 @@ class FacePointIndex {
   /// Returns the nearest of the faces [begin, end) if it is nearer than `limit_mm`.
   ///
   /// \param end        If negative, the number of faces.
-  /// \param enough_mm  The search ends at any face nearer than this.
+  /// \param enough_mm  The search ends at the first face nearer than this.
   Nearest nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
                   Index end = -1, double enough_mm = 0) const;
 
  private:
-  PointTrees as_built_, unit_;
-  bool extrapolated_ = false;  ///< whether any face has an extrapolation factor other than 1
+  PointTrees as_built_, unit_;  ///< see FaceSpace::Point
+  bool extrapolated_ = false;   ///< whether any face has an extrapolation factor other than 1
 };
 
 }  // namespace crowdface

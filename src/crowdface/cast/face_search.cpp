@@ -6,9 +6,9 @@
 
 namespace crowdface {
 
-FaceSearch::FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity,
+FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
                        int candidates, std::uint32_t first_attempt)
-    : draw_(std::move(draw)),
+    : generate_(std::move(generate)),
       judge_(judge),
       diversity_(diversity),
       wanted_(static_cast<std::size_t>(candidates)),
@@ -25,25 +25,25 @@ bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crow
   if (wanted_ == 1) return true;
   double farthest = 0;
   for (const Candidate& other : candidates_) {
-    if (other.known) farthest = std::max(farthest, other.nearest_mm);
+    if (other.is_exact) farthest = std::max(farthest, other.nearest_mm);
   }
   candidate.nearest_mm =
       crowd.index()
           .nearest(candidate.point, HUGE_VAL, crowd.first_sampled(), crowd.size(), farthest)
           .mm;
-  candidate.known = candidate.nearest_mm >= farthest;
+  candidate.is_exact = candidate.nearest_mm >= farthest;
   return true;
 }
 
-/// Returns whether to draw another candidate. Limits on measurements may need many more attempts
-/// than all other constraints: beyond the usual number, one candidate is enough.
-bool FaceSearch::goes_on() const {
+/// Returns whether to generate another candidate. Limits on measurements may need many more
+/// attempts than all other constraints: beyond the usual number, one candidate is enough.
+bool FaceSearch::needs_candidates() const {
   if (candidates_.size() >= wanted_ || next_attempt_ >= last_attempt_) return false;
   return candidates_.empty() || next_attempt_ < usual_attempt_;
 }
 
-/// Measures a candidate, if that is asked for, and checks its limits. An attempt that fails here
-/// does not count as one of the usual attempts, up to a multiple of their number.
+/// Measures a candidate, if there are rules for measurements, and checks its limits. A candidate
+/// that fails here does not use up one of the usual attempts, up to a multiple of their number.
 bool FaceSearch::meets_limits(Candidate& candidate) {
   const TraitRules* rules = judge_.traits();
   if (rules == nullptr) return true;
@@ -52,19 +52,20 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   if (!reason) return true;
   rejections_.add(*reason);
   const auto usual = static_cast<std::uint32_t>(diversity_.max_attempts);
-  if (last_attempt_ - usual_attempt_ < (kDrawsWithTraits - 1) * usual) ++last_attempt_;
+  if (last_attempt_ - usual_attempt_ < (kAttemptFactorWithTraits - 1) * usual) ++last_attempt_;
   return false;
 }
 
-/// Draws until there are enough candidates or no attempts are left.
-void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
-  while (goes_on()) {
+/// Generates candidates until there are enough or no attempts are left.
+void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
+  while (needs_candidates()) {
     Candidate candidate;
-    const std::uint32_t draw = next_attempt_ - first_attempt_;
-    candidate.face = draw_(next_attempt_++);
+    const std::uint32_t earlier = next_attempt_ - first_attempt_;
+    candidate.face = generate_(next_attempt_++);
     if (!meets_limits(candidate)) continue;
     candidate.point = judge_.space().point(candidate.face.recipe);
-    if (const auto reason = judge_.check_draw(candidate.face.recipe, candidate.point, draw)) {
+    if (const auto reason =
+            judge_.check_candidate(candidate.face.recipe, candidate.point, earlier)) {
       rejections_.add(*reason);
     } else if (!compare_with_crowd(candidate, crowd)) {
       rejections_.add(Reason::kMinDistance);
@@ -75,7 +76,7 @@ void FaceSearch::draw_candidates(const CrowdSoFar& crowd) {
   compared_ = crowd.size();
 }
 
-/// Compares the candidates with faces that joined the crowd after they were drawn.
+/// Compares the candidates with faces that have joined the crowd since the last comparison.
 void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   if (compared_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
@@ -90,25 +91,25 @@ void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   compared_ = crowd.size();
 }
 
-/// Returns the farthest candidate; of equally far ones, the one drawn first.
+/// Returns the farthest candidate; of equally far candidates, the earliest.
 FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
                                          [](const Candidate& a, const Candidate& b) {
                                            if (a.nearest_mm != b.nearest_mm)
                                              return a.nearest_mm > b.nearest_mm;
-                                           if (a.known != b.known) return b.known;
+                                           if (a.is_exact != b.is_exact) return b.is_exact;
                                            return a.face.notes.attempt < b.face.notes.attempt;
                                          });
-    if (first.known) return first;
+    if (first.is_exact) return first;
     const auto nearest =
         crowd.index().nearest(first.point, first.nearest_mm, crowd.first_sampled(), crowd.size());
     first.nearest_mm = std::min(first.nearest_mm, nearest.mm);
-    first.known = true;
+    first.is_exact = true;
   }
 }
 
-/// Returns the candidate with the least cost; of equal ones, the one drawn first.
+/// Returns the candidate with the least cost; of equal candidates, the earliest.
 FaceSearch::Candidate& FaceSearch::cheapest(const Cost& cost) {
   std::vector<double> costs;
   for (const Candidate& candidate : candidates_) costs.push_back(cost(candidate.landmarks));
@@ -117,29 +118,29 @@ FaceSearch::Candidate& FaceSearch::cheapest(const Cost& cost) {
 
 void FaceSearch::judge_skin(Candidate& candidate) const {
   if (candidate.judged) return;
-  candidate.broken = judge_.check_traits(candidate.face);
-  if (!candidate.broken) candidate.broken = judge_.check_skin(candidate.face.recipe);
+  candidate.violated = judge_.check_traits(candidate.face);
+  if (!candidate.violated) candidate.violated = judge_.check_skin(candidate.face.recipe);
   candidate.judged = true;
 }
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
-  draw_candidates(crowd);
-  if (!candidates_.empty()) judge_skin(farthest(crowd));  // most likely the one to be chosen
+  find_candidates(crowd);
+  if (!candidates_.empty()) judge_skin(farthest(crowd));  // most likely the chosen candidate
 }
 
 std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd, const Refuses& refuses,
                                                     const Cost& cost) {
   for (;;) {
     compare_with_added_faces(crowd);
-    draw_candidates(crowd);
+    find_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
-    // Take the farthest or cheapest candidate that passes all checks. If none does, draw more.
+    // Take the farthest or cheapest candidate that passes all checks. If none does, generate more.
     while (!candidates_.empty()) {
       Candidate& candidate = cost ? cheapest(cost) : farthest(crowd);
       auto why = refuses ? refuses(candidate.point) : std::nullopt;
       if (!why) {
         judge_skin(candidate);
-        why = candidate.broken;
+        why = candidate.violated;
       }
       if (!why) {
         return Found{std::move(candidate.face), std::move(candidate.point),

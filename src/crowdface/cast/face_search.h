@@ -11,25 +11,25 @@
 
 namespace crowdface {
 
-/// The search for one face: draws candidates, rejects those that violate a constraint, and chooses
-/// the one farthest from the crowd (best-candidate sampling, Mitchell 1991; with one candidate, the
-/// first that is far enough). The result depends only on the search's own draws and on the crowd
-/// passed to `settle`. The crowd passed to `prepare` only affects the speed.
+/// The search for one face: generates candidates, rejects candidates that violate a constraint, and
+/// chooses the candidate farthest from the crowd (best-candidate sampling, Mitchell 1991; with one
+/// candidate, the first that is far enough). The result depends only on the generated candidates
+/// and on the crowd passed to `settle`. The crowd passed to `prepare` only affects the speed.
 class FaceSearch {
  public:
-  /// Draws attempt number `attempt`. Must be a pure function.
-  using Draw = std::function<FacePlan(std::uint32_t attempt)>;
+  /// Generates candidate number `attempt`. Must be a pure function.
+  using Generate = std::function<FacePlan(std::uint32_t attempt)>;
   /// An additional check of a candidate's point: returns the reason for a rejection, or nothing.
   using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
   /// How undesirable a candidate is, from its landmarks; see FaceMeasurer.
   using Cost = std::function<double(const Positions& landmarks)>;
 
-  FaceSearch(Draw draw, const FaceJudge& judge, const DiversityOptions& diversity, int candidates,
-             std::uint32_t first_attempt = 0);
+  FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
+             int candidates, std::uint32_t first_attempt = 0);
 
-  /// Draws candidates in advance and compares them with the current crowd. Different searches may
-  /// run in parallel.
+  /// Generates candidates in advance and compares them with the current crowd. Different searches
+  /// may run in parallel.
   void prepare(const CrowdSoFar& crowd);
 
   struct Found {
@@ -51,21 +51,21 @@ class FaceSearch {
     Positions landmarks = {};
     /// distance to the nearest face, or an upper bound of this distance
     double nearest_mm = HUGE_VAL;
-    bool known = true;
-    bool judged = false;  ///< whether `check_skin` was called
-    std::optional<Reason> broken = std::nullopt;
+    bool is_exact = true;  ///< whether `nearest_mm` is the distance, not only a bound
+    bool judged = false;   ///< whether `check_skin` was called
+    std::optional<Reason> violated = std::nullopt;
   };
 
-  bool goes_on() const;
+  bool needs_candidates() const;
   bool meets_limits(Candidate& candidate);
-  void draw_candidates(const CrowdSoFar& crowd);
+  void find_candidates(const CrowdSoFar& crowd);
   bool compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   void compare_with_added_faces(const CrowdSoFar& crowd);
   Candidate& farthest(const CrowdSoFar& crowd);
   Candidate& cheapest(const Cost& cost);
   void judge_skin(Candidate& candidate) const;
 
-  Draw draw_;
+  Generate generate_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
   std::size_t wanted_;

@@ -46,7 +46,7 @@ struct FaceSpace::FunctionRows {
 
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands)
     : heads_(std::move(heads)) {
-  choose_counting(weights);
+  choose_weighted_samples(weights);
   const FloatRows basis = find_functions();
   place_heads_and_fields();
   find_directions(bands);
@@ -59,7 +59,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables)
     : heads_(std::move(heads)), tables_(std::move(tables)) {
   require(fit(tables_, heads_), "face space: tables of other heads");
-  choose_counting(weights);
+  choose_weighted_samples(weights);
   place_heads_and_fields();
   directions_transposed_ = tables_.directions.transpose();
   if (heads_.alpha.cols() > 1) find_region_shares();
@@ -78,11 +78,11 @@ bool FaceSpace::fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
          });
 }
 
-void FaceSpace::choose_counting(const std::vector<double>& weights) {
+void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
   for (Index s = 0; s < heads_.mean.rows(); ++s) {
-    if (weights[static_cast<std::size_t>(s)] > 0) counting_.push_back(s);
+    if (weights[static_cast<std::size_t>(s)] > 0) weighted_samples_.push_back(s);
   }
-  weight_roots_.resize(static_cast<Index>(counting_.size()));
+  weight_roots_.resize(static_cast<Index>(weighted_samples_.size()));
   for (Index i = 0; i < weight_roots_.size(); ++i) {
     weight_roots_[i] =
         static_cast<float>(std::sqrt(weights[static_cast<std::size_t>(sample_at(i))]));

@@ -14,7 +14,7 @@ struct FaceSpaceTables {
   /// #functions by #P: the basis of scalar functions; faces are sums of these functions
   FloatRows functions;
   FloatRows directions;  ///< #D by 3·#P: principal directions of aligned faces
-  /// #regions (empty for one region), #D by #D: metric times the region's weights
+  /// #regions (empty for one region), each #D by #D: the metric of the region
   std::vector<FloatRows> metrics;
 };
 
@@ -89,8 +89,8 @@ class FaceSpace {
   }
   std::size_t in_side(Index head) const { return static_cast<std::size_t>(head % head_count()); }
   /// Returns the index of the sample in row i. Samples of weight zero have no row.
-  Index sample_at(Index i) const { return counting_[static_cast<std::size_t>(i)]; }
-  void choose_counting(const std::vector<double>& weights);
+  Index sample_at(Index i) const { return weighted_samples_[static_cast<std::size_t>(i)]; }
+  void choose_weighted_samples(const std::vector<double>& weights);
   SpanBasis level_modes() const;
   template <class Value>
   void put_function(const Value& value, float* row) const;
@@ -108,8 +108,8 @@ class FaceSpace {
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
-  std::vector<Index> counting_;   ///< samples of nonzero weight
-  Eigen::VectorXf weight_roots_;  ///< √w of each sample in `counting_`
+  std::vector<Index> weighted_samples_;  ///< samples of nonzero weight
+  Eigen::VectorXf weight_roots_;         ///< √w of each sample in `weighted_samples_`
   FaceSpaceTables tables_;
   Shape mean_shape_;           ///< #P by 3
   std::vector<Shape> shapes_;  ///< shapes of all heads, including mirror images

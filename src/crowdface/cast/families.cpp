@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kFounders = 12;  ///< founders tried before giving up
-/// couples of drawn parents tried in addition to the founders
+/// couples of new parents tried in addition to the founders
 constexpr std::uint32_t kCouples = 200;
 constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
 constexpr int kFounderCandidates = 24;
@@ -27,11 +27,11 @@ DiversityOptions unseen(DiversityOptions diversity) {
   return diversity;
 }
 
-/// Draws the members, each against the crowd and the earlier members. Returns fewer if there is no
-/// room.
-std::vector<FaceSearch::Found> draw_members(const CastingOptions& casting,
+/// Finds the members, each far enough from the crowd and the earlier members. Returns fewer members
+/// if there is no room.
+std::vector<FaceSearch::Found> find_members(const CastingOptions& casting,
                                             const FamilyOptions& family, const FaceJudge& judge,
-                                            const FamilyDraws& draws, const FamilyPlan& cast,
+                                            const FamilySampler& sampler, const FamilyPlan& cast,
                                             const CrowdSoFar& crowd,
                                             const FamilySeparation& family_separation,
                                             Rejections& rejections) {
@@ -39,12 +39,12 @@ std::vector<FaceSearch::Found> draw_members(const CastingOptions& casting,
   std::vector<FaceSpace::Point> own;
   while (static_cast<int>(members.size()) < family.members) {
     const int number = static_cast<int>(members.size()) + 1;
-    FaceSearch search([&](std::uint32_t attempt) { return draws.member(cast, number, attempt); },
+    FaceSearch search([&](std::uint32_t attempt) { return sampler.member(cast, number, attempt); },
                       judge, casting.diversity, 1);
     auto member = search.settle(crowd, [&](const FaceSpace::Point& point) {
-      return draws.drawn_parent_mm(point) < casting.diversity.min_distance_mm
+      return sampler.new_parent_mm(point) < casting.diversity.min_distance_mm
                  ? std::optional(Reason::kMinDistance)
-                 : draws.refuses(cast, point, own, family_separation);
+                 : sampler.refuses(cast, point, own, family_separation);
     });
     rejections.add(search.rejections());
     if (!member) break;
@@ -60,35 +60,36 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
                                       const FaceJudge& judge, const UnrelatedFaces& unrelated,
                                       CrowdSoFar& crowd, FamilySeparation& family_separation,
                                       Rejections& rejections) {
-  FamilyDraws draws(casting, family, judge, unrelated, crowd);
+  FamilySampler sampler(casting, family, judge, unrelated, crowd);
   const DiversityOptions of_founder = unseen(casting.diversity);
-  const bool drawn = draws.needs_parents();
-  const std::uint32_t attempts_each = kFounderAttempts * draws_factor(casting);
+  const bool drawn = sampler.needs_parents();
+  const std::uint32_t attempts_each = kFounderAttempts * attempt_factor(casting);
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
     throw_if_interrupted();
-    if (drawn && !draws.draw_parents(crowd, family_separation, f, rejections)) return std::nullopt;
+    if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
+      return std::nullopt;
     // Find a founder. Parents that were sampled for the family must also be similar to it.
-    FaceSearch founder([&](std::uint32_t attempt) { return draws.founder(attempt); }, judge,
+    FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
                        f * attempts_each);
     auto found = founder.settle(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    const double to_half = draws.strangers_nearer(found->point);
-    // The limit grows with the number of tries: two drawn parents soon match well, but if one
-    // parent is given, there may be no good match.
+    const double to_half = sampler.strangers_nearer(found->point);
+    // The limit grows with the number of tries: two new parents soon match well, but if one parent
+    // is given, there may be no good match.
     const double enough = kStrangersNearerToHalf * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child replaces the founder.
     if (family.twins) {
-      FaceSearch model([&](std::uint32_t attempt) { return draws.model_of_twins(cast, attempt); },
+      FaceSearch model([&](std::uint32_t attempt) { return sampler.model_of_twins(cast, attempt); },
                        judge, of_founder, 1, f * attempts_each);
       auto child = model.settle(crowd, [&](const FaceSpace::Point& point) {
         const bool too_far = to_half <= kStrangersNearerToHalf &&
-                             draws.strangers_nearer(point) > kStrangersNearerToHalf;
+                             sampler.strangers_nearer(point) > kStrangersNearerToHalf;
         return too_far ? std::optional(Reason::kFamily)
-                       : draws.refuses(cast, point, {}, family_separation);
+                       : sampler.refuses(cast, point, {}, family_separation);
       });
       rejections.add(model.rejections());
       if (!child) continue;
@@ -96,10 +97,10 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     }
     // Find room for all members, or try the next founder.
     auto members =
-        draw_members(casting, family, judge, draws, cast, crowd, family_separation, rejections);
+        find_members(casting, family, judge, sampler, cast, crowd, family_separation, rejections);
     if (static_cast<int>(members.size()) < family.members) continue;
-    // Add the drawn parents and the members to the crowd.
-    for (const FaceSearch::Found& parent : draws.drawn_parents()) {
+    // Add the new parents and the members to the crowd.
+    for (const FaceSearch::Found& parent : sampler.new_parents()) {
       crowd.add(parent.face, parent.point);
     }
     cast.begin = crowd.size();
@@ -111,7 +112,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     }
     family_separation.add(family.name, points);
     for (const FaceSpace::Point& child : points) {
-      cast.strangers_nearer = std::max(cast.strangers_nearer, draws.strangers_nearer(child));
+      cast.strangers_nearer = std::max(cast.strangers_nearer, sampler.strangers_nearer(child));
     }
     return cast;
   }

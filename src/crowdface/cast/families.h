@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// Casts a family and adds its drawn parents and then its members to the crowd. If not all members
-/// can be placed around a founder, draws another founder, a bounded number of times. Parents are
-/// drawn so that at most one stranger in ten is nearer to a child than each parent is.
+/// Casts a family and adds its new parents and then its members to the crowd. If not all members
+/// can be placed around a founder, tries another founder, a bounded number of times. New parents
+/// are such that at most one stranger in ten is nearer to a child than each parent is.
 ///
 /// \return  Nothing if the family cannot be cast; `rejections` then holds the reasons.
 std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,
@@ -19,9 +19,9 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
                                       Rejections& rejections);
 
 /// Returns the mean silhouette of a family's members (Rousseeuw 1987): (b − a)/max(a, b), where a
-/// is a member's mean distance to its own family, and b its mean distance to the nearest other
-/// family (to all other faces if there is no other family). 1: far from all others; below 0: nearer
-/// to another family.
+/// is a member's mean distance to its own family, and b the member's mean distance to the nearest
+/// other family (to all other faces if there is no other family). 1: far from all other families;
+/// below 0: nearer to another family.
 double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
                   const std::vector<FaceSpace::Point>& points);
 

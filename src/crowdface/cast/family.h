@@ -13,12 +13,12 @@ namespace crowdface {
 /// A parent of a family: an input head, or a face of the plan, given by its id.
 struct Parent {
   std::optional<Eigen::Index> head;
-  std::string id;      ///< id of the face, with or without the crowd's name; or name of the head
-  bool drawn = false;  ///< the parent does not exist yet: casting draws a face with this id
+  std::string id;       ///< id of the face, with or without the crowd's name; or name of the head
+  bool is_new = false;  ///< the parent does not exist yet: casting makes a face with this id
   std::optional<std::size_t> group =
-      {};  ///< drawn parent: group whose parameters are used; empty: the crowd's
-  /// Possible targets of a parent that is drawn with the crowd's parameters: the heads tagged
-  /// female or male. Empty: all targets of the crowd.
+      {};  ///< new parent: group whose parameters are used; empty: the crowd's parameters
+  /// Possible targets of a new parent with the crowd's parameters: the heads tagged female or male.
+  /// Empty: all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
 };
 
@@ -26,8 +26,9 @@ struct Parent {
 struct FamilyOptions {
   std::string name;
   int members = 0;
-  std::optional<std::size_t> group;  ///< group whose parameters are used; empty: the crowd's
-  /// target of all members; empty: inherited from the parents, or the founder's
+  std::optional<std::size_t>
+      group;  ///< group whose parameters are used; empty: the crowd's parameters
+  /// target of all members; empty: the target is inherited from the parents or the founder
   std::optional<Eigen::Index> target;
   std::vector<Parent> parents;  ///< empty, or mother and father
   /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 from neither
@@ -38,7 +39,7 @@ struct FamilyOptions {
   /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
   bool twins = false;
   Range age = {0, 0};       ///< ages of the members, see apply_age
-  TraitLimits traits = {};  ///< in place of the limits of the crowd or group on the same traits
+  TraitLimits traits = {};  ///< replace the crowd's or group's limits on the same traits
 };
 
 }  // namespace crowdface

@@ -18,10 +18,10 @@ namespace crowdface {
 namespace {
 
 constexpr double kNearestShare = 0.4;  ///< smallest step of a member, as a fraction of max_distance
-/// weight of a parent's detail in the random face towards which a member is drawn
+/// weight of a parent's detail in the random face that a member is mixed with
 constexpr double kParentShare = 0.75;
-/// Coarse shape of the random face towards which a member is drawn: kLargeFormsShare is the weight
-/// of one parent, kForeignShare that of a third contributor; the other parent has the rest.
+/// Coarse shape of the random face that a member is mixed with: kLargeFormsShare is the weight of
+/// one parent, kForeignShare the weight of a third contributor; the other parent has the rest.
 /// Without the third contributor, children of one couple would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
@@ -31,11 +31,11 @@ constexpr double kTwinsReach = 0.5;  // largest distance of a twin from the hidd
 /// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
 /// parent is.
 constexpr double kStrangersNearer = 0.1;
-/// distance by which a child may be farther from a parent than the limit allows, as a fraction of
-/// max_distance, if the parents are far apart
+/// if the parents are far apart: how much farther from a parent than the founder a child may be, as
+/// a fraction of max_distance
 constexpr double kRoomAtHalf = 0.25;
 
-/// Returns the parameters of a drawn parent. If the crowd has no target of the parent's sex, all
+/// Returns the parameters of a new parent. If the crowd has no target of the parent's sex, all
 /// targets are allowed.
 FaceKind kind_of(const Parent& parent, const CastingOptions& casting) {
   FaceKind kind = kind_of_group(casting, parent.group);
@@ -49,9 +49,9 @@ FaceKind kind_of(const Parent& parent, const CastingOptions& casting) {
 
 }  // namespace
 
-FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& family,
-                         const FaceJudge& judge, const UnrelatedFaces& unrelated,
-                         const CrowdSoFar& crowd)
+FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions& family,
+                             const FaceJudge& judge, const UnrelatedFaces& unrelated,
+                             const CrowdSoFar& crowd)
     : casting_(casting),
       family_(family),
       judge_(judge),
@@ -72,18 +72,18 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
       return face.id == parent.id || face.id == parent_id(casting.name, parent);
     });
     if (found == faces.end()) {
-      if (!parent.drawn) {
+      if (!parent.is_new) {
         throw InvalidInput(
             concat("family ", family.name, ": no earlier face is called ", quoted(parent.id)));
       }
-      to_draw_.push_back(p);
+      missing_parents_.push_back(p);
       continue;
     }
     add_parent(p, found->id, *found,
                crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
     if (found->family) relatives_.push_back(*found->family);
   }
-  if (to_draw_.empty()) meet_parents();
+  if (missing_parents_.empty()) prepare_inheritance();
   const auto is_parent = [&](const std::string& name) {
     return std::any_of(parents_.begin(), parents_.end(),
                        [&](const KnownParent& one) { return !name.empty() && one.name == name; });
@@ -100,8 +100,8 @@ FamilyDraws::FamilyDraws(const CastingOptions& casting, const FamilyOptions& fam
   }
 }
 
-void FamilyDraws::add_parent(std::size_t parent, std::string name, FacePlan face,
-                             FaceSpace::Point point) {
+void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan face,
+                               FaceSpace::Point point) {
   take_back_age(face, {casting_.anchors, casting_.tags},
                 sampling_of(face));  // children do not inherit a parent's age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
@@ -109,8 +109,8 @@ void FamilyDraws::add_parent(std::size_t parent, std::string name, FacePlan face
 
 /// Called when the parents are known. Determines the third contributor, and the substitutes for
 /// heads of the parents that are outside the family's group.
-void FamilyDraws::meet_parents() {
-  others_ = third_contributor();
+void FamilySampler::prepare_inheritance() {
+  contributor_kind_ = third_contributor();
   if (!family_.group || parents_.empty()) return;
   const FaceKind kind = kind_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
@@ -119,24 +119,25 @@ void FamilyDraws::meet_parents() {
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
   // With a single target, children would inherit nothing of their parents' coarse shapes.
-  form_ = targets.size() > 1 ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
-                             : SubstituteHeads();
-  detail_.clear();
+  target_substitutes_ = targets.size() > 1
+                            ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
+                            : SubstituteHeads();
+  source_substitutes_.clear();
   for (std::size_t b = 0; b < band_count(*kind.sampling); ++b) {
-    detail_.emplace_back(sources_of(kind, b), casting_.tags, taken, judge_.space());
+    source_substitutes_.emplace_back(sources_of(kind, b), casting_.tags, taken, judge_.space());
   }
 }
 
 /// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
 /// replaced.
-std::vector<SourceWeight> FamilyDraws::form_of(std::size_t parent) const {
-  return form_.of(target_shares(parents_[parent].face.recipe));
+std::vector<SourceWeight> FamilySampler::form_of(std::size_t parent) const {
+  return target_substitutes_.substituted(target_shares(parents_[parent].face.recipe));
 }
 
-/// Returns the parameters of the third contributor. It is drawn from the heads (at least three)
+/// Returns the parameters of the third contributor: a random mixture of the heads (at least three)
 /// that have most of the tags that both parents share, so that the child's skin tone stays
 /// plausible.
-FaceKind FamilyDraws::third_contributor() const {
+FaceKind FamilySampler::third_contributor() const {
   constexpr std::size_t kMin = 3;
   FaceKind kind = kind_of_group(casting_, family_.group);
   if (parents_.empty() || casting_.tags.empty()) return kind;
@@ -165,73 +166,74 @@ FaceKind FamilyDraws::third_contributor() const {
   return kind;
 }
 
-bool FamilyDraws::draw_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
-                               std::uint32_t attempt, Rejections& rejections) {
-  drawn_.clear();
-  for (const std::size_t p : to_draw_) {
+bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
+                                   const FamilySeparation& family_separation, std::uint32_t attempt,
+                                   Rejections& rejections) {
+  new_parents_.clear();
+  for (const std::size_t p : missing_parents_) {
     const Parent& parent = family_.parents[p];
     ManualRecipe open;
     open.id = parent_id(casting_.name, parent);
     const FaceKind kind = kind_of(parent, casting_);
     FaceSearch search(
         [&](std::uint32_t draw) {
-          return draw_recipe(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
+          return random_recipe(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
         },
         judge_, casting_.diversity, 1,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts) *
-            draws_factor(casting_));
+            attempt_factor(casting_));
     auto found = search.settle(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
-      if (drawn_parent_mm(point) < casting_.diversity.min_distance_mm) return Reason::kMinDistance;
+      if (new_parent_mm(point) < casting_.diversity.min_distance_mm) return Reason::kMinDistance;
       return family_separation.refuses(point);
     });
     rejections.add(search.rejections());
     if (!found) return false;
     add_parent(p, found->face.id, found->face, found->point);
-    drawn_.push_back(std::move(*found));
+    new_parents_.push_back(std::move(*found));
   }
-  meet_parents();
+  prepare_inheritance();
   return true;
 }
 
-double FamilyDraws::drawn_parent_mm(const FaceSpace::Point& point) const {
+double FamilySampler::new_parent_mm(const FaceSpace::Point& point) const {
   double mm = HUGE_VAL;
-  for (const FaceSearch::Found& parent : drawn_) {
+  for (const FaceSearch::Found& parent : new_parents_) {
     mm = std::min(mm, FaceSpace::distance(point, parent.point));
   }
   return mm;
 }
 
-/// Returns the parameters that a face was drawn with.
-const SamplingOptions& FamilyDraws::sampling_of(const FacePlan& face) const {
+/// Returns the sampling parameters of a face: its group's or the crowd's parameters.
+const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
   for (const Group& group : casting_.groups) {
     if (face.group == group.name) return group.sampling;
   }
   return casting_.sampling;
 }
 
-/// Returns the band of a region that a parent passes on: for a face, that of its recipe; for a
+/// Returns the band of a region that a parent passes on: for a face, the band of its recipe; for a
 /// head, the head's own detail.
-BandRecipe FamilyDraws::of_parent(std::size_t parent, std::size_t region, std::size_t band,
-                                  const BandRecipe& drawn) const {
-  BandRecipe own = drawn;
+BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, std::size_t band,
+                                      const BandRecipe& random_band) const {
+  BandRecipe own = random_band;
   if (family_.parents[parent].head) {
     own.position.reset();
     own.weights = {{*family_.parents[parent].head, 1}};
   } else {
     own = band_of(parents_[parent].face.recipe.regions[region], band);
   }
-  if (detail_.empty() || detail_[band].has_all(own.weights)) return own;
+  if (source_substitutes_.empty() || source_substitutes_[band].has_all(own.weights)) return own;
   own.position.reset();
-  own.weights = detail_[band].of(own.weights);
+  own.weights = source_substitutes_[band].substituted(own.weights);
   return own;
 }
 
-FacePlan FamilyDraws::founder(std::uint32_t attempt) const {
+FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   ManualRecipe open;
   open.target = family_.target;
   open.age = Range{0, 0};
-  FacePlan face =
-      draw_recipe(casting_, open, {0, attempt, concat("family/", family_.name)}, others_);
+  FacePlan face = random_recipe(casting_, open, {0, attempt, concat("family/", family_.name)},
+                                contributor_kind_);
   if (parents_.empty()) {
     face.family = family_.name;  // so that the family's limits on measurements apply
     return face;
@@ -249,31 +251,31 @@ FacePlan FamilyDraws::founder(std::uint32_t attempt) const {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       BandRecipe& band = band_of(region, b);
       const int from = inherited_from(k, b);
-      band = from >= 0
-                 ? of_parent(static_cast<std::size_t>(from), k, b, band)
-                 : mixed(of_parent(0, k, b, band), of_parent(1, k, b, band), 0.5, casting_.scale);
+      band = from >= 0 ? parent_band(static_cast<std::size_t>(from), k, b, band)
+                       : mixed(parent_band(0, k, b, band), parent_band(1, k, b, band), 0.5,
+                               casting_.scale);
     }
     keep_order(region);
   }
   return face;
 }
 
-/// Returns (1 − t)·from + t·to, aged.
-FacePlan FamilyDraws::towards(const FacePlan& from, const Draft& draft, double t) const {
-  FacePlan face = draft.to;
-  face.recipe = mixed(from.recipe, draft.to.recipe, t, casting_.scale);
-  face.mother_share = (1 - t) * from.mother_share + t * draft.to.mother_share;
+/// Returns (1 − t)·from + t·draft.random_face, aged.
+FacePlan FamilySampler::mixed_face(const FacePlan& from, const Draft& draft, double t) const {
+  FacePlan face = draft.random_face;
+  face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.scale);
+  face.mother_share = (1 - t) * from.mother_share + t * draft.random_face.mother_share;
   apply_age(face, draft.age, {casting_.anchors, casting_.tags}, sampling_of(face));
   return face;
 }
 
 /// Returns 0 for the mother, 1 for the father, −1 for a random parent.
-int FamilyDraws::inherited_from(std::size_t region, std::size_t band) const {
+int FamilySampler::inherited_from(std::size_t region, std::size_t band) const {
   return family_.inherit[region * band_count(casting_.sampling) + band];
 }
 
 /// Mixes a face with a parent in its coarse shape, and with a parent in each band of each region.
-void FamilyDraws::inherit(FacePlan& face, const DrawKey& key) const {
+void FamilySampler::inherit(FacePlan& face, const FaceRandomKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.who, "/inherits/", what);
     return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
@@ -294,7 +296,7 @@ void FamilyDraws::inherit(FacePlan& face, const DrawKey& key) const {
           from >= 0 ? static_cast<std::size_t>(from)
                     : parent_of(b == 0 ? name : concat(name, '/', casting_.sampling.bands[b].name));
       BandRecipe& band = band_of(region, b);
-      band = mixed(band, of_parent(parent, k, b, band), kParentShare, casting_.scale);
+      band = mixed(band, parent_band(parent, k, b, band), kParentShare, casting_.scale);
       face.inherits.emplace_back(parent == 0 ? "mother" : "father");
     }
     keep_order(region);
@@ -302,24 +304,24 @@ void FamilyDraws::inherit(FacePlan& face, const DrawKey& key) const {
   for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
 }
 
-double FamilyDraws::reach_mm(const FamilyPlan& cast) const {
+double FamilySampler::reach_mm(const FamilyPlan& cast) const {
   const double most = family_.max_distance_mm;
   return cast.alike_to_founder ? std::min(most, kTwinsReach) : most;
 }
 
-FamilyDraws::Draft FamilyDraws::draft(const FamilyPlan& cast, int member,
-                                      std::uint32_t attempt) const {
-  const DrawKey key = {static_cast<std::uint64_t>(member), attempt,
-                       concat("family/", family_.name)};
+FamilySampler::Draft FamilySampler::draft(const FamilyPlan& cast, int member,
+                                          std::uint32_t attempt) const {
+  const FaceRandomKey key = {static_cast<std::uint64_t>(member), attempt,
+                             concat("family/", family_.name)};
   ManualRecipe open;
   open.id = member_id(casting_.name, family_.name, member);
   open.target = family_.target;
   if (parents_.empty()) open.target = cast.founder.recipe.target;
   open.age = Range{0, 0};
   Draft draft;
-  draft.to = draw_recipe(casting_, open, key, others_);
-  draft.to.family = family_.name;
-  if (!parents_.empty()) inherit(draft.to, key);
+  draft.random_face = random_recipe(casting_, open, key, contributor_kind_);
+  draft.random_face.family = family_.name;
+  if (!parents_.empty()) inherit(draft.random_face, key);
   const std::string purpose = concat(key.who, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
@@ -327,13 +329,13 @@ FamilyDraws::Draft FamilyDraws::draft(const FamilyPlan& cast, int member,
   draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.reach_mm *= reach_mm(cast);
   if (cast.alike_to_founder) {
-    draft.to.inherits = cast.founder.inherits;
+    draft.random_face.inherits = cast.founder.inherits;
     draft.age = cast.founder.age.value_or(0);
   }
   return draft;
 }
 
-FacePlan FamilyDraws::at_drawn_distance(const FamilyPlan& cast, const Draft& draft) const {
+FacePlan FamilySampler::at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const {
   const auto beyond = [&](const FacePlan& face) {
     return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
            draft.reach_mm;
@@ -341,51 +343,51 @@ FacePlan FamilyDraws::at_drawn_distance(const FamilyPlan& cast, const Draft& dra
   // Bisect the step towards the random face.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-    const bool too_far = beyond(towards(cast.founder, draft, t));
+    const bool too_far = beyond(mixed_face(cast.founder, draft, t));
     if (t == 1 && !too_far) break;
     t += too_far ? -step : step;
   }
-  // The last step may have violated the limit; the step before did not.
-  FacePlan face = towards(cast.founder, draft, t);
-  if (t > step && beyond(face)) face = towards(cast.founder, draft, std::max(t - 2 * step, 0.0));
+  // The last step may have violated the limit; the previous step did not.
+  FacePlan face = mixed_face(cast.founder, draft, t);
+  if (t > step && beyond(face)) face = mixed_face(cast.founder, draft, std::max(t - 2 * step, 0.0));
   return face;
 }
 
-FacePlan FamilyDraws::model_of_twins(const FamilyPlan& cast, std::uint32_t attempt) const {
+FacePlan FamilySampler::model_of_twins(const FamilyPlan& cast, std::uint32_t attempt) const {
   Draft model = draft(cast, 0, attempt);
   const double age = std::exchange(model.age, 0);
-  FacePlan face = at_drawn_distance(cast, model);
+  FacePlan face = at_chosen_distance(cast, model);
   face.age = age;
   return face;
 }
 
-FacePlan FamilyDraws::member(const FamilyPlan& cast, int member, std::uint32_t attempt) const {
-  return at_drawn_distance(cast, draft(cast, member, attempt));
+FacePlan FamilySampler::member(const FamilyPlan& cast, int member, std::uint32_t attempt) const {
+  return at_chosen_distance(cast, draft(cast, member, attempt));
 }
 
-std::optional<Reason> FamilyDraws::refuses(const FamilyPlan& cast, const FaceSpace::Point& point,
-                                           const std::vector<FaceSpace::Point>& own,
-                                           const FamilySeparation& family_separation) const {
+std::optional<Reason> FamilySampler::refuses(const FamilyPlan& cast, const FaceSpace::Point& point,
+                                             const std::vector<FaceSpace::Point>& members,
+                                             const FamilySeparation& family_separation) const {
   if (FaceSpace::distance(point, cast.founder_point) > reach_mm(cast)) return Reason::kFamily;
   if (family_separation.intrudes(point, relatives_)) return Reason::kFamily;
   if (!resembles_parents(cast, point)) return Reason::kFamily;
   if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
-  if (drawn_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
+  if (new_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
   double farthest = 0;
-  for (const FaceSpace::Point& relative : own) {
+  for (const FaceSpace::Point& relative : members) {
     const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
-    // The other member must also stay nearer to this one than to any stranger.
+    // The other member must also stay nearer to this member than to any stranger.
     if (strangers_.nearest(relative).mm <= mm) return Reason::kFamily;
   }
   if (strangers_.nearest(point).mm <= farthest) return Reason::kFamily;
   return std::nullopt;
 }
 
-/// If the parents are far apart, no child is near both. Then the child needs to be only about as
-/// near to each parent as the founder is.
-bool FamilyDraws::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
+/// If the parents are far apart, no child is near both parents. Then the child needs to be only
+/// about as near to each parent as the founder is.
+bool FamilySampler::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
   if (strangers_nearer(point) <= kStrangersNearer) return true;
   if (strangers_nearer(cast.founder_point) <= kStrangersNearerToHalf) return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
@@ -395,10 +397,10 @@ bool FamilyDraws::resembles_parents(const FamilyPlan& cast, const FaceSpace::Poi
   });
 }
 
-double FamilyDraws::strangers_nearer(const FaceSpace::Point& point) const {
+double FamilySampler::strangers_nearer(const FaceSpace::Point& point) const {
   double share = 0;
   for (const KnownParent& parent : parents_) {
-    if (!form_.has_all(target_shares(parent.face.recipe))) continue;
+    if (!target_substitutes_.has_all(target_shares(parent.face.recipe))) continue;
     const double mm = FaceSpace::distance(point, parent.point);
     share = std::max(share, unrelated_.share_nearer(point, mm, family_.group));
   }

@@ -42,8 +42,9 @@ UnrelatedFaces::UnrelatedFaces(const CastingOptions& casting, const FaceSpace& s
   for (auto& [group, points] : of_group_) {
     const FaceKind kind = kind_of_group(casting, group);
     parallel_for_each(static_cast<Index>(kStrangers), [&, &points = points](Index i) {
-      const DrawKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
-      points[static_cast<std::size_t>(i)] = space.point(draw_recipe(casting, {}, key, kind).recipe);
+      const FaceRandomKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
+      points[static_cast<std::size_t>(i)] =
+          space.point(random_recipe(casting, {}, key, kind).recipe);
     });
   }
 }

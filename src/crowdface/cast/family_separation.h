@@ -14,8 +14,8 @@
 namespace crowdface {
 
 /// Keeps families apart: every member is nearer to each member of its own family than to any face
-/// that is not a relative. Relatives are the own family, the parents' families, and families that
-/// share a parent.
+/// that is not a relative. A face's relatives are its family, its parents' families, and families
+/// that share a parent.
 class FamilySeparation {
  public:
   /// Returns whether some member of a family is as near to the face as to the farthest member of
@@ -24,6 +24,7 @@ class FamilySeparation {
   /// \param relatives  Families that are not checked.
   bool intrudes(const FaceSpace::Point& point,
                 const std::vector<std::string>& relatives = {}) const;
+  /// Returns why a stranger is rejected; nothing if it is accepted.
   std::optional<Reason> refuses(const FaceSpace::Point& stranger) const {
     return intrudes(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }
@@ -39,9 +40,9 @@ class FamilySeparation {
   std::vector<Member> members_;
 };
 
-/// Random faces that belong to no family. They show how near two unrelated faces are by chance.
-/// They are drawn with the parameters of the crowd, or of a group, and depend only on the seed and
-/// these parameters, so that a family does not depend on the crowd's size. Empty if no family has
+/// Random faces that belong to no family, to find out how near two unrelated faces are by chance.
+/// They have the parameters of the crowd, or of a group, and depend only on the seed and these
+/// parameters, so that a family does not depend on the crowd's size. Empty if no family has
 /// parents.
 class UnrelatedFaces {
  public:

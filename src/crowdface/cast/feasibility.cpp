@@ -7,22 +7,25 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of draws in all trials together; a trial that has begun is finished.
+/// Largest number of candidates in all trials together; a trial that has begun is finished.
 constexpr std::uint64_t kMaxDraws = 200'000;
 /// Largest number of faces in a trial.
 constexpr std::uint64_t kMaxTried = 400;
-/// Stop when the smallest value that fails is at most this factor times the largest that works.
+/// Bisection stops when the smallest value that fails is at most this factor times the largest that
+/// works.
 constexpr double kNearEnough = 1.08;
 
 double whole_hundredths(double mm) {
   return std::floor(mm * 100) / 100;
 }
 
-/// Number of trials in which meshes are judged, which take a hundred times as long as others.
+/// Number of trials in which meshes are judged. Such a trial takes a hundred times as long as
+/// others.
 constexpr int kMaxMeshTrials = 4;
 
-/// Returns a distance to try after `fails`, at which only `reached` of the faces fit. The number of
-/// faces that fit is proportional to a power of the distance; the exponent is between −2.5 and −5.
+/// Returns a distance to try after distance `fails`, at which only `reached` of the faces fit. The
+/// number of faces that fit is proportional to a power of the distance; the exponent is between
+/// −2.5 and −5.
 double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
   const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
   return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);
@@ -81,7 +84,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   return remedy;
 }
 
-std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge) {
+std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
   constexpr std::uint64_t kBetter = 8;  // with a margin: spread finds twice as many faces at most
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||

@@ -15,24 +15,24 @@ struct Remedy {
 };
 
 /// Searches for a remedy: casts again with smaller distances, and bisects until the smallest
-/// distance that fails is at most 8 % above the largest that works, or until 200,000 candidates
-/// were drawn. The time of a trial grows with the square of its faces, so the trials of a large
-/// crowd cast only its beginning.
+/// distance that fails is at most 8 % above the largest distance that works, or until the trials
+/// have used 200,000 candidates. The time of a trial grows with the square of its faces, so the
+/// trials of a large crowd cast only the first faces.
 ///
 /// \param tried   Called after each trial.
 /// \param meshes  If given, the advised distance also works when the meshes of candidates are
-///                judged; if four tries find none, the remedy has no distance.
+///                judged; if four trials find no such distance, the remedy has no distance.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {},
                    const TraitRules* traits = nullptr, const MeshDefects& meshes = {});
 
 /// Checks in seconds whether a crowd of more than 3200 faces in spread mode is impossible: places
-/// up to 400 faces by first fit. Spread finds at most twice as many faces as first fit, so if first
-/// fit cannot place 400, the crowd is impossible. Drawing the pool to find that out would take
-/// hours.
+/// up to 400 faces by first fit. Spread mode finds at most twice as many faces as first fit, so if
+/// first fit cannot place 400 faces, the crowd is impossible. A pool of candidates for the whole
+/// crowd would take hours.
 ///
 /// \return  The shortfall of the 400 faces; nothing if the crowd may be possible.
-std::optional<Shortfall> hopeless_spread(const CastingOptions& casting, const FaceJudge& judge);
+std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge);
 
 }  // namespace crowdface

@@ -6,19 +6,19 @@
 namespace crowdface {
 
 // Vectorised kernels. Each product is rounded before it is added, so the results are bit-identical
-// to those of plain loops on every instruction set.
+// to the results of plain loops on every instruction set.
 
 /// Returns Σ a_i b_i: sixteen sums in single precision within a chunk of 1024 numbers, added in
 /// double precision.
 double fixed_dot(const float* a, const float* b, std::size_t count);
 
-/// to[i] += factor·from[i].
+/// Computes to[i] += factor·from[i].
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 
-/// Like add_scaled. \return  fixed_dot of the new `to` with itself.
+/// Like add_scaled, but also returns fixed_dot of the new `to` with itself.
 double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
 
-/// to[d] += factors[i]·rows[i][d], for one i after the other.
+/// Computes to[d] += factors[i]·rows[i][d], for one i after the other.
 ///
 /// \param rows  #count by #width.
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,

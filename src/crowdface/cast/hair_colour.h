@@ -23,38 +23,39 @@ struct NamedHairColour {
   std::string_view name;
   HairColour colour;
 };
+/// Returns all named hair colours.
 std::span<const NamedHairColour> named_hair_colours();
-/// The colour with this name; nothing if no colour has it.
+/// Returns the hair colour with this name; nothing if the name is unknown.
 std::optional<HairColour> hair_colour_named(std::string_view name);
 
-/// Which hair of a person an attachment with a neutral texture is. The attachment then takes the
-/// colour of this hair on each face.
+/// Which hair of a person an attachment with a neutral texture represents. On each face, the
+/// attachment takes the colour of this hair.
 enum class Tint { kNone, kHair, kBrows, kBeard, kLashes };
 
-/// The colour of a person's brows, beard or lashes: brows are darker and turn grey late, beards are
-/// redder, lashes are darkest. Rounded.
+/// Returns the rounded colour of a person's brows, beard or lashes: brows are darker than the scalp
+/// hair and turn grey late, beards are redder, lashes are darkest.
 /// \param hair  the colour of the scalp hair.
 HairColour tinted(const HairColour& hair, Tint tint);
 
 /// Rounds a colour to steps that are hardly visible, so that many faces share the same colour.
 HairColour rounded_colour(const HairColour& colour);
-/// Whether the pigments of a rounded colour are at most one step from those of `named`; grey may
-/// differ.
+/// Whether each pigment of a rounded colour is at most one step from the same pigment of `named`;
+/// grey may differ.
 bool is_shade_of(const HairColour& rounded, const HairColour& named);
 /// Whether two colours look the same at first sight.
 bool are_alike(const HairColour& a, const HairColour& b);
 
 /// Returns "e55p10g20": the three values in percent, for names of folders and files.
 std::string label_of(const HairColour& colour);
-/// Reads what label_of returns.
+/// Parses a label that label_of returns.
 std::optional<HairColour> parse_hair_label(std::string_view label);
 
 /// Mean light (linear RGB) of neutral textures; sRGB 170.
 inline constexpr float kNeutralLight = 0.4F;
-/// Mean light of hair of a colour, linear RGB: the light that the pigments do not absorb
+/// Mean light of hair of this colour, linear RGB: the light that the pigments do not absorb
 /// (Beer-Lambert law), plus a constant fraction that the surface of the hair reflects.
 std::array<float, 3> light_of(const HairColour& colour);
-/// The factors on a neutral texture's light that give it this colour, at most 1.
+/// Factors on the light of a neutral texture, at most 1, that give the texture this colour.
 std::array<float, 3> tint_factors(const HairColour& colour);
 
 }  // namespace crowdface

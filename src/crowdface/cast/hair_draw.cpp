@@ -20,7 +20,7 @@ HairColour mix(const HairColour& a, const HairColour& b, double share) {
           a.grey + share * (b.grey - a.grey)};
 }
 
-/// Returns the index of the share that contains `drawn`, or −1.
+/// Returns the index of the share that contains a random number from 0 to 1, or −1.
 int share_at(const std::vector<double>& shares, double drawn) {
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (drawn < shares[i]) return static_cast<int>(i);
@@ -31,10 +31,10 @@ int share_at(const std::vector<double>& shares, double drawn) {
 
 }  // namespace
 
-HairDraw::HairDraw(HairOptions options, const std::vector<FacePlan>& crowd)
-    : draw_(std::move(options)) {
+HairChooser::HairChooser(HairOptions options, const std::vector<FacePlan>& crowd)
+    : options_(std::move(options)) {
   const auto is_empty = [](const auto& entry) { return entry.second.empty(); };
-  if (std::ranges::all_of(draw_.hair_colours, is_empty)) return;
+  if (std::ranges::all_of(options_.hair_colours, is_empty)) return;
   std::set<std::string> families;
   for (const FacePlan& face : crowd) {
     if (!face.parents.empty() || (face.family && !families.insert(*face.family).second)) continue;
@@ -43,19 +43,19 @@ HairDraw::HairDraw(HairOptions options, const std::vector<FacePlan>& crowd)
   }
 }
 
-HairColour HairDraw::of(const FacePlan& face, Index head) {
-  const bool is_twin = face.family && draw_.twins.contains(*face.family);
+HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
+  const bool is_twin = face.family && options_.twins.contains(*face.family);
   const std::string person = is_twin ? *face.family : face.index ? std::string() : face.id;
   const auto key = [&](const char* what) {
     return person.empty() ? std::string(what) : concat(what, '/', person);
   };
-  std::optional<HairColour> colour = inherited(face, person);
-  if (!colour) colour = asked(face);
+  std::optional<HairColour> colour = inherited_colour(face, person);
+  if (!colour) colour = scheduled_colour(face);
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) families_.try_emplace(*face.family, *colour);
-  // A little scatter, so that not all brown hair is the same brown.
+  // Scatter the colours a little, so that not all brown hair is the same brown.
   const std::string purpose = key("hair/scatter");
-  const auto scatter = random_pair({draw_.seed, is_twin ? 0 : face.index.value_or(0), purpose});
+  const auto scatter = random_pair({options_.seed, is_twin ? 0 : face.index.value_or(0), purpose});
   constexpr double kScatter = 0.1;
   HairColour own = *colour;
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
@@ -66,17 +66,17 @@ HairColour HairDraw::of(const FacePlan& face, Index head) {
 }
 
 /// Returns the key of `hair_colours` that applies to a face.
-std::string HairDraw::entry_of(const FacePlan& face) const {
+std::string HairChooser::entry_of(const FacePlan& face) const {
   const std::string group = face.group.value_or("");
-  return draw_.hair_colours.contains(group) ? group : "";
+  return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among the faces with a place, the
+/// Returns the colour that `hair_colours` gives the face. Among the faces in `places_`, the
 /// fractions are exact.
-std::optional<HairColour> HairDraw::asked(const FacePlan& face) {
+std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
   const std::string entry = entry_of(face);
-  const auto shares = draw_.hair_colours.find(entry);
-  if (shares == draw_.hair_colours.end() || shares->second.empty()) return std::nullopt;
+  const auto shares = options_.hair_colours.find(entry);
+  if (shares == options_.hair_colours.end() || shares->second.empty()) return std::nullopt;
   std::vector<double> parts;
   std::vector<HairColour> colours;
   for (const auto& [name, share] : shares->second) {
@@ -89,19 +89,19 @@ std::optional<HairColour> HairDraw::asked(const FacePlan& face) {
     const auto [schedule, is_new] = schedules_.try_emplace(entry);
     if (is_new) {
       schedule->second =
-          scatter_shares(parts, sizes_[entry], draw_.seed, concat("hair colours/", entry));
+          scatter_shares(parts, sizes_[entry], options_.seed, concat("hair colours/", entry));
     }
     chosen = schedule->second[place->second.second];
   } else {
     const std::string purpose = concat("hair/colour/", face.id);
-    chosen = share_at(parts, random_unit({draw_.seed, face.index.value_or(0), purpose}));
+    chosen = share_at(parts, random_unit({options_.seed, face.index.value_or(0), purpose}));
   }
   return chosen < 0 ? std::nullopt : std::optional(colours[static_cast<std::size_t>(chosen)]);
 }
 
-/// Returns the colour that a face has from its family.
-std::optional<HairColour> HairDraw::inherited(const FacePlan& face,
-                                              const std::string& person) const {
+/// Returns the colour that a face inherits from its parents or has from its family.
+std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
+                                                        const std::string& person) const {
   if (face.parents.empty()) {
     const auto found = face.family ? families_.find(*face.family) : families_.end();
     return found == families_.end() ? std::nullopt : std::optional(found->second);
@@ -114,47 +114,47 @@ std::optional<HairColour> HairDraw::inherited(const FacePlan& face,
   if (known.size() == 1) return known[0];
   // The child gets the colour of one parent (35 % each) or a colour between the two.
   const std::string purpose = concat("hair/parent/", person);
-  const auto drawn = random_pair({draw_.seed, 0, purpose});
+  const auto drawn = random_pair({options_.seed, 0, purpose});
   const double share = drawn[0] < 0.35 ? 0.0 : drawn[0] < 0.7 ? 1.0 : 0.3 + 0.4 * drawn[1];
   return mix(known[0], known[1], share);
 }
 
 /// Returns a parent's hair colour without the grey of age; nothing if the parent is unknown.
-std::optional<HairColour> HairDraw::colour_of_parent(const std::string& parent) const {
+std::optional<HairColour> HairChooser::colour_of_parent(const std::string& parent) const {
   if (const auto face = known_.find(parent); face != known_.end()) return face->second;
-  const auto head = std::ranges::find(draw_.heads, parent);
-  if (head == draw_.heads.end()) return std::nullopt;
-  return colour_of_tags(head - draw_.heads.begin(), concat("hair/tone/", parent));
+  const auto head = std::ranges::find(options_.heads, parent);
+  if (head == options_.heads.end()) return std::nullopt;
+  return colour_of_tags(head - options_.heads.begin(), concat("hair/tone/", parent));
 }
 
-/// Returns the colour that the head's tags name. If they name none, draws a colour that is frequent
-/// in the world.
-HairColour HairDraw::colour_of_tags(Index head, const std::string& purpose) const {
+/// Returns the colour that the head's tags name. If the tags name no colour, returns a random
+/// colour that is frequent in the world.
+HairColour HairChooser::colour_of_tags(Index head, const std::string& purpose) const {
   constexpr std::string_view kEnding = "_hair";
-  for (const std::string& tag : draw_.tags[static_cast<std::size_t>(head)]) {
+  for (const std::string& tag : options_.tags[static_cast<std::size_t>(head)]) {
     if (!tag.ends_with(kEnding)) continue;
     const auto colour =
         hair_colour_named(std::string_view(tag).substr(0, tag.size() - kEnding.size()));
     if (colour) return *colour;
   }
-  const double drawn = random_unit({draw_.seed, static_cast<std::uint64_t>(head), purpose});
+  const double drawn = random_unit({options_.seed, static_cast<std::uint64_t>(head), purpose});
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
 /// Returns the fraction of grey hair at the face's age.
-double HairDraw::grey_of(const FacePlan& face, Index head, const std::string& purpose) const {
-  const std::vector<std::string>& tags = draw_.tags[static_cast<std::size_t>(head)];
+double HairChooser::grey_of(const FacePlan& face, Index head, const std::string& purpose) const {
+  const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
   const double of_head = contains(tags, "old")     ? 0.85
                          : contains(tags, "adult") ? 0.45
                          : contains(tags, "young") ? 0.15
                                                    : 0.3;
-  // The face's age moves it from its heads' age class towards the old or the young. Half the way
-  // must be visible, although half of the old heads' detail is less than half of their age.
+  // Age moves a face from its heads' age class towards the old or young heads. Half of this way
+  // must be visible, although half of the old heads' detail looks less than half as old.
   const double age = face.age.value_or(0);
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
   const double aged = of_head + way * ((age < 0 ? 0.15 : std::max(0.9, of_head)) - of_head);
-  // Grey begins at different ages, but not in young years.
-  const double begin = random_unit({draw_.seed, face.index.value_or(0), purpose}) - 0.5;
+  // Hair turns grey from a random age on, but not in young years.
+  const double begin = random_unit({options_.seed, face.index.value_or(0), purpose}) - 0.5;
   return smooth_step(0.5, 1.0, aged + 0.35 * begin);
 }
 

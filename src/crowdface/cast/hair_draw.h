@@ -15,7 +15,7 @@
 
 namespace crowdface {
 
-/// What hair colours depend on; see AttachmentDraw.
+/// The inputs of HairChooser; the members have the same meaning as in AttachmentOptions.
 struct HairOptions {
   std::uint64_t seed = 1;
   HeadTags tags;                   ///< #heads
@@ -24,33 +24,33 @@ struct HairOptions {
   std::set<std::string> twins;
 };
 
-/// Draws the hair colours of faces, in the order of the plan; see draw_attachments. The colour of a
-/// face does not depend on later faces.
-class HairDraw {
+/// Chooses the hair colours of faces, in the order of the plan; see choose_attachments. The colour
+/// of a face does not depend on later faces.
+class HairChooser {
  public:
   /// \param crowd  all faces, in the order of the plan. Faces that do not have the colour of a
   ///               parent or of their family share the fractions of `hair_colours`.
-  HairDraw(HairOptions options, const std::vector<FacePlan>& crowd);
+  HairChooser(HairOptions options, const std::vector<FacePlan>& crowd);
 
   /// \param head  the head whose tags the face has.
-  HairColour of(const FacePlan& face, Index head);
+  HairColour colour_of(const FacePlan& face, Index head);
 
  private:
   std::string entry_of(const FacePlan& face) const;
-  std::optional<HairColour> asked(const FacePlan& face);
-  std::optional<HairColour> inherited(const FacePlan& face, const std::string& person) const;
+  std::optional<HairColour> scheduled_colour(const FacePlan& face);
+  std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
   HairColour colour_of_tags(Index head, const std::string& purpose) const;
   double grey_of(const FacePlan& face, Index head, const std::string& purpose) const;
 
-  HairOptions draw_;
+  HairOptions options_;
   /// by face: its entry in `hair_colours`, and its index among the faces of this entry
   std::map<std::string, std::pair<std::string, std::uint64_t>> places_;
-  std::map<std::string, std::uint64_t> sizes_;  ///< number of places of each entry
-  /// by entry: index of the named colour of each place, or −1
+  std::map<std::string, std::uint64_t> sizes_;  ///< by entry: its number of faces
+  /// by entry: for each of its faces, the index of the named colour, or −1
   std::map<std::string, std::vector<int>> schedules_;
   std::map<std::string, HairColour> known_;     ///< colours without the grey of age, by face
-  std::map<std::string, HairColour> families_;  ///< of families without parents
+  std::map<std::string, HairColour> families_;  ///< by name: colours of families without parents
 };
 
 }  // namespace crowdface

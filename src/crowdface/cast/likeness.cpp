@@ -54,7 +54,7 @@ class LikenessTree {
     };
     for (const auto& [of, tree] : variants_) {
       const PointBlocks& points = tree.points();
-      const std::vector<float> query = points.padded(points_[face].*of);
+      const std::vector<float> query = points.padded_query(points_[face].*of);
       const auto wanted = [&](float squared, const auto&) { return squared <= bound; };
       tree.visit(query, wanted, [&](Index block) {
         const PointBlocks::Lanes squared = points.squared_distances(query, block, bound);
@@ -80,20 +80,20 @@ class LikenessTree {
   }
   const PointBlocks& blocks() const { return variants_.front().second.points(); }
 
-  /// Adds a tree over the points as built, or over those with factors of 1.
+  /// Adds a tree over one variant of the points: as built, or with extrapolation factors of 1.
   void add_variant(Variant of) {
     const Index dimensions = (points_[0].*of).size();
     PointBlocks blocks(dimensions);
     for (std::size_t face = 0; face < points_.size(); ++face) {
       if (gone_[face]) continue;
-      blocks.add(static_cast<Index>(face), blocks.padded(points_[face].*of).data());
+      blocks.add(static_cast<Index>(face), blocks.padded_query(points_[face].*of).data());
     }
     variants_.emplace_back(of, PointTree(dimensions, {&blocks}));
   }
 
   const std::vector<FaceSpace::Point>& points_;
   const std::vector<bool>& gone_;
-  std::vector<std::pair<Variant, PointTree>> variants_;  ///< only one if no face is extrapolated
+  std::vector<std::pair<Variant, PointTree>> variants_;  ///< one entry if no face is extrapolated
 };
 
 /// Returns the face farthest from the first face; of equally far ones, the first.
@@ -135,12 +135,12 @@ Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t 
   if (points.empty()) return likeness;
   const std::vector<bool> none_gone(points.size(), false);
   const LikenessTree tree(points, none_gone);
-  likeness.near.resize(points.size());
+  likeness.neighbours.resize(points.size());
   parallel_for_each(points.size(), kBlock, [&](std::size_t place) {
     const std::size_t face = tree.face(place);
-    likeness.near[face] = tree.nearest(face, neighbours);
+    likeness.neighbours[face] = tree.nearest(face, neighbours);
   });
-  likeness.order = walk(points, likeness.near);
+  likeness.order = walk(points, likeness.neighbours);
   return likeness;
 }
 

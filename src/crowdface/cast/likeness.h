@@ -18,12 +18,13 @@ struct Neighbour {
 struct Likeness {
   /// an order of the faces in which neighbours look alike
   std::vector<std::size_t> order;
-  std::vector<std::vector<Neighbour>> near;  ///< for each face, the nearest others, nearest first
+  std::vector<std::vector<Neighbour>>
+      neighbours;  ///< #faces: the nearest other faces, nearest first
 };
 
 /// Finds similar faces. The order is a nearest-neighbour walk: it starts at the face farthest from
 /// face 0, and always continues with the nearest face that it has not visited. So two faces that
-/// are each other's nearest are adjacent. Of equally near faces, the first is taken.
+/// are nearest to each other are adjacent. Of equally near faces, the walk takes the first.
 ///
 /// \param neighbours  Number of neighbours to keep for each face.
 /// \throws Interrupted.

@@ -15,7 +15,7 @@ const char* verb_of(const ReviewMark& mark) {
   return mark.locked.empty() ? "rejects it" : "rejects it and locks parts";
 }
 
-/// Merges a review into an earlier one that its reviewer did not see.
+/// Merges a review into an earlier review whose results its reviewer did not see.
 class Merging {
  public:
   Merging(const Review& earlier, std::size_t earlier_number, Review& later,

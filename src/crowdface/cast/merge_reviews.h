@@ -15,13 +15,13 @@ struct MergedReviews {
   std::vector<std::string> conflicts;
 };
 
-/// Merges reviews that were made at the same time, without seeing each other's results (see
-/// Review::after). Equal requests apply once: a face that both reviews reject is redrawn once, and
-/// equal keys of changes apply once. Both notes stay. If two reviews disagree,
+/// Merges reviews whose reviewers did not see each other's results (see Review::after). Equal
+/// requests apply once: a face that both reviews reject is redrawn once, and equal keys of changes
+/// apply once. Both notes stay. If two reviews disagree,
 ///
 /// - a face that only one review rejects is redrawn;
-/// - of two rejections with other locked parts, the earlier review's applies;
-/// - of two changes of the same key, the later review's applies last.
+/// - of two rejections with different locked parts, the rejection of the earlier review applies;
+/// - of two changes of the same key, the change of the later review applies last.
 MergedReviews merged_reviews(const std::vector<Review>& reviews);
 
 }  // namespace crowdface

@@ -46,7 +46,7 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
 
 /// Returns zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1), by the Woodbury identity (‖z‖² − (Y z)ᵀ
 /// (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
-double Plausibility::squared(const Metric& metric, const Eigen::VectorXf& at) {
+double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorXf& at) {
   std::vector<double> z(metric.mean.size()), along;
   for (std::size_t d = 0; d < z.size(); ++d) {
     z[d] = static_cast<double>(at[static_cast<Index>(d)]) - metric.mean[d];
@@ -65,11 +65,11 @@ Plausibility::Plausibility(const FaceSpace& space) {
   }
   metric_ = metric_without(heads, count, -1);
   if (count < 3) {  // one remaining head has no variance: use the first head's distance
-    unit_ = std::sqrt(squared(metric_, heads[0]));
+    unit_ = std::sqrt(squared_distance(metric_, heads[0]));
   } else {
     double sum = 0;
     for (Index h = 0; h < count; ++h) {
-      sum += squared(metric_without(heads, count, h), heads[static_cast<std::size_t>(h)]);
+      sum += squared_distance(metric_without(heads, count, h), heads[static_cast<std::size_t>(h)]);
     }
     unit_ = std::sqrt(sum / static_cast<double>(count));
   }
@@ -77,7 +77,7 @@ Plausibility::Plausibility(const FaceSpace& space) {
 }
 
 double Plausibility::score(const FaceSpace::Point& point) const {
-  return std::sqrt(std::max(squared(metric_, point.as_built), 0.0)) / unit_;
+  return std::sqrt(std::max(squared_distance(metric_, point.as_built), 0.0)) / unit_;
 }
 
 }  // namespace crowdface

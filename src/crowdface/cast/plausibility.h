@@ -11,10 +11,11 @@ namespace crowdface {
 /// heads' mean, divided by the distance that a new head typically has. Few heads do not determine
 /// the variance in every direction, so a tenth of the mean variance is added in every direction (as
 /// in probabilistic PCA, Tipping & Bishop 1999). The divisor is the root mean square of the heads'
-/// own distances, where each head is measured against all others.
+/// Mahalanobis distances, where each head is measured against all other heads.
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);
+  /// Returns how unusual a face is: 1 if as unusual as a new head typically is.
   double score(const FaceSpace::Point& point) const;
 
  private:
@@ -30,10 +31,10 @@ class Plausibility {
   /// \param left_out        Head to leave out, with its image; −1: none.
   static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index count_of_heads,
                                Index left_out);
-  static double squared(const Metric& metric, const Eigen::VectorXf& at);
+  static double squared_distance(const Metric& metric, const Eigen::VectorXf& at);
 
   Metric metric_;
-  double unit_ = 1;
+  double unit_ = 1;  ///< Mahalanobis distance that a new head typically has
 };
 
 }  // namespace crowdface

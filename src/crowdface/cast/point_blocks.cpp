@@ -26,7 +26,7 @@ void PointBlocks::clear() {
   for (auto& chunk : chunks_) chunk.clear();
 }
 
-std::vector<float> PointBlocks::padded(const Eigen::VectorXf& query) const {
+std::vector<float> PointBlocks::padded_query(const Eigen::VectorXf& query) const {
   std::vector<float> values(static_cast<std::size_t>(dimensions_), 0.F);
   std::copy(query.data(), query.data() + query.size(), values.begin());
   return values;
@@ -50,12 +50,12 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
 void PointBlocks::search(const std::vector<float>& query, Index block, Index begin, Index end,
                          NearestPoint& best) const {
   const Lanes sums =
-      squared_distances(query, block, static_cast<float>(std::min(best.squared, 1e30)));
+      squared_distances(query, block, static_cast<float>(std::min(best.squared_distance, 1e30)));
   const Index last = std::min(kLanes, size() - block * kLanes);
   for (Index lane = 0; lane < last; ++lane) {
     const Index number = numbers_[static_cast<std::size_t>(block * kLanes + lane)];
     if (number < begin || number >= end) continue;
-    best.meet(number, static_cast<double>(sums[static_cast<std::size_t>(lane)]));
+    best.update(number, static_cast<double>(sums[static_cast<std::size_t>(lane)]));
   }
 }
 

@@ -14,13 +14,14 @@ namespace crowdface {
 /// The nearest point that a search has found so far.
 struct NearestPoint {
   Eigen::Index point = -1;  ///< number of the point; −1: none
-  double squared = HUGE_VAL;
+  double squared_distance = HUGE_VAL;
 
-  /// Takes another point if it is nearer; of equally near points, the one with the smaller number.
-  void meet(Eigen::Index other, double other_squared) {
-    if (other_squared > squared || (other_squared == squared && (point < 0 || other > point)))
+  /// Takes another point if it is nearer; of equally near points, the point with the smaller
+  /// number.
+  void update(Eigen::Index other, double squared) {
+    if (squared > squared_distance || (squared == squared_distance && (point < 0 || other > point)))
       return;
-    *this = {other, other_squared};
+    *this = {other, squared};
   }
 };
 
@@ -64,7 +65,7 @@ class PointBlocks {
   float value(Index at, Index dimension) const { return chunk_of(dimension)[place(at, dimension)]; }
 
   /// Returns the query with padded_dimensions() values.
-  std::vector<float> padded(const Eigen::VectorXf& query) const;
+  std::vector<float> padded_query(const Eigen::VectorXf& query) const;
   using Lanes = std::array<float, kLanes>;
   /// Returns the squared distances of a block's points to a query. If no distance is within the
   /// bound, all returned values are infinite. Lanes without a point have arbitrary values.

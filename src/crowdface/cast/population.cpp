@@ -20,8 +20,8 @@ std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
-/// With one face more, every bin asks for one part of a face more, and all bins from that of the
-/// face on have one face more.
+/// If a face joins, the requested number of faces up to bin b grows by (b + 1)/kBins, and the
+/// actual number grows by one from the bin of the face on.
 void PopulationBalance::find_squares(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
     return trait.excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);

@@ -8,17 +8,18 @@
 
 namespace crowdface {
 
-/// Steers casting so that measurements of a crowd have asked distributions. Chooses the candidate
-/// that brings the crowd so far nearest to these distributions: the sum over the traits of the root
-/// mean square differences between both cumulative distributions (after Cramér and von Mises, on a
-/// grid) is smallest. Roots keep a distribution that the heads cannot reach from
-/// outweighing the others. A choice depends on earlier faces only, so a larger crowd changes none.
+/// Steers casting so that measurements of a crowd have requested distributions. Chooses the
+/// candidate that brings the crowd so far nearest to these distributions: the sum over the traits
+/// of the root mean square differences between both cumulative distributions (after Cramér and von
+/// Mises, on a grid) is smallest. The roots keep a distribution that the heads cannot reach from
+/// outweighing the others. A choice depends on earlier faces only, so a larger crowd changes no
+/// choice.
 class PopulationBalance {
  public:
   explicit PopulationBalance(const std::vector<TraitTarget>& targets);
 
-  /// Returns how far the crowd would be from the asked distributions with this face; for comparing
-  /// candidates only. \param landmarks  #landmarks by 3, see FaceMeasurer
+  /// Returns how far the crowd with this face would be from the requested distributions; only for
+  /// comparing candidates. \param landmarks  #landmarks by 3, see FaceMeasurer
   double cost(const Positions& landmarks) const;
   /// Adds a face to the crowd.
   void add(const Positions& landmarks);
@@ -27,9 +28,9 @@ class PopulationBalance {
   static constexpr std::size_t kBins = 256;
   struct Trait {
     TraitTarget target;
-    /// number of faces up to each bin minus the number that is asked for
+    /// number of faces up to each bin minus the requested number
     std::vector<double> excess;
-    /// the sum of the squared differences if a face joins each bin
+    /// for each bin: the sum of the squared differences if a face in this bin joins the crowd
     std::vector<double> squares;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);

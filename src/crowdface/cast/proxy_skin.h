@@ -8,7 +8,8 @@
 
 namespace crowdface {
 
-/// The skin as a coarse mesh of its samples, on which faces are judged without building them.
+/// The skin as a coarse mesh of its samples, on which faces are judged without building their
+/// meshes.
 class ProxySkin {
  public:
   /// \param mean   #S by 3, samples of the mean head in millimetres.
@@ -24,9 +25,9 @@ class ProxySkin {
   const Target& head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
   Target target(const Positions& samples) const;
 
-  /// Returns the number of triangles that intersect others where the target's do not. Considers
-  /// only triangles that are near each other on the mean head without being neighbours: lips, lids,
-  /// nostrils, folds.
+  /// Returns the number of triangles that intersect others where the target's triangles do not.
+  /// Considers only triangles that are near each other on the mean head without being neighbours:
+  /// lips, lids, nostrils, folds.
   Index intersecting_triangles(const Positions& samples, const Target& target) const;
 
  private:

@@ -33,25 +33,27 @@ struct FaceChange {
   std::optional<double> age;              ///< −1 … 1, see apply_age; excludes `age_step`
   std::optional<std::string> variant_of;  ///< id of the face that this face becomes similar to
   double distance_mm = 1.5;               ///< distance from `variant_of`
-  std::optional<std::string> group;       ///< the face is drawn again in this group
-  /// Parts that stay while the other parts are drawn again, as in ReviewMark.
+  std::optional<std::string> group;       ///< the face is redrawn in this group
+  /// Parts that stay while the other parts are redrawn, as in ReviewMark.
   std::vector<std::size_t> locked;
   TraitLimits traits;  ///< the face is changed as little as these limits require
-  /// Names of attachments, which replace those of the same kinds. No names: the face wears nothing.
+  /// Names of attachments, which replace attachments of the same kinds. No names: the face wears
+  /// nothing.
   std::optional<std::vector<std::string>> wears;
   std::optional<std::string> hair;    ///< name of a hair colour
   std::vector<WeightedHead> colours;  ///< heads that lend textures; empty: no change
 
-  bool draws_again() const { return group || !locked.empty() || !traits.empty(); }
+  bool needs_redraw() const { return group || !locked.empty() || !traits.empty(); }
   bool is_empty() const {
-    return !age && !age_step && !variant_of && !draws_again() && !wears && !hair && colours.empty();
+    return !age && !age_step && !variant_of && !needs_redraw() && !wears && !hair &&
+           colours.empty();
   }
 };
 
 /// The marks and changes of one reviewer.
 struct Review {
   /// Number of sampled faces of the crowd that was reviewed. The review applies to this crowd;
-  /// faces with larger numbers are cast later, so that a larger crowd changes none of its faces.
+  /// faces with larger numbers are cast later, so that a larger crowd changes no reviewed face.
   /// Empty: the whole crowd.
   std::optional<std::uint64_t> count;
   /// Number of earlier reviews whose results the reviewer saw; see merged_reviews. Empty: all.

@@ -28,7 +28,7 @@ std::vector<double> sample_weights(const SampleCells& cells, const FaceSamples& 
                                    const std::vector<double>& areas);
 
 /// Returns the coarse mesh of the cells, an analogue of the Delaunay triangulation: three samples
-/// whose cells meet form a triangle with the mesh's winding. Contains no triangle twice.
+/// whose cells meet form a triangle with the mesh's winding. No triangle appears twice.
 std::vector<std::array<std::uint32_t, 3>> cell_triangles(const Topology& topology,
                                                          const SampleCells& cells);
 

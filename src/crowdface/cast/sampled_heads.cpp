@@ -14,11 +14,12 @@ namespace {
 void find_stretches(SampledHeads& sampled) {
   constexpr Index kGap = 8;  // bridge short gaps, which cost less than another range
   for (Index k = 0; k < sampled.alpha.cols(); ++k) {
-    auto& stretches = sampled.stretches.emplace_back();
+    auto& sample_ranges = sampled.sample_ranges.emplace_back();
     for (Index s = 0; s < sampled.alpha.rows(); ++s) {
       if (sampled.alpha(s, k) == 0) continue;
-      if (stretches.empty() || s > stretches.back().second + kGap) stretches.emplace_back(s, s);
-      stretches.back().second = s + 1;
+      if (sample_ranges.empty() || s > sample_ranges.back().second + kGap)
+        sample_ranges.emplace_back(s, s);
+      sample_ranges.back().second = s + 1;
     }
   }
 }
@@ -62,14 +63,14 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
           const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
           const float* row = trajectory.data() + term.row * trajectory.cols();
           const auto f = static_cast<float>(part.weight * term.factor * heads.mm_per_unit);
-          for (const auto& [begin, end] : heads.stretches[k]) {
+          for (const auto& [begin, end] : heads.sample_ranges[k]) {
             add_scaled(f, row + 3 * begin, static_cast<std::size_t>(3 * (end - begin)),
                        change.data() + 3 * begin);
           }
         }
       }
     }
-    for (const auto& [begin, end] : heads.stretches[k]) {
+    for (const auto& [begin, end] : heads.sample_ranges[k]) {
       for (Index s = begin; s < end; ++s) {
         const double alpha = heads.alpha(s, static_cast<Index>(k));
         for (Index c = 0; c < 3; ++c) {
@@ -123,8 +124,8 @@ std::shared_ptr<const SampledHeads> sample_images(
   take_samples(
       faces, samples, [&](const Head& head) { return mirrored(mirror, head.positions); }, *image);
   image->alpha = Columns::Zero(count, regions.alpha.cols());
-  image->own.resize(faces.heads.size());
-  for (Trajectory& own : image->own) {
+  image->owned_trajectories.resize(faces.heads.size());
+  for (Trajectory& own : image->owned_trajectories) {
     own.resize(static_cast<Index>(heads.levels.size()), 3 * count);
   }
   const MirrorPlane directions{mirror.plane.normal, 0};
@@ -134,7 +135,7 @@ std::shared_ptr<const SampledHeads> sample_images(
       image->alpha.row(s) += mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
     }
   }
-  parallel_for_each(image->own.size(), [&](std::size_t h) {
+  parallel_for_each(image->owned_trajectories.size(), [&](std::size_t h) {
     const Trajectory& from = heads.trajectories[h];
     for (Index l = 0; l < from.rows(); ++l) {
       for (Index s = 0; s < count; ++s) {
@@ -148,12 +149,12 @@ std::shared_ptr<const SampledHeads> sample_images(
         }
         const Eigen::Vector3d turned = directions.image(moved);
         for (Index a = 0; a < 3; ++a) {
-          image->own[h](l, 3 * s + a) = static_cast<float>(turned(a));
+          image->owned_trajectories[h](l, 3 * s + a) = static_cast<float>(turned(a));
         }
       }
     }
   });
-  image->trajectories = image->own;
+  image->trajectories = image->owned_trajectories;
   find_stretches(*image);
   return image;
 }

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// The heads at the samples: enough to compute the samples of any recipe.
+/// The data of the heads at the samples, from which the samples of any recipe follow.
 struct SampledHeads {
   std::vector<Positions> heads;  ///< #S by 3 each, in millimetres
   Positions mean;                ///< #S by 3
@@ -20,14 +20,16 @@ struct SampledHeads {
   std::span<const Trajectory> trajectories;
   /// For each region, the ranges of samples [begin, end) with nonzero weight. Regions are patches,
   /// and samples are ordered along a curve, so there are few ranges.
-  std::vector<std::vector<std::pair<Index, Index>>> stretches;
+  std::vector<std::vector<std::pair<Index, Index>>> sample_ranges;
   std::vector<std::uint64_t> levels;  ///< levels of the trajectories' rows
   double mm_per_unit = 1;             ///< scale of the trajectories
-  std::vector<Trajectory> own;        ///< storage of the trajectories, if this object owns them
+  std::vector<Trajectory>
+      owned_trajectories;  ///< storage of the trajectories, if this object owns them
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
   std::shared_ptr<const SampledHeads> image;
 };
 
+/// Returns the data of the heads at the samples, without mirror images.
 SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit);
@@ -36,7 +38,7 @@ SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
 /// trajectories are interpolated.
 ///
 /// \param heads   Heads at the same samples.
-/// \param traced  Vertices of the trajectories of `heads`: the samples and their with_corners.
+/// \param traced  Vertices of the trajectories of `heads`: with_corners of the samples.
 std::shared_ptr<const SampledHeads> sample_images(
     const HeadSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);

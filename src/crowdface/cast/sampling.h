@@ -14,14 +14,14 @@
 
 namespace crowdface {
 
-/// A closed range of values to draw from. Equal ends give a fixed value.
+/// A closed range of values to choose from at random. Equal ends give a fixed value.
 struct Range {
   double low = 0;
   double high = 0;
   bool operator==(const Range&) const = default;
 };
 
-/// Where a region's position on the weight plane is drawn.
+/// The distribution of a region's random position on the weight plane.
 struct PositionDistribution {
   enum class Kind {
     kAnchored,  ///< near the anchor of a random source, see `pull`
@@ -80,28 +80,28 @@ struct WeightedHead {
   bool operator==(const WeightedHead&) const = default;
 };
 
-/// Draws one of several things in proportion to their weights.
+/// Chooses one of several things with probabilities in proportion to their weights.
 ///
-/// \param drawn  Random number from 0 to 1 that selects the thing.
+/// \param random  Random number from 0 to 1 that selects the thing.
 template <class Things, class Weight>
-const auto& weighted_choice(const Things& things, double drawn, const Weight& weight) {
+const auto& weighted_choice(const Things& things, double random, const Weight& weight) {
   double total = 0;
   for (const auto& thing : things) total += std::invoke(weight, thing);
-  double left = drawn * total;
+  double left = random * total;
   for (const auto& thing : things) {
     if (left < std::invoke(weight, thing)) return thing;
     left -= std::invoke(weight, thing);
   }
-  return things.back();  // rounding errors: `drawn` exceeds the sum of the weights
+  return things.back();  // rounding errors: `random` exceeds the sum of the weights
 }
 
 /// Whether faces are mirrored as wholes.
 enum class Mirroring {
   kNone,
-  kDrawn,  ///< half of the faces, at random
+  kRandom,  ///< half of the faces, at random
 };
 
-/// How sampled faces are drawn.
+/// Distributions of the values of sampled faces.
 struct SamplingOptions {
   std::vector<WeightedHead> targets;  ///< possible targets, with their frequencies
   std::vector<Eigen::Index> sources;  ///< heads that lend detail, ascending
@@ -122,11 +122,11 @@ struct SamplingOptions {
 inline std::size_t band_count(const SamplingOptions& sampling) {
   return std::max<std::size_t>(1, sampling.bands.size());
 }
-/// Returns whether any face may be mirrored or have another asymmetry than its blend.
+/// Returns whether any face may be mirrored or may have an asymmetry factor other than 1.
 inline bool mirrors(const SamplingOptions& sampling) {
   return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
 }
-/// Returns where a band of a region begins.
+/// Returns the distribution of the level at which a band of a region begins.
 inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
                                                    std::size_t region, std::size_t band) {
   const bool own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
@@ -140,17 +140,17 @@ inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampli
   return own ? *sampling.bands[band].sources : sampling.sources;
 }
 
-/// A group: sampled faces that are drawn with parameters of their own.
+/// A group: sampled faces with sampling parameters of their own.
 struct Group {
   std::string name;
   /// number of faces; groups with a count come before all groups with a share
   std::optional<std::uint64_t> count;
   double share = 0;  ///< used if `count` is empty: fraction of the remaining faces, 0 … 1
   SamplingOptions sampling;
-  std::map<std::string, double> hair_colours = {};  ///< replace those of the crowd
+  std::map<std::string, double> hair_colours = {};  ///< replace the hair colours of the crowd
 };
 
-/// A hand-written face. Values that it does not specify are drawn as for a sampled face.
+/// A hand-written face. Values that it does not specify are random, as for a sampled face.
 struct ManualRecipe {
   struct Band {
     std::optional<PlanePoint> position;
@@ -158,8 +158,8 @@ struct ManualRecipe {
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
-  /// The values of the region itself apply to all bands that have no values of their own. Its
-  /// smoothness applies only to the first band.
+  /// The values of the region itself apply to all bands that have no values of their own, except
+  /// that the region's smoothness applies only to the first band.
   struct Region : Band {
     std::vector<Band> bands;  ///< one for each band, or empty
   };
@@ -170,7 +170,7 @@ struct ManualRecipe {
   std::optional<Range> age;                ///< empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
-  TraitLimits traits = {};  ///< the values that are not specified are drawn to meet these limits
+  TraitLimits traits = {};  ///< limits that the random values must meet
 };
 
 }  // namespace crowdface

@@ -33,7 +33,7 @@ bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::ui
   return false;
 }
 
-/// Returns whether each share can still get ⌊q·m⌋ of the first m faces, for all m from n + 1 on.
+/// Returns whether each share q can still get ⌊q·m⌋ of the first m faces, for all m from n + 1 on.
 bool can_serve(const std::vector<double>& shares, const std::vector<std::uint64_t>& served,
                std::uint64_t n, std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {

@@ -10,9 +10,8 @@
 namespace crowdface {
 
 /// Returns the index of the share that each face belongs to, or −1. Of the first n faces, share q
-/// gets at least ⌊q·n⌋. If several shares are due at the same face, some of them get an earlier
-/// face. Each entry depends only on the shares and its own index, so a larger crowd changes no
-/// entry.
+/// gets at least ⌊q·n⌋. If several shares are due at the same face, some of these shares get an
+/// earlier face. The first n entries do not depend on `count`.
 ///
 /// The schedule is as late as possible, by earliest deadline first (Liu & Layland 1973): the m-th
 /// face of share q is due at face ⌈m/q⌉. A face is assigned to a share only if some share would
@@ -21,8 +20,8 @@ namespace crowdface {
 /// \param shares  Sum to at most 1.
 std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_t count);
 
-/// Like schedule_shares, but in random order: for each face, a share (or none) is chosen at random
-/// among those after which all shares can still get their faces. Of the first n faces, share q gets
+/// Like schedule_shares, but in random order: gives each face at random to one of the shares (or to
+/// none), but only so that all shares can still get their faces. Of the first n faces, share q gets
 /// ⌊q·n⌋ or ⌈q·n⌉.
 ///
 /// \param shares   Sum to at most 1.

@@ -46,7 +46,7 @@ std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>&
 
 }  // namespace
 
-void draw_skin_of_children(const SkinDraw& draw, std::vector<FacePlan>& crowd) {
+void choose_skin_of_children(const SkinOptions& draw, std::vector<FacePlan>& crowd) {
   std::map<std::string, double> tones;  // of heads and faces, by name
   for (std::size_t h = 0; h < draw.heads.size(); ++h) tones[draw.heads[h]] = draw.tones[h];
   std::map<std::string, bool> is_parent;

@@ -12,24 +12,24 @@
 
 namespace crowdface {
 
-/// Parameters for the skin of children.
-struct SkinDraw {
+/// Parameters for choosing the skin colours of children.
+struct SkinOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> heads;  ///< names of the heads, because parents may be heads
   HeadTags tags;                   ///< #heads
-  std::vector<double> tones;       ///< #heads: mean density of the skin's pigments
+  std::vector<double> tones;       ///< #heads: mean optical density of the colour textures
   /// Weights of the heads in a face's colours, #heads; they sum to one.
   std::function<std::vector<double>(const Recipe&)> shares;
-  std::set<std::string> twins = {};  ///< families whose members are twins, of one tone
+  std::set<std::string> twins = {};  ///< families whose members are twins with the same tone
 };
 
 /// Gives each face with parents its own colours, Recipe::colours, so that the tone of its skin lies
-/// between the tones of its parents: a random place between 0.2 and 0.8 of the way. The colours are
-/// a mixture of two heads, the next lighter and the next darker one among the heads with the sex and
-/// the age class of the face. If all these heads are lighter or all are darker, the nearest head
-/// lends its colours alone. Faces that already have colours keep them.
+/// between the tones of its parents, at a random fraction from 0.2 to 0.8. The colours are a
+/// mixture of two heads: the next lighter and the next darker head with the sex and the age class
+/// of the face. If all such heads are lighter or all are darker, the nearest head alone lends its
+/// colours. Faces that already have colours keep these.
 ///
 /// \param crowd  In the order of the plan: parents before children.
-void draw_skin_of_children(const SkinDraw& draw, std::vector<FacePlan>& crowd);
+void choose_skin_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);
 
 }  // namespace crowdface

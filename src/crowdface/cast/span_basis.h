@@ -7,7 +7,7 @@ namespace crowdface {
 
 using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// An orthonormal basis of the span of given rows, and the rows' coordinates in it.
+/// An orthonormal basis of the span of given rows, and the rows' coordinates in this basis.
 struct SpanBasis {
   FloatRows directions;   ///< #P by #S
   FloatRows coordinates;  ///< #N by #P: row n is approximately Σ_p coordinates(n, p) directions(p)

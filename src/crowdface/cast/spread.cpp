@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kCandidatesAtATime = 256;
 
-/// Returns the squared distance, or any value above `limit` as soon as it is known to exceed
+/// Returns the squared distance, or any value above `limit` if the squared distance exceeds
 /// `limit`.
 double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
   constexpr Index kLanes = 8, kChunk = 32;
@@ -43,9 +43,9 @@ double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, doubl
 
 }  // namespace
 
-CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
-                        const std::vector<FaceKind>& kinds, std::uint64_t count,
-                        std::uint64_t times) {
+CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
+                          const std::vector<FaceKind>& kinds, std::uint64_t count,
+                          std::uint64_t times) {
   const std::uint64_t size = count * times;
   const std::vector<int> schedule = schedule_groups(casting.groups, size, times);
   std::vector<std::optional<std::pair<FacePlan, FaceSpace::Point>>> drawn(size);
@@ -55,10 +55,10 @@ CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
     const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
     const bool limited = judge.traits() != nullptr && !kind.sampling->traits.empty();
     const int attempts =
-        casting.diversity.max_attempts * (limited ? static_cast<int>(kDrawsWithTraits) : 1);
+        casting.diversity.max_attempts * (limited ? static_cast<int>(kAttemptFactorWithTraits) : 1);
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      const DrawKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
-      FacePlan face = draw_recipe(casting, {}, key, kind);
+      const FaceRandomKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
+      FacePlan face = random_recipe(casting, {}, key, kind);
       const TraitRules* rules = judge.traits();
       if (rules != nullptr && !rules->measurer().meets(kind.sampling->traits,
                                                        rules->measurer().landmarks(face.recipe))) {
@@ -66,7 +66,7 @@ CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
         continue;
       }
       FaceSpace::Point point = judge.space().point(face.recipe);
-      if (const auto reason = judge.check_draw(face.recipe, point, key.attempt)) {
+      if (const auto reason = judge.check_candidate(face.recipe, point, key.attempt)) {
         rejections[at].add(*reason);
         continue;
       }
@@ -86,19 +86,21 @@ CandidatePool draw_pool(const CastingOptions& casting, const FaceJudge& judge,
 }
 
 FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd)
-    : pool_(pool), squared_(pool.points.size(), HUGE_VAL), gone_(pool.points.size(), false) {
-  parallel_for_each(squared_.size(), [&](std::size_t at) {
+    : pool_(pool),
+      squared_distances_(pool.points.size(), HUGE_VAL),
+      dropped_(pool.points.size(), false) {
+  parallel_for_each(squared_distances_.size(), [&](std::size_t at) {
     const double mm = crowd.index().nearest(pool_.points[at]).mm;
-    squared_[at] = mm * mm;
+    squared_distances_[at] = mm * mm;
   });
 }
 
 FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
   Pick best;
   double most = -1;
-  for (std::size_t p = 0; p < squared_.size(); ++p) {
-    if (gone_[p] || pool_.kinds[p] != kind || squared_[p] <= most) continue;
-    most = squared_[p];
+  for (std::size_t p = 0; p < squared_distances_.size(); ++p) {
+    if (dropped_[p] || pool_.kinds[p] != kind || squared_distances_[p] <= most) continue;
+    most = squared_distances_[p];
     best.candidate = static_cast<Index>(p);
   }
   best.mm = std::sqrt(std::max(most, 0.0));
@@ -108,16 +110,17 @@ FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
 void FarthestPoints::pick(Index candidate) {
   drop(candidate);
   const FaceSpace::Point& picked = pool_.points[static_cast<std::size_t>(candidate)];
-  parallel_for_each(squared_.size(), kCandidatesAtATime, [&](std::size_t at) {
-    if (gone_[at]) return;
-    squared_[at] = std::min(squared_[at], squared_up_to(picked, pool_.points[at], squared_[at]));
+  parallel_for_each(squared_distances_.size(), kCandidatesAtATime, [&](std::size_t at) {
+    if (dropped_[at]) return;
+    squared_distances_[at] = std::min(
+        squared_distances_[at], squared_up_to(picked, pool_.points[at], squared_distances_[at]));
   });
 }
 
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                  CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
-  CandidatePool pool = draw_pool(casting, judge, kinds, casting.count, DiversityOptions::kPool);
+  CandidatePool pool = sample_pool(casting, judge, kinds, casting.count, DiversityOptions::kPool);
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
   for (std::uint64_t index = 1; index <= casting.count; ++index) {
@@ -126,7 +129,7 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     FarthestPoints::Pick pick = points.farthest(kind);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      pool.faces[at].index = index;  // as of the face that it may become
+      pool.faces[at].index = index;  // the index of the face that the candidate may become
       std::optional<Reason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);
       if (!why && family_separation.intrudes(pool.points[at])) why = Reason::kFamily;

@@ -35,7 +35,7 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
   const Eigen::VectorXf apart = mean_place(space, group, true) - mean_place(space, group, false);
   for (Index head = 0; head < space.head_count(); ++head) {
     if (contains(group, head)) {
-      of_head_.push_back(head);
+      substitutes_.push_back(head);
       continue;
     }
     const Eigen::VectorXf place = space.head_point(head).as_built + apart;
@@ -46,16 +46,17 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
       return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(taken, other),
                         (space.head_point(other).as_built - place).norm());
     };
-    of_head_.push_back(*std::min_element(group.begin(), group.end(),
-                                         [&](Index a, Index b) { return rank(a) < rank(b); }));
+    substitutes_.push_back(*std::min_element(group.begin(), group.end(),
+                                             [&](Index a, Index b) { return rank(a) < rank(b); }));
   }
 }
 
-std::vector<SourceWeight> SubstituteHeads::of(const std::vector<SourceWeight>& shares) const {
+std::vector<SourceWeight> SubstituteHeads::substituted(
+    const std::vector<SourceWeight>& shares) const {
   if (has_all(shares)) return shares;
   std::map<Index, double> sums;
   for (const SourceWeight& share : shares) {
-    sums[of_head_[static_cast<std::size_t>(share.head)]] += share.weight;
+    sums[substitutes_[static_cast<std::size_t>(share.head)]] += share.weight;
   }
   std::vector<SourceWeight> result;
   for (const auto& [head, weight] : sums) result.push_back({head, weight});
@@ -63,8 +64,8 @@ std::vector<SourceWeight> SubstituteHeads::of(const std::vector<SourceWeight>& s
 }
 
 bool SubstituteHeads::has_all(const std::vector<SourceWeight>& shares) const {
-  return of_head_.empty() || std::all_of(shares.begin(), shares.end(), [&](const auto& share) {
-           return of_head_[static_cast<std::size_t>(share.head)] == share.head;
+  return substitutes_.empty() || std::all_of(shares.begin(), shares.end(), [&](const auto& share) {
+           return substitutes_[static_cast<std::size_t>(share.head)] == share.head;
          });
 }
 

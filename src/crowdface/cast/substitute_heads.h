@@ -26,12 +26,12 @@ class SubstituteHeads {
   /// Returns weights with each head replaced by its substitute.
   ///
   /// \param shares  Weights, by ascending head.
-  std::vector<SourceWeight> of(const std::vector<SourceWeight>& shares) const;
+  std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& shares) const;
   /// Returns whether the group contains every head that has a share.
   bool has_all(const std::vector<SourceWeight>& shares) const;
 
  private:
-  std::vector<Index> of_head_;  ///< #heads: substitute of each head; or empty
+  std::vector<Index> substitutes_;  ///< #heads: substitute of each head; or empty
 };
 
 /// Returns how many tags two heads have in common.

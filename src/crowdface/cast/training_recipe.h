@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// Returns a random recipe with all heads and levels, as casting might draw it. The principal
-/// directions of a face space are computed from such faces, so that they cover all differences
-/// between faces. If there are mirror images, faces are mirrored and vary in asymmetry.
+/// Returns a random recipe with all heads and levels, as casting might generate. The principal
+/// directions of a face space are computed from such faces, so that the directions cover all
+/// differences between faces. If there are mirror images, faces are mirrored and vary in asymmetry.
 ///
 /// \param bands  Number of bands of each region's detail.
 /// \param index  Number of the recipe; the same index always gives the same recipe.

@@ -38,8 +38,8 @@ std::optional<Reason> TraitRules::check(const FacePlan& face, const Positions& l
   return Reason::kTraits;
 }
 
-std::uint32_t draws_factor(const CastingOptions& casting) {
-  return has_trait_limits(casting) ? kDrawsWithTraits : 1;
+std::uint32_t attempt_factor(const CastingOptions& casting) {
+  return has_trait_limits(casting) ? kAttemptFactorWithTraits : 1;
 }
 
 bool has_trait_limits(const CastingOptions& casting) {

@@ -9,17 +9,18 @@
 
 namespace crowdface {
 
-/// Which limits on measurements hold for which face of a crowd.
+/// The limits on measurements of each face of a crowd.
 class TraitRules {
  public:
   /// \param measurer, casting  must outlive this object.
   TraitRules(const FaceMeasurer& measurer, const CastingOptions& casting)
       : measurer_(measurer), casting_(casting) {}
 
-  /// The limits of a face: of its recipe if it is written by hand; of its family and the family's
-  /// group; of its group; else of the crowd. A face without an id is hidden and has no limits.
+  /// The limits of a face: a hand-written face has its recipe's limits; a member of a family has
+  /// the limits of the family and of the family's group; a face in a group has the group's limits;
+  /// any other face has the crowd's limits. A face without an id is hidden and has no limits.
   TraitLimits limits_of(const FacePlan& face) const;
-  /// Checks the limits of a face.
+  /// Checks the limits of a face. Returns nothing if the landmarks meet the limits.
   /// \param landmarks  from FaceMeasurer::landmarks or exact_landmarks
   std::optional<Reason> check(const FacePlan& face, const Positions& landmarks) const;
   const FaceMeasurer& measurer() const { return measurer_; }
@@ -32,10 +33,10 @@ class TraitRules {
 /// Whether any face of the crowd has limits.
 bool has_trait_limits(const CastingOptions& casting);
 
-/// Most draws for one face if measurements are limited, as a multiple of DiversityOptions::max_attempts:
-/// drawing and measuring take microseconds.
-inline constexpr std::uint32_t kDrawsWithTraits = 20;
-/// Returns kDrawsWithTraits if the crowd has limits on measurements, otherwise 1.
-std::uint32_t draws_factor(const CastingOptions& casting);
+/// Most candidates for one face if measurements are limited, as a multiple of
+/// DiversityOptions::max_attempts. To generate and measure a candidate takes microseconds.
+inline constexpr std::uint32_t kAttemptFactorWithTraits = 20;
+/// Returns kAttemptFactorWithTraits if the crowd has limits on measurements, otherwise 1.
+std::uint32_t attempt_factor(const CastingOptions& casting);
 
 }  // namespace crowdface

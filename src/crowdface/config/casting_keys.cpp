@@ -193,7 +193,8 @@ const Keys<Config::Distance>& distance_keys() {
 
 namespace {
 
-/// Proposes a distance at which the starter's faces fit, with the believability that it asks for.
+/// Proposes a distance at which the starter's faces fit, under the starter's limits of
+/// believability.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
   const std::size_t in_group = heads_of_smaller_group(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.names.size();

@@ -165,7 +165,7 @@ void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft&
     complain("distance", "requires variant_of");
   }
   check_hair(change, node, draft);
-  if ((change.variant_of || change.draws_again()) && !is_sampled_face(change.id, draft.config)) {
+  if ((change.variant_of || change.needs_redraw()) && !is_sampled_face(change.id, draft.config)) {
     draft.complaints.add(entry.key_place,
                          concat(quoted(entry.key),
                                 " is not a sampled face and can only change age, wears and hair"));

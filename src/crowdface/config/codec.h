@@ -16,7 +16,7 @@ namespace crowdface {
 
 /// The context in which values are written as YAML.
 struct WriteContext {
-  /// The keys to write: all, or those that face_settings or plan_settings needs.
+  /// The keys to write: all keys, or the keys that face_settings or plan_settings needs.
   enum class Part { kAll, kFaces, kPlan };
   const Config& config;
   std::filesystem::path folder;  ///< absolute; written paths are relative to this folder

@@ -45,8 +45,8 @@ enum class Gallery {
 };
 
 /// The weights with which a face's textures are blended: the weights of its shape (`kRecipe`), or
-/// independently sampled weights (`kDrawn`).
-enum class ColourWeights { kRecipe, kDrawn };
+/// independently sampled weights (`kSampled`).
+enum class ColourWeights { kRecipe, kSampled };
 
 /// Which textures a face gets.
 enum class TextureBlend {
@@ -158,7 +158,7 @@ struct Config {
   /// files from which tags and attachments were read
   std::vector<std::filesystem::path> lists;
   std::filesystem::path points;  ///< file of points that follow the face; empty: none
-  /// file of landmarks that replace those found on the heads; empty: none
+  /// file of landmarks that replace the landmarks found on the heads; empty: none
   std::filesystem::path landmarks;
   std::filesystem::path rig;  ///< GLB file of joints and the parts bound to them; empty: none
 
@@ -201,7 +201,7 @@ struct Config {
         size;  ///< texels of the longer side; none: the size of the largest head texture
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// For ColourWeights::kDrawn: textures come only from heads that agree with the face's target
+    /// For ColourWeights::kSampled: textures come only from heads that agree with the face's target
     /// in each of these tags; none: in all tags.
     std::optional<std::vector<std::string>> alike;
   } textures;
@@ -231,7 +231,7 @@ struct Config {
     std::filesystem::path file;        ///< empty: none
     std::vector<TraitTarget> targets;  ///< the file's content, ascending by trait
   };
-  TraitTable population;    ///< the asked distributions of the sampled faces
+  TraitTable population;    ///< requested distributions of the sampled faces
   TraitTable quantiles_of;  ///< distributions for the percents in `traits`; empty: the heads
 
   struct Reviews {

@@ -80,7 +80,7 @@ void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
 }
 
 std::string write_parent(const Parent& parent, const WriteContext& context) {
-  if (!parent.drawn) return write_scalar(parent.id);
+  if (!parent.is_new) return write_scalar(parent.id);
   return parent.group ? flow_map({entry("group", group().write(*parent.group, context))}) : "drawn";
 }
 
@@ -194,7 +194,7 @@ std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& 
   std::vector<std::string> ids;
   for (int m = 1; m <= family.members; ++m) ids.push_back(member_id(crowd, family.name, m));
   for (const Parent& parent : family.parents) {
-    if (parent.drawn) ids.push_back(parent_id(crowd, parent));
+    if (parent.is_new) ids.push_back(parent_id(crowd, parent));
   }
   return ids;
 }

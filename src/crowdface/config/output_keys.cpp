@@ -79,7 +79,7 @@ std::optional<double> parse_percent(std::string_view text) {
   return percent;
 }
 
-/// Returns whether a name is that of a level of detail, "LOD1" and so on.
+/// Returns whether a name is the name of a level of detail: "LOD1" and so on.
 bool is_level_name(std::string_view name) {
   return name.starts_with("LOD") && parse_unsigned(name.substr(3)).has_value();
 }

@@ -174,7 +174,7 @@ class OverriddenKeys {
     for (std::size_t p = 0; p < family.parents.size(); ++p) {
       const Parent& parent = family.parents[p];
       const char *role = p == 0 ? "mother" : "father", *sex = p == 0 ? "female" : "male";
-      if (!parent.drawn || parent.group || with_any({"female", "male"}).empty()) continue;
+      if (!parent.is_new || parent.group || with_any({"female", "male"}).empty()) continue;
       const bool has_target = std::ranges::any_of(
           parent.targets, [&](Eigen::Index head) { return is_target(config_.sampling, head); });
       if (has_target) continue;

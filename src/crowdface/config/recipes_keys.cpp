@@ -95,8 +95,8 @@ HandRegion read_region(const YamlNode& node, ConfigDraft& draft) {
   return region;
 }
 
-/// Reads the values of the regions. A region without an entry takes that of `all`; without `all`,
-/// sampling chooses its values.
+/// Reads the values of the regions. A region without an entry takes the entry of `all`; without
+/// `all`, sampling chooses the region's values.
 void read_regions_of(const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
   if (!draft.complaints.expect_map(node, "a mapping from regions, or all, to their values")) return;
   const std::vector<std::string>& names = draft.config.regions.names;

@@ -28,10 +28,10 @@ std::vector<std::string> named_ids(const Config& config) {
   return ids;
 }
 
-bool is_drawn_parent(const std::string& id, const Config& config) {
+bool is_new_parent(const std::string& id, const Config& config) {
   return std::ranges::any_of(config.families, [&](const auto& family) {
     return std::ranges::any_of(family.parents, [&](const Parent& parent) {
-      return parent.drawn && id == parent_id(config.crowd.name, parent);
+      return parent.is_new && id == parent_id(config.crowd.name, parent);
     });
   });
 }
@@ -99,7 +99,7 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
                            concat("no face of this crowd is called ", quoted(entry.key)));
     }
     read_mark(entry.value, mark, draft);
-    if (mark.verdict == Verdict::kReject && is_drawn_parent(entry.key, draft.config)) {
+    if (mark.verdict == Verdict::kReject && is_new_parent(entry.key, draft.config)) {
       draft.complaints.add(
           entry.key_place,
           concat(quoted(entry.key), " is a parent and cannot be rejected; to redraw ",

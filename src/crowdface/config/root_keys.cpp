@@ -61,8 +61,8 @@ const Keys<Config::Blending>& blending_keys() {
 
 const Keys<Config::Textures>& textures_keys() {
   using Textures = Config::Textures;
-  const auto are_drawn = [](const Textures& textures, const auto&) {
-    return textures.colours == ColourWeights::kDrawn;
+  const auto are_sampled = [](const Textures& textures, const auto&) {
+    return textures.colours == ColourWeights::kSampled;
   };
   static const Keys<Textures> keys = {
       word_key("blend", &Textures::blend).after_casting(),
@@ -70,9 +70,9 @@ const Keys<Config::Textures>& textures_keys() {
       key("formats", &Textures::formats,
           words<TextureFormat>("a list of formats, [png, jpeg, exr]"))
           .after_casting(),
-      word_key("colours", &Textures::colours).written_if(are_drawn),
+      word_key("colours", &Textures::colours).written_if(are_sampled),
       key("alike", &Textures::alike, list(name(), "a list of tags, [female, male]"))
-          .written_if(are_drawn)};
+          .written_if(are_sampled)};
   return keys;
 }
 
@@ -82,10 +82,10 @@ void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
     const YamlEntry* entry = node.find(key);
     draft.complaints.add_at(entry != nullptr ? entry->value : node, text);
   };
-  if (textures.colours == ColourWeights::kDrawn && textures.blend != TextureBlend::kAuto) {
+  if (textures.colours == ColourWeights::kSampled && textures.blend != TextureBlend::kAuto) {
     complain("colours", "drawn requires textures.blend: auto");
   }
-  if (textures.alike && textures.colours != ColourWeights::kDrawn) {
+  if (textures.alike && textures.colours != ColourWeights::kSampled) {
     complain("alike", "requires colours: drawn");
   }
   if (!textures.alike || !draft.heads_known) return;

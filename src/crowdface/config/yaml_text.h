@@ -11,7 +11,7 @@
 namespace crowdface {
 
 /// The text of a YAML file. Finds problems that yaml-cpp accepts, and converts yaml-cpp's positions
-/// (lines and columns from 0, in bytes) to those of an editor (from 1, in characters).
+/// (lines and columns from 0, in bytes) to the positions of text editors (from 1, in characters).
 class YamlText {
  public:
   /// \param text  must outlive this object; a byte order mark at its start is skipped.

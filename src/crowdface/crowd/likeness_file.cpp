@@ -23,7 +23,7 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit LikenessReader(const std::vector<std::string>& ids) {
     for (std::size_t i = 0; i < ids.size(); ++i) rows_.emplace(ids[i], i);
-    likeness.near.resize(ids.size());
+    likeness.neighbours.resize(ids.size());
   }
 
   std::map<std::string, std::vector<double>> anchors;
@@ -55,7 +55,7 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
     }
     const auto face = rows_.find(keys_[1]), other = rows_.find(keys_[2]);
     if (keys_[0] != "nearest" || face == rows_.end() || other == rows_.end()) return false;
-    likeness.near[face->second].push_back({other->second, value});
+    likeness.neighbours[face->second].push_back({other->second, value});
     return true;
   }
   bool number_integer(std::int64_t value) override {
@@ -85,7 +85,7 @@ CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points) {
   constexpr std::size_t kNeighbours = 6;  // for each face: two rows on its gallery page
   CrowdLikeness likeness{anchors, find_likeness(points, kNeighbours)};
-  for (std::vector<Neighbour>& near : likeness.likeness.near) {
+  for (std::vector<Neighbour>& near : likeness.likeness.neighbours) {
     for (Neighbour& other : near) other.mm = rounded(other.mm);
   }
   return likeness;
@@ -109,7 +109,7 @@ TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
     take(order.empty() ? "],\n \"nearest\": {" : "\n ],\n \"nearest\": {");
     text_of_items(ids.size(), [&](std::size_t face) {
       std::string line = concat(start(face), Json(ids[face]).dump(), ": {");
-      const std::vector<Neighbour>& near = likeness.likeness.near[face];
+      const std::vector<Neighbour>& near = likeness.likeness.neighbours[face];
       for (std::size_t n = 0; n < near.size(); ++n) {
         line += concat(n > 0 ? ",\n   " : "\n   ", Json(ids[near[n].face]).dump(), ": ",
                        Json(near[n].mm).dump());

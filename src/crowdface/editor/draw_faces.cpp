@@ -34,7 +34,7 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
   return band;
 }
 
-FacePlan draw_one(const CastingOptions& casting, const DrawRequest& request,
+FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                   std::uint32_t attempt) {
   const bool keeps_target = request.like || !request.locked.empty();
   const FacePlan& old = request.like ? *request.like : request.from;
@@ -43,7 +43,7 @@ FacePlan draw_one(const CastingOptions& casting, const DrawRequest& request,
   open.age = Range{0, 0};
   if (keeps_target) open.target = old.recipe.target;
   FacePlan face =
-      draw_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
+      random_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
   if (keeps_target) {
     face.recipe.mixture = old.recipe.mixture;
     face.recipe.colours = old.recipe.colours;
@@ -64,8 +64,8 @@ FacePlan draw_one(const CastingOptions& casting, const DrawRequest& request,
 
 }  // namespace
 
-std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge& judge,
-                                 const FacePointIndex& crowd, const DrawRequest& request) {
+std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudge& judge,
+                                   const FacePointIndex& crowd, const SampleRequest& request) {
   constexpr std::uint32_t kAttemptsEach = 40;
   const auto most = static_cast<std::uint32_t>(request.count) * kAttemptsEach;
   std::vector<FacePlan> faces;

@@ -12,7 +12,7 @@
 namespace crowdface {
 
 /// A request to sample faces from which the user chooses.
-struct DrawRequest {
+struct SampleRequest {
   FacePlan from;  ///< the face to sample anew: supplies the id and all locked parts
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
@@ -27,7 +27,7 @@ struct DrawRequest {
 /// minimum distance from the crowd.
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.
-std::vector<FacePlan> draw_faces(const CastingOptions& casting, const FaceJudge& judge,
-                                 const FacePointIndex& crowd, const DrawRequest& request);
+std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudge& judge,
+                                   const FacePointIndex& crowd, const SampleRequest& request);
 
 }  // namespace crowdface

@@ -148,7 +148,7 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   constexpr double kMaxFaces = 64;
   constexpr std::uint32_t kAttempts = 4096;  // more than one request needs
   const Json body = body_of(request);
-  DrawRequest draw{face_of(body), parts_in(body, "locked"), std::nullopt};
+  SampleRequest draw{face_of(body), parts_in(body, "locked"), std::nullopt};
   if (body.contains("like") && !body["like"].is_null()) draw.like = face_of(body, "like");
   if (body.contains("amount")) draw.amount = number_in(body, "amount", 0, 1);
   if (body.contains("count")) {
@@ -157,7 +157,7 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   draw.first_attempt = draws_.fetch_add(kAttempts);
   Json recipes = Json::array();
   Json mm = Json::array();  // distances from `like`
-  for (const FacePlan& face : session_.draw(draw)) {
+  for (const FacePlan& face : session_.sample_faces(draw)) {
     recipes.push_back(recipe_to_json(face, session_.casting(), session_.job().config));
     if (draw.like) mm.push_back(session_.distance_mm(*draw.like, face));
   }

@@ -31,8 +31,7 @@ class EditApi {
   /// \param session, folder, run  must outlive this object
   /// \param may_edit_config  whether requests may save recipes and regions to the job's config;
   ///                         true if the config is the user's own file
-  /// \param open_again  loads the config and the crowd again; replaces this object by another one that answers
-  ///                    requests
+  /// \param open_again  reloads the config and the crowd, and replaces this object by a new EditApi
   EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
           std::function<void()> open_again);
 
@@ -85,7 +84,7 @@ class EditApi {
   DroppedFiles dropped_;
   RegionPainting painting_;  ///< guarded by `building_`
   std::mutex building_;      ///< builds one face at a time, because each build uses all cores
-  /// Attempts so far, so that each draw differs from the previous draws.
+  /// Number of sampling attempts so far, so that each request samples different faces.
   std::atomic<std::uint32_t> draws_ = 0;
   std::mutex turns_mutex_;
   std::map<std::string, std::uint64_t> turns_;  ///< newest turn of each page

@@ -41,13 +41,13 @@ std::optional<std::string> EditAttachments::look(const std::string& name) const 
   return std::nullopt;
 }
 
-FacePlan EditAttachments::drawn_for(const FacePlan& face, const std::string& opened) const {
+FacePlan EditAttachments::sampled_for(const FacePlan& face, const std::string& opened) const {
   if (crowd_ != nullptr) {
     const auto found = std::ranges::find(*crowd_, opened, &FacePlan::id);
     if (found != crowd_->end()) return *found;
   }
   std::vector<FacePlan> alone = {face};
-  draw_attachments(attachment_draw(job_.config), {}, alone);
+  choose_attachments(attachment_options(job_.config), {}, alone);
   return alone[0];
 }
 
@@ -70,7 +70,7 @@ std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
   const std::vector<Attachment>& items = job_.inputs.attachments.items;
   std::vector<PlacedAttachment> placed;
   if (items.empty()) return placed;
-  const FacePlan plan = drawn_for(face, opened);
+  const FacePlan plan = sampled_for(face, opened);
   const std::vector<std::string>& drawn = plan.attachments;
   const Json known = kinds();
   for (const auto& [kind, choice] : chosen.items()) {

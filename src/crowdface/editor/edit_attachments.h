@@ -52,12 +52,12 @@ class EditAttachments {
   using Bound = std::shared_future<std::unique_ptr<const FaceAttachments>>;
 
   Bound bound(const std::string& name);
-  FacePlan drawn_for(const FacePlan& face, const std::string& opened) const;
+  FacePlan sampled_for(const FacePlan& face, const std::string& opened) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;
   std::mutex mutex_;
-  std::map<std::string, Bound> bound_;  ///< by name, as far as any face wore them
+  std::map<std::string, Bound> bound_;  ///< by name: the attachments that any face has worn
   AttachmentSurfaces surfaces_;
   ShownAttachments shown_;
 };

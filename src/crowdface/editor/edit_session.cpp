@@ -19,7 +19,7 @@
 namespace crowdface {
 namespace {
 
-std::vector<bool> drawn_faces(const Surfaces& surfaces) {
+std::vector<bool> visible_faces(const Surfaces& surfaces) {
   std::vector<bool> drawn;
   for (const SurfaceKind kind : surfaces.kinds) drawn.push_back(kind != SurfaceKind::kHidden);
   return drawn;
@@ -98,10 +98,10 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       reducing_(std::async(std::launch::async,
                            [this, preview_vertices] {
                              const HeadSet& faces = job_.inputs.faces;
-                             return preview_mesh(faces.topology, textures_.coordinates(),
-                                                 mean_head(faces),
-                                                 drawn_faces(surfaces_of(job_.config, job_.inputs)),
-                                                 preview_vertices);
+                             return preview_mesh(
+                                 faces.topology, textures_.coordinates(), mean_head(faces),
+                                 visible_faces(surfaces_of(job_.config, job_.inputs)),
+                                 preview_vertices);
                            })),
       crowd_(crowd_of_job(job_)),
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
@@ -253,9 +253,9 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
   return face;
 }
 
-std::vector<FacePlan> EditSession::draw(const DrawRequest& request) const {
+std::vector<FacePlan> EditSession::sample_faces(const SampleRequest& request) const {
   const Judging& judging = judging_.get();
-  return draw_faces(casting_, judging.judge, judging.crowd, request);
+  return sample_faces(casting_, judging.judge, judging.crowd, request);
 }
 
 std::vector<float> EditSession::points(const Positions& face) const {

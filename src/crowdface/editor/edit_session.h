@@ -80,7 +80,7 @@ class EditSession {
 
   /// The masks for blending; zero at components that are not skin.
   const RegionWeights& masks() const { return builder_.regions(); }
-  /// Replaces the masks for blending. Distances, warnings and drawn faces still use the config's
+  /// Replaces the masks for blending. Distances, warnings and sampled faces still use the config's
   /// masks. Call this only while no other thread builds faces or reads masks.
   void use_masks(const RegionWeights& masks);
 
@@ -100,12 +100,12 @@ class EditSession {
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
   /// The face with weights at which a measurement comes as near to a value as the heads allow; see steer_trait.
-  /// \param locked  parts that do not change, as in DrawRequest
+  /// \param locked  parts that do not change, as in SampleRequest
   /// \throws UsageError if the measurement is not available, or weights cannot be given.
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
                  const std::vector<std::size_t>& locked) const;
-  /// See draw_faces.
-  std::vector<FacePlan> draw(const DrawRequest& request) const;
+  /// See sample_faces.
+  std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.
   std::vector<float> normals(const Positions& face) const;
   /// Roughness of a face at the preview's vertices, in 255ths; empty if there is no roughness map.

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Puts a mark or a change in place of that of the same face.
+/// Adds a mark or a change, in place of the earlier mark or change of the same face.
 template <class Entry>
 void put_entry(const Entry& entry, std::vector<Entry>& entries) {
   const auto known = std::ranges::find(entries, entry.id, &Entry::id);

@@ -37,7 +37,8 @@ class EditedFolder {
   std::string state() const;
   /// From now on, only this page may replace the state: two pages would overwrite each other's steps.
   void take_over(std::string page);
-  /// \param page  the page that asks, or empty if no page has taken over
+  /// Saves the state of a page.
+  /// \param page  the page that sends the state, or empty if no page has taken over
   /// \return false, without an effect, if another page has taken over
   bool keep_state(std::string_view text, const std::string& page);
 

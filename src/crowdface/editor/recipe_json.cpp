@@ -125,7 +125,7 @@ FacePlan face_of_json(const Json& recipe, const CastingOptions& casting, const C
   if (!hand.age) hand.age = Range{0, 0};
   if (!hand.asymmetry) hand.asymmetry = Range{1, 1};
   if (!hand.mirrored) hand.mirrored = false;
-  FacePlan face = draw_manual_recipe(casting, hand);
+  FacePlan face = complete_recipe(casting, hand);
   if (!is_unmirrored(face.recipe) && mirroring_key(config).empty()) {
     throw UsageError(
         "asymmetry and mirrored: expected a config that has sampling.asymmetry, "

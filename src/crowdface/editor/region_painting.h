@@ -48,7 +48,7 @@ class RegionPainting {
 
   /// The painted regions with one change. {"add": NAME} adds a region without any vertices.
   /// {"remove": NAME} removes a region and distributes its share to the other regions. {"propose":
-  /// [NAME…]} replaces all regions by those that the shape of the mean head suggests.
+  /// [NAME…]} replaces all regions by the regions that the shape of the mean head suggests.
   /// \throws UsageError if the request cannot be read; InvalidInput if no regions can be proposed.
   PaintedRegions regions(const nlohmann::ordered_json& change);
 

@@ -88,8 +88,8 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
   if (chosen.size() < 3) return std::vector<HeadPose>(count);
   std::vector<Positions> points;
   for (const Head& head : faces.heads) points.emplace_back(head.positions(chosen, kAllColumns));
-  // The reference is the head whose median disagreement with the others is smallest, so that one
-  // stray head does not make the others look wrong.
+  // The reference is the head whose median disagreement with the other heads is smallest, so that
+  // one stray head does not make the other heads look wrong.
   std::vector<double> disagreement(count);
   parallel_for_each(count, [&](std::size_t r) {
     std::vector<double> against;

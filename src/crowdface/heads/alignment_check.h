@@ -28,12 +28,12 @@ std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& compone
 std::string objection_to_pose(const HeadPose& pose, const std::string& head);
 
 /// Whether `align_heads` would warn about a head and a rigid motion would help: the heads have one
-/// size, and some head is rotated or shifted relative to the others.
+/// size, and some head is rotated or shifted relative to the other heads.
 bool needs_rigid_alignment(const HeadSet& faces, const Components& components);
 
-/// Warns about heads that are rotated, shifted or scaled relative to the others, because blending
-/// would treat the difference in pose as detail. With `check`, heads stay as they are; with
-/// `rigid`, each head is first aligned with the first head.
+/// Warns about heads that are rotated, shifted or scaled relative to the other heads, because
+/// blending would treat the difference in pose as detail. With `check`, heads stay as they are;
+/// with `rigid`, each head is first aligned with the first head.
 /// \throws InvalidInput if a head is mirrored, has another unit or, with `check`, is rotated by more than 45
 ///         degrees.
 std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align);

@@ -253,8 +253,8 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
   return made;
 }
 
-/// The heads whose polygons have the same numbers of corners, in the same order, as those of most
-/// heads; with equal counts, as those of the first head.
+/// The largest set of heads whose polygons have the same numbers of corners in the same order; of
+/// equally large sets, the set whose first head comes first.
 std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads) {
   std::vector<std::vector<const HeadFile*>> kinds;
   for (const HeadFile& head : heads) {

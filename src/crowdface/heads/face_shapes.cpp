@@ -35,7 +35,7 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// The weights of the heads' shape sets in a region: those of the target, minus the smoothed
+/// The weights of the heads' shape sets in a region: the weights of the target, minus the smoothed
 /// part of each band as in level_shares, scaled by how much smoothing changes this shape.
 SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);

@@ -106,7 +106,7 @@ ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
 std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {
   const std::size_t heads = inputs_.faces.heads.size();
   if (inputs_.textures.blend() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
-    return face_colour_weights(recipe, heads, region_shares_).whole;
+    return face_colour_weights(recipe, heads, region_shares_).face;
   }
   std::vector<double> shares(heads, 0.0);
   shares[static_cast<std::size_t>(recipe.target)] = 1;

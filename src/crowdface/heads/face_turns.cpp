@@ -41,8 +41,8 @@ SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
     }
   }
   SampledHeads heads = sample_heads(inputs.faces, regions, samples, own, inputs.max_level, 1);
-  heads.own = std::move(own);
-  heads.trajectories = heads.own;
+  heads.owned_trajectories = std::move(own);
+  heads.trajectories = heads.owned_trajectories;
   return heads;
 }
 
@@ -54,7 +54,7 @@ void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
     const RigidMotion motion = turn_about(neck.middle, neck.heads[h].turn);
     move_rows(motion, heads.heads[h]);
     heads.mean += (heads.heads[h] - before) / static_cast<double>(heads.heads.size());
-    Trajectory& moves = heads.own[h];
+    Trajectory& moves = heads.owned_trajectories[h];
     for (Index l = 0; l < moves.rows(); ++l) {
       for (Index i = 0; i < moves.cols(); i += 3) {
         const Eigen::Vector3d by = moves.block<1, 3>(l, i).transpose().cast<double>();
@@ -102,7 +102,7 @@ RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
 
 FaceTurns::FaceTurns(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions)
     : neck_(*inputs.neck), placed_(heads_above(inputs, prepared, regions)), turned_(placed_) {
-  turned_.trajectories = turned_.own;
+  turned_.trajectories = turned_.owned_trajectories;
   turn_heads(neck_, turned_);
   mean_ = head_motion(placed_.mean, turned_.mean);
 }

@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// Adds a problem for each head whose mesh differs from that of the first head: the difference, and
-/// the export setting that probably caused it.
+/// Adds a problem for each head whose mesh differs from the mesh of the first head: the difference,
+/// and the export setting that probably caused the difference.
 void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
 /// Warns if the heads look in the direction that the config says, but show too little of a face to

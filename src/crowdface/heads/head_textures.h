@@ -95,9 +95,9 @@ std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Inde
 /// \throws InvalidInput that names the file if a file is damaged.
 HeadTextures load_render_textures(HeadsTextures found, int max_px);
 
-/// Loads textures of one kind for blending and converts all to one layout, that of the first head
-/// with a texture. For each head, merges the files of an image into one image, whose longer side
-/// has the length `size`.
+/// Loads textures of one kind for blending and converts all textures to the layout of the first
+/// head with a texture. For each head, merges the files of an image into one image, whose longer
+/// side has the length `size`.
 /// \param size     texels of the longer side; nothing: as the largest file, at most 4,096
 /// \param scratch  folder for the maps if they would together need more than half of the memory
 ///                 left for images

@@ -25,7 +25,7 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
 /// template with another topology is a problem, reported with its line.
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
-/// Loads the rig; requires the shapes. Its vertices are matched to those of the heads by
+/// Loads the rig; requires the shapes. Its vertices are matched to the heads' vertices by
 /// `_VERTEX_ID`, or by position on the shapes' template or on a head. A vertex of the heads without
 /// a match, or a joint with non-uniform scale, is a problem.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);

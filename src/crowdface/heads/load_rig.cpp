@@ -25,7 +25,7 @@ namespace {
 constexpr double kSame = 2e-4;
 constexpr double kMmPerMetre = 1000;
 
-/// Transforms from the axes and unit of the rig file (those of glTF, or those of the exporting
+/// The transform from the axes and unit of the rig file (the axes of glTF or of the exporting
 /// program) to the heads' axes and unit.
 struct Frame {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();

@@ -31,16 +31,16 @@ struct Source {
 };
 
 /// Reads many meshes in parallel.
-/// \param asked  paths; empty ones are skipped
-/// \param take   called as take(i, positions of asked[i]) for each mesh that can be read
+/// \param paths  paths of the meshes; empty paths are skipped
+/// \param take   called as take(i, positions of paths[i]) for each mesh that can be read
 template <class Take>
-void read_meshes(const std::vector<std::filesystem::path>& asked, const Source& source,
+void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& source,
                  Problems& problems, const Take& take) {
   std::vector<std::filesystem::path> files;
-  std::vector<std::size_t> places;  // indices into `asked`
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (asked[i].empty()) continue;
-    files.push_back(asked[i]);
+  std::vector<std::size_t> places;  // indices into `paths`
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].empty()) continue;
+    files.push_back(paths[i]);
     places.push_back(i);
   }
   std::vector<std::optional<HeadFile>> read =

@@ -26,7 +26,7 @@ struct NeckBody {
   std::shared_ptr<Attachment> mesh = {};
   Rim mesh_rim = {};
 
-  /// Makes the polygons face outward like those of the heads, if they face inward.
+  /// Makes the body's polygons face outward like the heads' polygons, if they face inward.
   /// \param head_areas  the area vectors of the heads' polygons around the rim
   void face_outward(const Positions& head_areas);
 };

@@ -39,7 +39,7 @@ ColourShares::ColourShares(const Config& config, const Inputs& inputs)
                                                    FaceArea::kFront, config.faces.front))) {}
 
 std::vector<double> ColourShares::shares_of(const Recipe& recipe) const {
-  return face_colour_weights(recipe, heads_, region_shares_).whole;
+  return face_colour_weights(recipe, heads_, region_shares_).face;
 }
 
 }  // namespace crowdface

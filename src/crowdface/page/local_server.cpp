@@ -179,8 +179,8 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// The connection to close for a new client: of those that had kMoment for the head of a request,
-/// the one whose head has been incomplete for the longest time.
+/// The connection to close for a new client: of the connections that had kMoment for the head of a
+/// request, the connection whose head has been incomplete for the longest time.
 std::list<Connection>::iterator LocalServer::State::slowest() {
   auto oldest = connections.end();
   for (auto client = connections.begin(); client != connections.end(); ++client) {

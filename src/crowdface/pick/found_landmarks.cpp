@@ -71,8 +71,8 @@ std::vector<WrapLandmark> find_landmarks(
     face->between_eyes /= pose.scale;
     face->scale /= pose.scale;
   }
-  // Try two orientations and keep the one that gives more landmarks: the fitted pose, which is
-  // tilted for scans that differ much from the template, and the axes of the hint, which are
+  // Try two orientations and keep the orientation that gives more landmarks: the fitted pose, which
+  // is tilted for scans that differ much from the template, and the axes of the hint, which are
   // inexact for rotated scans.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),

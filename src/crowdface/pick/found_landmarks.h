@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// Finds landmarks on a scan by its shape: midpoints of nose, lips and chin and, if the scan has
 /// eyeballs, corners of the eyes and edges of the lids. Omits landmarks whose positions do not fit
-/// those of the template; returns nothing if no face is found.
+/// the template's landmarks; returns nothing if no face is found.
 /// \param template_vertices  landmarks of the template by name, as vertex numbers (see propose_landmarks)
 /// \param hint  up and front direction of the scan
 std::vector<WrapLandmark> find_landmarks(

@@ -19,7 +19,7 @@ namespace crowdface {
 /// The content of a landmark file: places by name, as vertex numbers from 0 or as points.
 struct LandmarkFile {
   using Place = LandmarkPlace;
-  std::map<std::string, Place> of_template, of_scan;
+  std::map<std::string, Place> of_template, of_scan;  ///< by name of the landmark
 };
 
 /// The mesh to which the landmarks belong if the file does not say.

@@ -24,7 +24,7 @@ class PickApi {
   /// \param max_triangles  maximum number of triangles of each mesh that the page shows
   PickApi(PickScans& scans, std::optional<std::filesystem::path> pages, std::size_t max_triangles);
 
-  /// Answers a faulty request with {"error": sentence} and does not throw.
+  /// Answers a request; a faulty request gets the answer {"error": sentence} and no exception.
   HttpAnswer answer(const HttpRequest& request);
 
  private:

@@ -36,9 +36,12 @@ class PickScans {
   /// \param read  reads the scan of an entry. \throws Error
   PickScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read);
 
+  /// The open scan.
   std::shared_ptr<OpenScan> current() const;
+  /// Index of the open scan in entries().
   std::size_t number() const;
   const std::vector<Entry>& entries() const { return entries_; }
+  /// Whether the landmark file of an entry exists.
   bool is_picked(std::size_t number) const;
   /// Opens a scan. \throws Error; the previous scan then stays open.
   void open(std::size_t number);

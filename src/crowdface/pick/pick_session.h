@@ -28,7 +28,7 @@ struct PickInputs {
   std::filesystem::path template_file, scan_file, landmarks;
   /// A further landmark file, for template landmarks that `landmarks` lacks; may be empty.
   std::filesystem::path template_landmarks = {};
-  ColourRows scan_colours = {};  ///< of the scan's vertices, or no rows
+  ColourRows scan_colours = {};  ///< colours of the scan's vertices, or no rows
 };
 
 /// Picks landmarks on a template and a scan by ray casting, and reads and writes the landmark file.
@@ -55,6 +55,7 @@ class PickSession {
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,
                                           const Eigen::Vector3d& direction) const;
+  /// See suggest_places.
   SuggestedPlaces suggest(const std::vector<PickedLandmark>& landmarks) const;
 
   /// Writes the landmark file. \throws UsageError if another program has changed the file since it

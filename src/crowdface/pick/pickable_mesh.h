@@ -41,12 +41,13 @@ class PickableMesh {
   /// \param beside     in the unit of the mesh
   std::optional<PickedPlace> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                   double beside) const;
-  /// First hit of a ray. `triangle` numbers the rows of `skin` first, then those of `others`.
+  /// First hit of a ray. `triangle` numbers the rows of `skin` first, then the rows of `others`.
   struct Hit {
     std::uint32_t triangle = 0;
     bool is_skin = false;
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
   };
+  /// Returns the first hit of a ray, on skin or other triangles.
   std::optional<Hit> first_hit(const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& direction) const;
 
@@ -55,8 +56,9 @@ class PickableMesh {
   /// \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                      double min_cosine, double reach) const;
+  /// Returns a vertex as a place on the surface.
   PickedPlace at_vertex(std::uint32_t vertex) const;
-  /// `point` itself, with the normal and vertex of the nearest skin point.
+  /// Returns `point` itself, with the normal and vertex of the nearest skin point.
   PickedPlace at_point(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }

@@ -17,8 +17,8 @@ namespace crowdface {
 struct LandmarkPose {
   Similarity pose;  ///< maps the template (mm) to the scan, in the unit of the scan
   struct Residual {
-    /// Distance of the pair to the fit of the other pairs, in mm. With three pairs: to the fit of
-    /// all three.
+    /// Distance between both landmarks of the pair after a fit to the other pairs, in mm. With
+    /// three pairs: after a fit to all three pairs.
     double mm = 0;
     /// Far larger than the other residuals: most likely a mistake; not used for `pose`.
     bool outlier = false;
@@ -40,7 +40,8 @@ struct SuggestedPlaces {
   std::optional<LandmarkPose> pose;
 };
 
-/// \param of_template  in millimetres
+/// Suggests likely positions of the landmarks that are not picked yet.
+/// \param of_template  the template, in millimetres
 /// \param plane        symmetry plane of the template
 /// \param proposals    template vertices estimated from shape, for names that are not picked
 SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,

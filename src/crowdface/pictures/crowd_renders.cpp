@@ -19,9 +19,9 @@ namespace {
 /// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Extreme points of the attachments on all heads. An attachment is not fitted to each head: some
-/// of its vertices are scaled from the bounding box of the head it was made for to that of the
-/// other head. This is fast, and exact enough for framing.
+/// Extreme points of the attachments on all heads, estimated without fitting the attachments: some
+/// of their vertices are scaled from the bounding box of the head that the attachment was made for
+/// to the bounding box of the other head. This is exact enough for framing.
 std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
@@ -107,10 +107,13 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       max_texels_(shown_texels(sheet)),
       attachment_surfaces_(max_texels_, textured_) {}
 
-FacePictures CrowdRenders::draw(const std::string& id, Index target, const Positions& positions,
-                                std::span<const Displacements> moves, const FaceTextureSet* own,
-                                const std::vector<PlacedAttachment>& placed,
-                                const ColourRows& colours, const BlendedPicture* body) const {
+FacePictures CrowdRenders::render_files(const std::string& id, Index target,
+                                        const Positions& positions,
+                                        std::span<const Displacements> moves,
+                                        const FaceTextureSet* own,
+                                        const std::vector<PlacedAttachment>& placed,
+                                        const ColourRows& colours,
+                                        const BlendedPicture* body) const {
   std::optional<TextureSet> of_target;
   if (own == nullptr) of_target = texture_set_of(target);
   const TextureSet* painted = own != nullptr ? &own->texture_set()

@@ -49,9 +49,10 @@ class CrowdRenders {
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                const FaceTextures* textures = nullptr);
 
-  /// After this call, `draw` also makes gallery meshes. \param meshes  must outlive this object.
+  /// After this call, `render_files` also makes gallery meshes. \param meshes  must outlive this
+  /// object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
-  /// Whether `draw` needs the shapes of a face.
+  /// Whether `render_files` needs the shapes of a face.
   bool show_shapes() const { return gallery_ != nullptr; }
 
   const PicturedMesh& mesh() const { return mesh_; }
@@ -65,10 +66,11 @@ class CrowdRenders {
   /// \param placed     the attachments that the face wears.
   /// \param colours    vertex colours, shown if there are no textures; may have no rows.
   /// \param body       texture of the body, or null.
-  FacePictures draw(const std::string& id, Index target, const Positions& positions,
-                    std::span<const Displacements> moves, const FaceTextureSet* own,
-                    const std::vector<PlacedAttachment>& placed = {},
-                    const ColourRows& colours = {}, const BlendedPicture* body = nullptr) const;
+  FacePictures render_files(const std::string& id, Index target, const Positions& positions,
+                            std::span<const Displacements> moves, const FaceTextureSet* own,
+                            const std::vector<PlacedAttachment>& placed = {},
+                            const ColourRows& colours = {},
+                            const BlendedPicture* body = nullptr) const;
   /// The script of a head for the gallery.
   std::string head_script(Index head, std::span<const Displacements> moves) const;
 

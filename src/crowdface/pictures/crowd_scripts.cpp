@@ -73,7 +73,7 @@ Json whole_crowd(Json json, const std::vector<FacePlan>& crowd, const PlanNames&
   for (const FacePlan& face : crowd) json["faces"].push_back(face_to_json(face, names, settings));
   json["likeness"] = ranks(likeness, crowd.size());
   json["near"] = Json::array();
-  for (const std::vector<Neighbour>& near : likeness.near) {
+  for (const std::vector<Neighbour>& near : likeness.neighbours) {
     json["near"].push_back(near_to_json(near));
   }
   return json;
@@ -109,7 +109,7 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
   add("target", [&](std::size_t i) { return crowd[i].recipe.target; });
   add("attempt", [&](std::size_t i) { return crowd[i].notes.attempt; });
   add("near_mm", [&](std::size_t i) {
-    const auto& near = likeness.near[i];
+    const auto& near = likeness.neighbours[i];
     return near.empty() ? std::string("null") : concat(near.front().mm);
   });
   add("head_mm", [&](std::size_t i) {
@@ -163,7 +163,7 @@ std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, s
   Json faces = Json::array(), near = Json::array();
   for (std::size_t i = begin; i < end; ++i) {
     faces.push_back(face_to_json(crowd[i], names, settings));
-    near.push_back(near_to_json(likeness.near[i]));
+    near.push_back(near_to_json(likeness.neighbours[i]));
   }
   return concat("crowdface.setPage(", page, ',', Json{{"faces", faces}, {"near", near}}.dump(),
                 ");\n");

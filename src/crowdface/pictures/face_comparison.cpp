@@ -81,8 +81,8 @@ std::optional<Positions> FaceComparison::other(std::size_t face) const {
     case With::kTarget:
       return target_positions(crowd_.inputs.faces, crowd_.faces[face].recipe);
     case With::kNearest:
-      if (crowd_.likeness.near[face].empty()) return std::nullopt;
-      return mesh_of(crowd_.likeness.near[face].front().face);
+      if (crowd_.likeness.neighbours[face].empty()) return std::nullopt;
+      return mesh_of(crowd_.likeness.neighbours[face].front().face);
     case With::kFile:
       if (reference_.rows() > 0) return reference_;
       return read_face(others_, crowd_.faces[face].id,

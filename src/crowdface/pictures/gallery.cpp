@@ -52,10 +52,10 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
   return open_at;
 }
 
-/// Groups faces by look: faces with the same look share the same texture, or have none, on every
-/// head.
-/// \return #F numbers of looks; kNoIndex for faces that are not drawn.
-/// \param faces  number of polygons of the face; the others are the body's
+/// Labels polygons for split_mesh: polygons with the same label share the same texture, or have no
+/// texture, on every head.
+/// \return #F labels; kNoIndex for polygons that are not shown.
+/// \param faces  number of polygons of the face; all later polygons belong to the body
 std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
                                     const std::vector<SurfaceKind>& kinds, std::size_t faces) {
   constexpr std::uint32_t kBody = kNoIndex - 1;

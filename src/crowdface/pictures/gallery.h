@@ -49,7 +49,8 @@ class GalleryMeshes {
  private:
   /// Three bytes (sRGB) per vertex, darkened where the vertex sees little of the sky.
   std::string shades(const VertexColours& colours) const;
-  /// The textures of a set as JSON, and the index of the texture for each look of the reduced mesh.
+  /// The textures of a set as JSON, and the index of the texture for each material of the reduced
+  /// mesh.
   std::string skin(const TextureSet& texture_set) const;
   /// One byte per vertex; empty if the set has no roughness maps.
   std::string roughness(const TextureSet& texture_set) const;

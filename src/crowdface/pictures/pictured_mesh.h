@@ -29,7 +29,7 @@ class PicturedMesh {
   bool has_body() const { return body_.has_value(); }
   const Topology& topology() const { return body_ ? body_->topology : inputs_.faces.topology; }
   const TextureCoordinates& uvs() const { return body_ ? body_->uvs : inputs_.faces.uvs; }
-  /// The kinds of surfaces; those of the body are skin.
+  /// The kinds of surfaces; the surfaces of the body are skin.
   Surfaces surfaces() const;
   /// The points of the body; no rows if it is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }

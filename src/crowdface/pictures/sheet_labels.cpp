@@ -80,8 +80,8 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
       case SheetLabel::kTarget:
         return concat("on ", target_label(labelled.recipe, heads));
       case SheetLabel::kNearest: {
-        if (likeness.near[face].empty()) return {};
-        const Neighbour& near = likeness.near[face].front();
+        if (likeness.neighbours[face].empty()) return {};
+        const Neighbour& near = likeness.neighbours[face].front();
         return concat("near ", crowd[near.face].id, ", ", format_fixed(rounded(near.mm), 2), " mm");
       }
       case SheetLabel::kNearestHead:

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Writes pages of contact sheets to a folder, in the formats asked for. Every 64 pages form a
-/// volume with its own index and, if asked for, its own PDF, so that memory does not grow with the
+/// Writes pages of contact sheets to a folder, in the requested formats. Every 64 pages form a
+/// volume with its own index and, if requested, its own PDF, so that memory does not grow with the
 /// crowd.
 class SheetWriter {
  public:
@@ -39,7 +39,7 @@ class SheetWriter {
   std::vector<SheetFormat> formats_;
   std::string title_;
   std::size_t volumes_ = 0;        ///< number of finished volumes
-  std::vector<std::string> pngs_;  ///< pages of the current volume, if PDF is asked for
+  std::vector<std::string> pngs_;  ///< pages of the current volume, if a PDF is requested
   std::vector<SheetCell> index_;   ///< pages in the index of the current volume
   std::vector<std::filesystem::path> written_;
   int pages_in_memory_ = 0;

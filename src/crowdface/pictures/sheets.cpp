@@ -198,7 +198,7 @@ class CrowdSheets {
     while (cells.size() % static_cast<std::size_t>(sheet_.columns) != 0) cells.emplace_back();
   }
 
-  /// The face with this id, or null if the crowd has none or if the name is that of a head.
+  /// The face with this id; null if the crowd has no such face or if a head has this name.
   const FacePlan* face_called(const std::string& name) const {
     if (contains(crowd_.config.faces.names, name)) return nullptr;
     const auto found = std::ranges::find(crowd_.faces, name, &FacePlan::id);

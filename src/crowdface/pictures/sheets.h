@@ -20,8 +20,8 @@ WrittenSheets write_sheets(const PicturedCrowd& crowd);
 
 /// Adds pages `shapes_001` … with one row per face: the neutral face, then each shape, from the
 /// front. The first row shows the template.
-/// \param crowd  its first faces are shown, as many as the config asks for; their meshes are read
-///               from the folder.
+/// \param crowd  the first faces of the crowd are shown, as many as the config requests; their
+///               meshes are read from the folder.
 void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages);
 
 /// Number of pages with faces in a crowd's contact sheets.

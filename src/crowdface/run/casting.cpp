@@ -114,9 +114,9 @@ std::set<std::string> twin_families(const Config& config) {
   return names;
 }
 
-/// Gives children skin between that of their parents. Only crowds whose attachments have a tint: other
-/// crowds stay as they are.
-void draw_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>& crowd) {
+/// Gives children skin tones between their parents' tones, in crowds whose attachments have a tint.
+/// Other crowds stay as they are.
+void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>& crowd) {
   const bool has_children =
       std::ranges::any_of(crowd, [](const FacePlan& face) { return !face.parents.empty(); });
   const bool has_tint = std::ranges::any_of(
@@ -125,13 +125,14 @@ void draw_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
   const ColourShares colour_shares(config, inputs);
-  draw_skin_of_children({config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
-                         [&](const Recipe& recipe) { return colour_shares.shares_of(recipe); },
-                         twin_families(config)},
-                        crowd);
+  choose_skin_of_children(
+      {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
+       [&](const Recipe& recipe) { return colour_shares.shares_of(recipe); },
+       twin_families(config)},
+      crowd);
 }
 
-ColourDraw colour_draw(const Config& config) {
+ColourOptions colour_options(const Config& config) {
   return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
 }
 
@@ -198,11 +199,11 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
           config.changes};
 }
 
-AttachmentDraw attachment_draw(const Config& config) {
+AttachmentOptions attachment_options(const Config& config) {
   const Config::Attachments& placed = config.attachments;
-  AttachmentDraw draw{config.crowd.seed, {placed.items.begin(), placed.items.end()},
-                      placed.none,       config.faces.tags,
-                      placed.quotas,     config.faces.names};
+  AttachmentOptions draw{config.crowd.seed, {placed.items.begin(), placed.items.end()},
+                         placed.none,       config.faces.tags,
+                         placed.quotas,     config.faces.names};
   draw.hair_colours[""] = placed.hair_colours;
   for (const Group& group : config.groups) {
     if (!group.hair_colours.empty()) draw.hair_colours[group.name] = group.hair_colours;
@@ -226,7 +227,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   std::optional<TraitRules> rules;
   if (traits) judge.limit_traits(&rules.emplace(traits->measurer(), casting));
   CastingResult crowd;
-  crowd.shortfall = hopeless_spread(casting, judge);
+  crowd.shortfall = impossible_spread(casting, judge);
   if (!crowd.shortfall) {
     Progress progress("casting", casting.count, kCastTogether);
     ScarcityWarning warning(casting);
@@ -258,16 +259,16 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
   round_as_planned(result.crowd);
-  if (config.textures.colours == ColourWeights::kDrawn) {
-    draw_colours(colour_draw(config), result.crowd);
+  if (config.textures.colours == ColourWeights::kSampled) {
+    choose_colours(colour_options(config), result.crowd);
   }
   if (!config.attachments.items.empty()) {
-    draw_attachments(attachment_draw(config), crowd.kinds, result.crowd, crowd.rejected,
-                     crowd.rejected_from);
+    choose_attachments(attachment_options(config), crowd.kinds, result.crowd, crowd.rejected,
+                       crowd.rejected_from);
   }
-  draw_skin(config, inputs, result.crowd);
-  replace_changed_faces(config, casting, attachment_draw(config), colour_draw(config), crowd.kinds,
-                        crowd.changed, result.crowd);
+  choose_skin(config, inputs, result.crowd);
+  replace_changed_faces(config, casting, attachment_options(config), colour_options(config),
+                        crowd.kinds, crowd.changed, result.crowd);
   if (traits) {
     measure_faces(*traits, result.crowd);
     measure_faces(*traits, crowd.rejected);

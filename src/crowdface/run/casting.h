@@ -65,7 +65,7 @@ struct CrowdPlan {
 };
 
 /// Options for sampling the attachments of a crowd, from the config.
-AttachmentDraw attachment_draw(const Config& config);
+AttachmentOptions attachment_options(const Config& config);
 
 /// Casts the crowd.
 /// \param defects  judges a candidate's whole mesh; empty: meshes are not judged

@@ -12,8 +12,8 @@
 namespace crowdface {
 namespace {
 
-/// Puts attachments on a face in place of those of the same kinds and of those that do not go with
-/// them. \param names  none: removes all attachments.
+/// Puts attachments on a face. They replace attachments of the same kinds, and attachments that
+/// exclude them or that they exclude. \param names  none: removes all attachments.
 void put_on(const Config& config, const std::vector<std::string>& names, FacePlan& face) {
   const std::vector<Config::Attachment>& items = config.attachments.items;
   std::vector<std::string> worn;
@@ -36,7 +36,7 @@ class ChangedLooks {
  public:
   /// \param crowd  the faces as they were cast.
   ChangedLooks(const Config& config, const CastingOptions& casting,
-               const AttachmentDraw& attachments, const ColourDraw& colours,
+               const AttachmentOptions& attachments, const ColourOptions& colours,
                const std::vector<int>& kinds, const std::vector<FacePlan>& crowd)
       : config_(config),
         casting_(casting),
@@ -101,15 +101,15 @@ class ChangedLooks {
 
   FacePlan with_colours(const FacePlan& face) const {
     std::vector<FacePlan> alone = {face};
-    if (config_.textures.colours == ColourWeights::kDrawn) {
-      draw_colours(colours_, alone);
+    if (config_.textures.colours == ColourWeights::kSampled) {
+      choose_colours(colours_, alone);
     }
     return alone.front();
   }
 
   FacePlan with_attachments(FacePlan face) const {
     if (!config_.attachments.items.empty())
-      draw_attachments_alone(attachments_, kinds_, crowd_, face);
+      choose_attachments_alone(attachments_, kinds_, crowd_, face);
     return face;
   }
 
@@ -124,8 +124,8 @@ class ChangedLooks {
 
   const Config& config_;
   const CastingOptions& casting_;
-  const AttachmentDraw& attachments_;
-  const ColourDraw& colours_;
+  const AttachmentOptions& attachments_;
+  const ColourOptions& colours_;
   const std::vector<int>& kinds_;
   const std::vector<FacePlan>& crowd_;
 };
@@ -133,7 +133,7 @@ class ChangedLooks {
 }  // namespace
 
 void replace_changed_faces(const Config& config, const CastingOptions& casting,
-                           const AttachmentDraw& attachments, const ColourDraw& colours,
+                           const AttachmentOptions& attachments, const ColourOptions& colours,
                            const std::vector<int>& kinds,
                            const std::map<std::size_t, ChangedFace>& changed,
                            std::vector<FacePlan>& crowd) {

@@ -17,14 +17,14 @@ namespace crowdface {
 /// changes.
 ///
 /// - A face that is the same person keeps its colours and attachments. Its hair greys with its age.
-/// - A face that was sampled again gets new colours and attachments, see draw_attachments_alone. A
-///   variant has the colours of the face that it is a variant of.
+/// - A face that was sampled again gets new colours and attachments, see choose_attachments_alone.
+///   A variant has the colours of the face that it is a variant of.
 ///
 /// \param casting, attachments, colours  the options with which the crowd was sampled.
 /// \param kinds  group of each sampled face, or −1.
 /// \param crowd  the faces as they were cast, with colours and attachments.
 void replace_changed_faces(const Config& config, const CastingOptions& casting,
-                           const AttachmentDraw& attachments, const ColourDraw& colours,
+                           const AttachmentOptions& attachments, const ColourOptions& colours,
                            const std::vector<int>& kinds,
                            const std::map<std::size_t, ChangedFace>& changed,
                            std::vector<FacePlan>& crowd);

@@ -81,7 +81,8 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
 }
 
 /// Faces whose images are missing or out of date.
-std::vector<FacePlan> faces_to_draw(const FaceLedger& ledger, const std::vector<FacePlan>& crowd) {
+std::vector<FacePlan> faces_to_render(const FaceLedger& ledger,
+                                      const std::vector<FacePlan>& crowd) {
   std::vector<FacePlan> faces;
   for (const std::size_t f : find_done_faces(ledger, crowd, Shard()).todo)
     faces.push_back(crowd[f]);
@@ -89,9 +90,9 @@ std::vector<FacePlan> faces_to_draw(const FaceLedger& ledger, const std::vector<
 }
 
 /// Renders faces, and makes their gallery meshes, from the mesh files.
-void draw_faces(const Job& job, const FaceFileLists& lists, const std::vector<FacePlan>& faces,
-                const FaceTextures& textures, const FaceShapes& shapes,
-                const CrowdRenders& renders) {
+void render_faces(const Job& job, const FaceFileLists& lists, const std::vector<FacePlan>& faces,
+                  const FaceTextures& textures, const FaceShapes& shapes,
+                  const CrowdRenders& renders) {
   const FaceAttachments attachments(job.config, job.inputs, faces);
   const FaceFinisher finisher{textures, attachments, shapes, nullptr, &renders};
   std::vector<const FacePlan*> all;
@@ -170,8 +171,8 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   pictures.write_heads();
   Ledger ledger(directory.root, directory.ledger(), directory.ledgers());
   const FaceFileLists lists(job.config, job.inputs, directory);
-  draw_faces(job, lists, faces_to_draw(FaceLedger(ledger, job, lists, {}), crowd), textures, shapes,
-             pictures.renders());
+  render_faces(job, lists, faces_to_render(FaceLedger(ledger, job, lists, {}), crowd), textures,
+               shapes, pictures.renders());
   const std::vector<FacePlan> founders = read_founders(job, directory);
   if (!founders.empty()) {
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);

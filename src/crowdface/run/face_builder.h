@@ -17,8 +17,8 @@
 
 namespace crowdface {
 
-/// Builds the meshes of recipes with the levels that the config asks for. Building several recipes
-/// at once is cheaper than one by one and gives the same bytes.
+/// Builds the meshes of recipes with the levels that the config asks for. To build several recipes
+/// at once takes less time than one by one and gives the same bytes.
 class FaceBuilder {
  public:
   /// \param config, inputs, prepared  must outlive the builder.
@@ -40,7 +40,7 @@ class FaceBuilder {
   /// \param previous  the state that the previous call left; initially empty
   Positions rebuild(const Recipe& recipe, PreviousFace& previous) const;
 
-  /// Replaces the masks for blending, initially those of the inputs. Results that `rebuild` kept
+  /// Replaces the masks for blending, initially the inputs' masks. Results that `rebuild` kept
   /// become invalid.
   void use_masks(const Config& config, const RegionWeights& regions);
 

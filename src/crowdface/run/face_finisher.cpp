@@ -67,9 +67,9 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   }
   if (renders != nullptr) {
     const StageTimer timer(busy.render);
-    face.pictures = renders->draw(face.face.id, recipe.target, single, face.moves,
-                                  texture_set ? &*texture_set : nullptr, face.placed_attachments,
-                                  face.colours, face.body ? &*face.body : nullptr);
+    face.pictures = renders->render_files(
+        face.face.id, recipe.target, single, face.moves, texture_set ? &*texture_set : nullptr,
+        face.placed_attachments, face.colours, face.body ? &*face.body : nullptr);
   }
   if (encoders != nullptr) {
     const StageTimer timer(busy.encode);

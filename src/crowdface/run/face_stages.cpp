@@ -187,7 +187,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                            shapes.memory_bytes() + attachments.memory_bytes() +
                            placed_bytes(config, inputs, crowd);
   std::uint64_t of_thread = encoders_.encode_bytes() + attachments.placed_bytes();
-  // Vertex colours: the face's own, and those for rendering.
+  // Vertex colours: the face's own colours, and the colours for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.any()) {
     standing += textures_.memory_bytes();

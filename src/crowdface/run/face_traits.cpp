@@ -55,8 +55,8 @@ SampledHeads heads_at(const Config& config, const Inputs& inputs, const Prepared
   std::vector<Trajectory> trajectories = trajectories_at(config, inputs, prepared, traced);
   SampledHeads heads = sample_heads(inputs.faces, inputs.regions, samples, trajectories,
                                     inputs.max_level, mm_per(config.faces.units));
-  heads.own = std::move(trajectories);
-  heads.trajectories = heads.own;
+  heads.owned_trajectories = std::move(trajectories);
+  heads.trajectories = heads.owned_trajectories;
   if (inputs.mirror != nullptr) {
     heads.image =
         sample_images(inputs.faces, inputs.regions, *inputs.mirror, samples, traced, heads);

@@ -29,11 +29,11 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  /// Whether landmarks are those of the written face, or of the face without a body: casting judges
-  /// the face without a body, so that a body does not change the recipes.
+  /// Whether to measure the written face (kBent) or the face without a body (kAsBlended): casting
+  /// judges the face without a body, so that a body does not change the recipes.
   enum class Neck { kBent, kAsBlended };
   Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
-  /// Replaces the rows of wanted_ by those of the mirrored face.
+  /// Replaces the rows `wanted_` by the rows of the mirrored face.
   void mirror_wanted(Positions& face) const;
 
   std::vector<std::size_t> traits_;

@@ -49,7 +49,7 @@ inline std::string suffix_of(std::size_t level, std::string_view before) {
   return level == 0 ? std::string() : concat(before, "LOD", level);
 }
 
-/// Selects the values of a level's polygons or vertices from those of the whole mesh.
+/// Selects the values of a level's polygons or vertices from the values of the whole mesh.
 /// \param rows  index into `whole` for each polygon or vertex of the level
 template <class T>
 std::vector<T> at_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {

@@ -103,7 +103,7 @@ class OverriddenPlan {
     }
   }
 
-  /// Compares the asked hair colours with those of the faces. Changed faces do not count.
+  /// Compares the requested hair colours with the faces' hair colours. Changed faces do not count.
   void find_missed_hair() {
     std::map<std::string, std::vector<const FacePlan*>> groups;  // "": all without own colours
     const auto own = [&](const std::string& name) {

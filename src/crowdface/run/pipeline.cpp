@@ -284,7 +284,7 @@ std::uint64_t face_count(const Config& config) {
   std::uint64_t faces = config.crowd.count + config.recipes.size();
   for (const FamilyOptions& family : config.families) {
     faces += static_cast<std::uint64_t>(family.members);
-    for (const Parent& parent : family.parents) faces += parent.drawn ? 1U : 0U;
+    for (const Parent& parent : family.parents) faces += parent.is_new ? 1U : 0U;
   }
   return faces;
 }

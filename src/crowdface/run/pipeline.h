@@ -34,7 +34,7 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
              const CacheFolder& cache = {});
 
 /// Loads the job of a config object. The config is written as text and read again, so that its
-/// values and paths are validated like those of a file.
+/// values and paths are validated like a config file's.
 Job load_job(const Config& config, const CacheFolder& cache = {},
              const ConfigOverrides& overrides = {});
 

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace fs = std::filesystem;
 
 FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
-                             const Shard& shard, const std::function<void()>& asked) {
+                             const Shard& shard, const std::function<void()>& checked) {
   FaceProgress so_far;
   so_far.faces.resize(crowd.size());
   std::vector<char> missing(crowd.size(), 0);
@@ -28,7 +28,7 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
     } else {
       missing[i] = 1;
     }
-    if (asked) asked();
+    if (checked) checked();
   });
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (shard.owns(i)) ++so_far.owned;

@@ -19,9 +19,9 @@ struct FaceProgress {
 };
 
 /// Looks up the faces in the ledger, in parallel; reads every file once. \throws Interrupted.
-/// \param asked  called from any thread after each face of the shard; may be empty
+/// \param checked  called from any thread after each face of the shard; may be empty
 FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
-                             const Shard& shard, const std::function<void()>& asked = {});
+                             const Shard& shard, const std::function<void()>& checked = {});
 
 /// \throws MissingInput that names the first few missing faces, if there are any.
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,

@@ -10,9 +10,10 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kDrawnForAdvice = 400;
+constexpr std::uint32_t kSampledForAdvice = 400;
 
-/// The heads whose values lie farthest on the side that a limit asks for, at most three.
+/// The names of the heads, at most three, whose values lie farthest on the side that a limit
+/// requires.
 std::string farthest_heads(const Config& config, const std::vector<double>& of_heads,
                            const Measurement& measurement, bool upwards) {
   constexpr std::size_t kMost = 3;
@@ -31,18 +32,19 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
 }
 
 /// A face of the kind that could not be found, with this kind's limits.
-FacePlan draw_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
-                           std::uint32_t attempt) {
+FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
+                             std::uint32_t attempt) {
   const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);
   if (!shortfall.recipe.empty() && hand != casting.recipes.end()) {
-    return draw_manual_recipe(casting, *hand, attempt);
+    return complete_recipe(casting, *hand, attempt);
   }
   const auto family = std::ranges::find(casting.families, shortfall.family, &FamilyOptions::name);
   const bool of_family = !shortfall.family.empty() && family != casting.families.end();
   std::optional<std::size_t> group;
   if (shortfall.kind >= 0) group = static_cast<std::size_t>(shortfall.kind);
   if (of_family) group = family->group;
-  FacePlan face = draw_face(casting, shortfall.reached + 1, attempt, kind_of_group(casting, group));
+  FacePlan face =
+      random_face(casting, shortfall.reached + 1, attempt, kind_of_group(casting, group));
   if (of_family) face.family = family->name;
   return face;
 }
@@ -54,10 +56,10 @@ std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs
                                       const Shortfall& shortfall) {
   const FaceMeasurer& measurer = traits.measurer();
   const TraitRules rules(measurer, casting);
-  std::vector<Positions> drawn(kDrawnForAdvice);
+  std::vector<Positions> drawn(kSampledForAdvice);
   TraitLimits limits;
-  for (std::uint32_t i = 0; i < kDrawnForAdvice; ++i) {
-    const FacePlan face = draw_of_shortfall(casting, shortfall, i);
+  for (std::uint32_t i = 0; i < kSampledForAdvice; ++i) {
+    const FacePlan face = sample_of_shortfall(casting, shortfall, i);
     limits = rules.limits_of(face);
     drawn[i] = measurer.landmarks(face.recipe);
   }

@@ -15,13 +15,13 @@ namespace {
 /// The landmarks of randomly sampled faces, before limits and constraints apply.
 std::vector<Positions> sampled_landmarks(const CastingOptions& casting,
                                          const FaceMeasurer& measurer) {
-  constexpr std::uint64_t kDrawn = 2000;
+  constexpr std::uint64_t kSampled = 2000;
   const std::vector<FaceKind> kinds = face_kinds(casting);
-  const std::vector<int> schedule = schedule_groups(casting.groups, kDrawn);
-  std::vector<Positions> landmarks(kDrawn);
-  parallel_for_each(kDrawn, [&](std::size_t i) {
+  const std::vector<int> schedule = schedule_groups(casting.groups, kSampled);
+  std::vector<Positions> landmarks(kSampled);
+  parallel_for_each(kSampled, [&](std::size_t i) {
     const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[i] + 1)];
-    landmarks[i] = measurer.landmarks(draw_face(casting, i + 1, 0, kind).recipe);
+    landmarks[i] = measurer.landmarks(random_face(casting, i + 1, 0, kind).recipe);
   });
   return landmarks;
 }

@@ -16,12 +16,12 @@ namespace crowdface {
 struct TraitReport {
   std::size_t trait = 0;
   Quartiles heads, crowd;
-  /// Only for a measurement with an asked distribution: the largest difference between it and that
-  /// of the sampled faces (Kolmogorov and Smirnov), and the share of the asked distribution that
-  /// lies below and above the values of drawn faces.
+  /// Only for a measurement with a requested distribution. `difference`: largest difference between
+  /// the requested cumulative distribution and the sampled faces' (Kolmogorov and Smirnov).
+  /// `below`, `above`: shares of the requested distribution outside the values of random faces.
   struct Asked {
     TraitTarget target;
-    double mean = 0, deviation = 0;  ///< of the sampled faces
+    double mean = 0, deviation = 0;  ///< mean and standard deviation of the sampled faces
     double difference = 0, below = 0, above = 0;
   };
   std::optional<Asked> asked;
@@ -30,7 +30,7 @@ struct TraitReport {
 std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,
                                        const std::vector<FacePlan>& crowd);
 
-/// Warnings about asked distributions that the crowd does not have.
+/// Warnings about requested distributions that the crowd does not have.
 std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports);
 
 /// A readable table of the ranges that faces of these heads fill, for all measurements.

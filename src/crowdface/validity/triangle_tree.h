@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// A median split tree of triangles, without the triangles at vertices with more than a thousand
 /// triangles. Build the tree once per mesh: TriangleScene refits the boxes to any positions, and
-/// the boxes stay tight if the positions are similar to those of the constructor.
+/// the boxes stay tight if the positions are similar to the constructor's.
 struct TriangleTree : MedianSplitTree {
   /// Triangles per leaf; the last leaf may have fewer.
   static constexpr std::uint32_t kLeaf = LeafBoxes::kCount;

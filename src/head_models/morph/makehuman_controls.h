@@ -13,15 +13,15 @@ namespace crowdface {
 
 inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 
-/// Attributes of a person that determine the averages of its measures.
+/// Attributes of a person that determine the averages of the person's measures.
 struct MakeHumanPerson {
   bool male = false;
   double years = 0;                   ///< 20 … 80
-  std::array<double, 3> ancestry{};   ///< shares of kAncestries; sum 1
+  std::array<double, 3> ancestry{};   ///< shares of kAncestries, which sum to 1
   double muscle = 0.5, weight = 0.5;  ///< 0 (least) … 1 (most)
 };
-/// Samples the person of head `index` of a seed.
-MakeHumanPerson draw_makehuman_person(std::uint64_t seed, std::uint64_t index);
+/// Returns the random person of head `index` of a seed.
+MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index);
 
 /// Returns the weighted morph targets of head `index`: the targets of the person (sex, age,
 /// ancestry, build), then the targets of about a hundred random measures of head, forehead, brows,

@@ -59,7 +59,7 @@ std::vector<std::string> read_target_names(const std::filesystem::path& file) {
 
 /// Keeps the vertices and texture coordinates that the polygons use.
 /// \return the kept vertices' rows in the file.
-std::vector<std::uint32_t> take_rows(const ThreeMesh& all, Mesh& mesh) {
+std::vector<std::uint32_t> keep_used_rows(const ThreeMesh& all, Mesh& mesh) {
   std::vector<std::uint32_t> rows = renumber(mesh.topology.corner_vertices, all.positions.rows());
   mesh.topology.vertex_count = static_cast<Index>(rows.size());
   mesh.positions = all.positions(rows, kAllColumns);
@@ -89,8 +89,8 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
                                " above the neck's cut, ", "found none"));
     }
   }
-  out.rows = take_rows(all, out.head);
-  take_rows(all, out.body);
+  out.rows = keep_used_rows(all, out.head);
+  keep_used_rows(all, out.body);
   out.heights = {mean_height(all, {"helper-r-eye", "helper-l-eye"}, file),
                  mean_height(all, {"helper-upper-teeth", "helper-lower-teeth"}, file)};
   out.file_positions = std::move(all.positions);
@@ -113,7 +113,7 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
        vertices_of_material(mesh_.head.topology, mesh_.materials, {"eyeball"})) {
     eyes_.push_back(mesh_.rows[row]);
   }
-  neutral_ = {mesh_.head.topology, in_frame(mesh_.head.positions, mesh_.file_positions),
+  neutral_ = {mesh_.head.topology, to_head_frame(mesh_.head.positions, mesh_.file_positions),
               mesh_.head.uvs};
   const double origin = mean_of(mesh_.file_positions, eyes_).y();
   heights_ = {kCentimetresPerUnit * (mesh_.heights.eyes - origin),
@@ -122,7 +122,7 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
 
 /// Converts to centimetres and moves the mean of the eyeballs to the origin, because bodies differ
 /// in height. \param base  all vertices of the same body.
-Positions MakeHumanHeads::in_frame(const Positions& decimetres, const Positions& base) const {
+Positions MakeHumanHeads::to_head_frame(const Positions& decimetres, const Positions& base) const {
   const Eigen::RowVector3d origin = mean_of(base, eyes_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
 }
@@ -165,27 +165,27 @@ void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
     uvs.bottomRows(mesh.uvs.rows()) = mesh.uvs;
   }
   topology.vertex_count = vertices;
-  placed_ = std::move(parts);
-  neutral_ = {std::move(topology), dressed(mesh_.file_positions), std::move(uvs)};
+  parts_ = std::move(parts);
+  neutral_ = {std::move(topology), with_parts(mesh_.file_positions), std::move(uvs)};
 }
 
-Positions MakeHumanHeads::dressed(const Positions& base) const {
+Positions MakeHumanHeads::with_parts(const Positions& base) const {
   Positions head = base(skin_, kAllColumns);
-  for (const ClothingPart& part : placed_) {
+  for (const ClothingPart& part : parts_) {
     const Positions more = part.mesh.fitted_to(base);
     head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
     head.bottomRows(more.rows()) = more;
   }
-  return in_frame(head, base);
+  return to_head_frame(head, base);
 }
 
-Positions MakeHumanHeads::on_neutral(const FittedMesh& mesh) const {
-  return in_frame(mesh.fitted_to(mesh_.file_positions), mesh_.file_positions);
+Positions MakeHumanHeads::fitted_to_neutral(const FittedMesh& mesh) const {
+  return to_head_frame(mesh.fitted_to(mesh_.file_positions), mesh_.file_positions);
 }
 
 Mesh MakeHumanHeads::body() const {
   Mesh body = mesh_.body;
-  body.positions = in_frame(body.positions, mesh_.file_positions);
+  body.positions = to_head_frame(body.positions, mesh_.file_positions);
   return body;
 }
 
@@ -193,16 +193,16 @@ Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) con
   std::vector<std::uint32_t> rows(static_cast<std::size_t>(mesh_.file_positions.rows()));
   std::iota(rows.begin(), rows.end(), 0U);
   Positions base = mesh_.file_positions;
-  const MakeHumanPerson person = draw_makehuman_person(seed, index);
+  const MakeHumanPerson person = random_makehuman_person(seed, index);
   for (const TargetWeight& target : makehuman_targets(person, seed, index)) {
     targets_.add(target, rows, base);
   }
-  if (!placed_.empty()) return dressed(base);
-  return in_frame(base(mesh_.rows, kAllColumns), base);
+  if (!parts_.empty()) return with_parts(base);
+  return to_head_frame(base(mesh_.rows, kAllColumns), base);
 }
 
 std::optional<HeadPerson> MakeHumanHeads::person(std::uint64_t seed, std::uint64_t index) const {
-  const MakeHumanPerson person = draw_makehuman_person(seed, index);
+  const MakeHumanPerson person = random_makehuman_person(seed, index);
   return HeadPerson{person.male, person.years};
 }
 

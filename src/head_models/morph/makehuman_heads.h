@@ -12,13 +12,13 @@
 
 namespace crowdface {
 
-/// Skin and eyeballs of head and neck of the MakeHuman base mesh, cut from the body along one of
-/// its edge loops. The rest of the file (joints, helpers for clothes, lashes, teeth) is left out.
+/// Skin and eyeballs of head and neck of the MakeHuman base mesh, cut from the body along an edge
+/// loop of the mesh. The rest of the file (joints, helpers for clothes, lashes, teeth) is left out.
 struct MakeHumanMesh {
   Positions file_positions;  ///< all vertices of the file, decimetres; targets refer to these
   Mesh head;                 ///< decimetres, as in the file
   Mesh body;                 ///< the skin below the cut, decimetres
-  std::vector<std::uint32_t> rows;       ///< #V, row of each vertex in file_positions, ascending
+  std::vector<std::uint32_t> rows;       ///< #V: row of each vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
   FaceHeights heights;                   ///< decimetres
 };
@@ -41,20 +41,19 @@ class MakeHumanHeads : public HeadModel {
   ///                 public/data/targets/targets.bin, src/json/targets/target-list.json.
   /// \throws MissingInput; InvalidInput, also if a target of makehuman_target_names() is missing.
   explicit MakeHumanHeads(const std::filesystem::path& package);
-  /// Adds these parts to all heads and removes the base mesh's eyeballs. The skin keeps its
-  /// vertices, bit for bit.
+  /// Adds parts to all heads and removes the base mesh's eyeballs. The vertices of the skin stay
+  /// the same, bit for bit.
   void add_parts(std::vector<ClothingPart> parts);
 
-  /// Returns all vertices of the base mesh, including helpers and joints: decimetres, as in its
-  /// file.
+  /// Returns all vertices of the base mesh, including helpers and joints, in decimetres.
   const Positions& base() const { return mesh_.file_positions; }
   /// Returns the rows of the head's skin in base(), ascending.
   std::vector<std::uint32_t> skin_rows() const;
   /// Returns the vertices of a mesh fitted to the average head, in the frame of the heads.
-  Positions on_neutral(const FittedMesh& mesh) const;
+  Positions fitted_to_neutral(const FittedMesh& mesh) const;
 
-  /// Returns the average body below the heads: its open rim has the vertices of the neutral head's
-  /// rim. The texture coordinates are those of the skin.
+  /// Returns the average body below the heads. Its open rim has the vertices of the neutral head's
+  /// rim. Its texture coordinates refer to the heads' skin texture.
   Mesh body() const;
 
   const Mesh& neutral() const override { return neutral_; }
@@ -64,14 +63,14 @@ class MakeHumanHeads : public HeadModel {
   FaceHeights heights() const { return heights_; }
 
  private:
-  Positions in_frame(const Positions& decimetres, const Positions& base) const;
-  Positions dressed(const Positions& base) const;
+  Positions to_head_frame(const Positions& decimetres, const Positions& base) const;
+  Positions with_parts(const Positions& base) const;
 
   MakeHumanMesh mesh_;
   MorphTargets targets_;
   std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs in the base mesh
   std::vector<std::uint32_t> skin_;  ///< rows of the skin in the base mesh; set by add_parts()
-  std::vector<ClothingPart> placed_;
+  std::vector<ClothingPart> parts_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;
   FaceHeights heights_;

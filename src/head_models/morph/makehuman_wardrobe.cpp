@@ -25,8 +25,8 @@ struct AgeShare {
   double share;
 };
 
-/// Returns the shares of the package's skins for three ages. The skins show people of 27, 48 and
-/// 68 years; ages between are interpolated linearly.
+/// Returns the shares of the package's skins for three ages. The skins show people of 27, 48 and 68
+/// years; shares for other ages are interpolated linearly.
 std::array<AgeShare, 3> age_shares(double years) {
   const double middle = std::clamp((years - 27) / (48 - 27), 0.0, 1.0);
   const double old = std::clamp((years - 48) / (68 - 48), 0.0, 1.0);
@@ -37,7 +37,7 @@ std::array<AgeShare, 3> age_shares(double years) {
 fs::path skin_picture(const fs::path& file) {
   try {
     const auto root = nlohmann::json::parse(read_file(file));
-    return picture_beside(file, root.at("mapDiffuse"));
+    return picture_path(file, root.at("mapDiffuse"));
   } catch (const nlohmann::json::exception& error) {
     refuse_file(file, concat("expected a skin: ", error.what()));
   }
@@ -112,7 +112,7 @@ struct Wearable {
   double share = 1;
   bool young = false;  ///< old people do not wear it
 };
-// The sex tags of hair are the package's; those of brows are assigned by thickness.
+// The sex tags of hair come from the package; the sex tags of brows are assigned by thickness.
 constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
                                                      {"eyebrow002", "brow", "female"},
                                                      {"eyebrow003", "brow", "male"},
@@ -189,7 +189,7 @@ std::vector<SkinShare> makehuman_skin(const fs::path& package, const MakeHumanPe
       const double share = age.share * person.ancestry[a];
       if (share == 0) continue;
       const std::string folder = concat(age.name, '_', kAncestries[a], '_', sex);
-      // Only for young Caucasians the package has two skins.
+      // The package has two skins for young Caucasians only.
       const bool second = folder.starts_with("young_caucasian") &&
                           random_unit({seed, index, "makehuman/skin"}) < 0.5;
       out.push_back({skin_picture(package / "public/data/skins" / folder /

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A skin texture of the package and its weight in a person's skin.
+/// A skin texture of the package, and its share of a person's blended skin.
 struct SkinShare {
   std::filesystem::path picture;
   double share = 0;
@@ -26,13 +26,13 @@ std::vector<SkinShare> makehuman_skin(const std::filesystem::path& package,
 /// Returns the pigment density of a person's skin relative to the textures: 0.75 to 1.25.
 double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
 
-/// Samples a person's eye colour: the name of a material of the package's eyes. "brown" has a
-/// probability of 0.9 for African, 0.85 for Asian and 0.25 for Caucasian ancestry.
+/// Returns a person's random eye colour: the name of a material of the package's eyes. "brown" has
+/// a probability of 0.9 for African, 0.85 for Asian and 0.25 for Caucasian ancestry.
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index);
 
-/// Samples a person's hair colour in young years: a name of named_hair_colours. Light and red hair
-/// have a probability above zero for Caucasian ancestry only.
+/// Returns a person's random hair colour in young years: a name of named_hair_colours. Light and
+/// red hair have a probability above zero for Caucasian ancestry only.
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index);
 
@@ -56,8 +56,8 @@ MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const 
 struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;     ///< path in the package
-  std::vector<std::string> tags;  ///< tags that a head must have to wear it
-  bool young = false;             ///< old people do not wear it
+  std::vector<std::string> tags;  ///< tags that a head needs to wear the attachment
+  bool young = false;             ///< whether old people do not wear the attachment
   double share = 1;               ///< relative frequency within its kind
 };
 

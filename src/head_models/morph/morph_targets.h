@@ -30,17 +30,18 @@ class MorphTargets {
                Index vertex_count);
 
   /// Adds the weighted displacements of the given vertices to `positions`.
-  /// \param rows       vertices of the target.
+  /// \param rows       the vertices: rows of the target.
   /// \param positions  #rows by 3.
   /// \throws InvalidInput if the target does not exist.
   void add(const TargetWeight& target, std::span<const std::uint32_t> rows,
            Positions& positions) const;
+  /// Whether the file contains this target.
   bool has(const std::string& target) const { return places_.contains(target); }
 
  private:
   std::filesystem::path path_;
   MappedFile file_;
-  std::map<std::string, std::size_t> places_;
+  std::map<std::string, std::size_t> places_;  ///< by name: index of the target in the file
   std::size_t vertex_count_;
 };
 

@@ -26,7 +26,7 @@ struct ThreeMesh {
   const std::string& material_of(const Face& face) const { return material_names[face.material]; }
 };
 
-/// Reads such a mesh. \param what  for messages, such as "MakeHuman's base mesh".
+/// Reads a mesh in this format. \param what  for messages, such as "MakeHuman's base mesh".
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
 ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view what);
 

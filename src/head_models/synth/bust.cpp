@@ -52,7 +52,7 @@ const Vector3d kAxis(0, -16.4, -3.1);  ///< middle of the rim of the average hea
 // Radii of the rim and of the lower edge in the texture.
 constexpr double kInner = 0.1, kOuter = 0.48;
 
-/// Returns the control points in a horizontal direction. \param way  unit: x and z
+/// Returns the control points in a horizontal direction. \param way  unit vector (x, z)
 Section section_at(const Vector2d& way) {
   const double side = way.x() * way.x();
   const double ahead = std::max(0.0, way.y());
@@ -64,8 +64,8 @@ Section section_at(const Vector2d& way) {
   return section;
 }
 
-/// Evaluates the spline, which begins at the first point and ends at the last one.
-/// \param share  0 … 1
+/// Evaluates the spline, which goes from the first to the last point. \param share  parameter, 0 …
+/// 1
 Vector2d on_spline(const Section& points, double share) {
   const auto at = [&](int k) -> Vector2d {
     const int last = static_cast<int>(kPoints) - 1;
@@ -97,7 +97,8 @@ Mesh bust_below(const Positions& rim) {
     const Vector3d start = rim.row(i).transpose();
     const Vector2d off(start.x() - kAxis.x(), start.z() - kAxis.z()), way = off.normalized();
     Section section = section_at(way);
-    // The rim is not quite that of the ideal bust: the difference fades over the first points.
+    // The rim differs a little from the rim of the ideal bust; the difference fades over the first
+    // points.
     const Vector2d difference = Vector2d(off.norm(), start.y() - kAxis.y()) - section[0];
     constexpr std::array<double, 4> kFade = {1, 1, 0.6, 0.2};
     for (std::size_t k = 0; k < kFade.size(); ++k) section[k] += kFade[k] * difference;

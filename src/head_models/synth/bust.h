@@ -7,10 +7,10 @@
 
 namespace crowdface::synth {
 
-/// Returns a bust below a neck: shoulders and chest without arms, open at top and bottom. Its
-/// texture coordinates show it from above, with the front at the bottom of the picture.
+/// Returns a bust below a neck: shoulders and chest without arms, open at top and bottom. The
+/// texture shows the bust from above, with the front at the bottom of the picture.
 /// \param rim  the lower end of the neck of the average head, #rim by 3, cm, counter-clockwise seen
-///             from above. The first vertices of the result are these.
+/// from above. These are also the first vertices of the result.
 Mesh bust_below(const Positions& rim);
 
 /// Returns the point of an ideal bust at texture coordinates, cm, up to the edges of the bust.

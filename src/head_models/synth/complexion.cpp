@@ -38,10 +38,10 @@ const auto& natural_hair() {
   return colours;
 }
 
-/// Draws the colour of the iris; light eyes occur only with light skin.
+/// Returns a colour of the iris; light eyes occur only with light skin.
 /// \param kind   0 … 1: from blue to brown.
 /// \param light  0 … 1: brightness.
-ScreenColour draw_iris(double tone, double kind, double light) {
+ScreenColour random_iris(double tone, double kind, double light) {
   static const std::array<ScreenColour, 6> colours = {
       from_bytes(98, 122, 142), from_bytes(112, 126, 120), from_bytes(100, 104, 72),
       from_bytes(112, 82, 48),  from_bytes(84, 54, 34),    from_bytes(54, 35, 25)};
@@ -49,8 +49,8 @@ ScreenColour draw_iris(double tone, double kind, double light) {
   return (0.85 + 0.3 * light) * along(colours, brown + (1 - brown) * kind * 0.9);
 }
 
-/// Sets the beard for `kind` in [0, 1): 42 % shaven, 25 % stubble, 18 % moustache (more than half
-/// of them with a chin beard), 15 % full beard.
+/// Sets the beard for `kind` in [0, 1): 42 % shaven, 25 % stubble, 18 % moustache (of these, more
+/// than half with a chin beard), 15 % full beard.
 void grow_beard(double kind, Complexion& look) {
   const double everywhere = kind < 0.42 ? 0.12 : kind < 0.67 ? 0.45 : kind < 0.85 ? 0.2 : 1;
   look.beard = look.moustache = look.chin_beard = everywhere;
@@ -60,8 +60,8 @@ void grow_beard(double kind, Complexion& look) {
 
 }  // namespace
 
-Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
-  const Person person = draw_person(seed, index);
+Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
+  const Person person = random_person(seed, index);
   const bool male = person.male > 0;
   const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
   Complexion look;
@@ -80,7 +80,7 @@ Complexion draw_complexion(std::uint64_t seed, std::uint64_t index) {
   look.age_spots = smooth_step(48, 75, person.age) * unit("synth/spots");
   look.brows = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
-  look.iris = draw_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
+  look.iris = random_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
     // Stratified: among five successive men, about two are shaven.
     grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);

@@ -32,8 +32,8 @@ struct Complexion {
   double age_spots = 0;     ///< 0 … 1
   double brows = 1;         ///< density of the brows
   double brow_width = 1;
-  double brow_arch = 0;   ///< additional height of the brows' arch in cm; 0 for men
-  double beard = 0;       ///< on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
+  double brow_arch = 0;  ///< additional height of the brows' arch in cm; 0 for men
+  double beard = 0;  ///< hair on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
   double moustache = 0;   ///< on the upper lip, on the same scale as `beard`
   double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
   ScreenColour iris;
@@ -42,9 +42,9 @@ struct Complexion {
   double lipstick = 0;  ///< 0 … 1; 0 for most people
 };
 
-/// Draws the complexion of head `index`. Skin tones are stratified: of five successive women, and
-/// of five successive men (starting at index 10k), each has a tone in a different fifth of the
-/// range.
-Complexion draw_complexion(std::uint64_t seed, std::uint64_t index);
+/// Returns the random complexion of head `index`. Skin tones are stratified: of five successive
+/// women, and of five successive men (starting at index 10k), each has a tone in a different fifth
+/// of the range.
+Complexion random_complexion(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace crowdface::synth

@@ -16,9 +16,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Profile of the ear at the ring coordinates kRing, from the skin of the head over the rim into the
-// bowl: kReach is the distance from the ear's centre (relative to its outline), kHeight the height
-// above the skin (relative to that of the rim).
+/// Profile of the ear at the ring coordinates kRing, from the skin of the head over the rim into
+/// the bowl: kReach is the distance from the ear's centre (1 on the outline), kHeight the height
+/// above the skin (1 on the rim).
 constexpr std::size_t kKnots = 9;
 constexpr double kAttached = 0.18;  // ring coordinates below this lie on the head
 constexpr std::array<double, kKnots> kRing = {0, kAttached, 0.32, 0.44, 0.54, 0.64, 0.76, 0.88, 1};
@@ -42,7 +42,7 @@ double along(const std::array<double, kKnots>& values, double b) {
 /// Returns the 3D point of the ear for a point of its disc.
 /// \param place   y up, x to the back; length 1 on the outline.
 /// \param height  height above the skin, cm.
-Vector3d raised(const Vector2d& place, double height) {
+Vector3d ear_point(const Vector2d& place, double height) {
   const double up = place.y() * (place.y() > 0 ? 2.75 : 2.85);
   const double back = place.x() * (place.x() > 0 ? 1.6 : 1.1) * (1 + 0.22 * place.y());
   Vector3d guide(0, ear_centre().y() + up, ear_centre().z() - back - 0.2 * up);
@@ -75,7 +75,7 @@ Vector3d on_ring(double around, double b) {
   const double from = std::max(b, kAttached);
   // At the front the ear meets the cheek without an overhang.
   const double reach = along(kReach, from) + front * 0.3 * smooth_step(0.5, 0.2, from);
-  Vector3d ear = raised(reach * round, height_at(round, from));
+  Vector3d ear = ear_point(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;
   const GuideRay ray = opening_ray(opening_of(Sheet::kEar), around);
   const Vector3d edge = onto_skin(ray.origin, ray.guide);
@@ -91,10 +91,10 @@ Vector3d ear_position(const Address& address) {
   // The bowl: the innermost ring, lowered towards the centre.
   const Vector2d square(2 * address.a - 1, 1 - 2 * address.b);
   const double m = std::max(std::abs(square.x()), std::abs(square.y()));
-  if (m == 0) return raised({0, 0}, 0.05);
+  if (m == 0) return ear_point({0, 0}, 0.05);
   const Vector2d round = square / square.norm();
   const double edge = height_at(round, 1);
-  return raised(kReach.back() * m * round, 0.05 + (edge - 0.05) * m * m);
+  return ear_point(kReach.back() * m * round, 0.05 + (edge - 0.05) * m * m);
 }
 
 }  // namespace crowdface::synth

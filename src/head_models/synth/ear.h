@@ -7,7 +7,7 @@
 
 namespace crowdface::synth {
 
-/// Returns the point of the average ear at x > 0 for an address in the ear's rings or core, cm.
+/// Returns the point, in cm, of the average ear at x > 0 for an address in the ear's rings or core.
 Eigen::Vector3d ear_position(const Address& address);
 
 /// Centre of the ear at x > 0, on the side of the head, cm.

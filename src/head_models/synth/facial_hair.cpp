@@ -116,7 +116,8 @@ std::span<const FacialHair> facial_hairs() {
 FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   const SkinPaint paint = paint_of(style);
   const auto cover = [&](const Vector3d& p) {
-    // A layer needs denser brows than a painting: its edges are not mixed with the skin.
+    // A layer needs denser brows than a skin texture, because its edges are not mixed with the
+    // skin.
     if (style.is_beard) return paint.beard_cover(p);
     const double root = std::sqrt(std::max(0.0, paint.brow_cover(p)));
     return root * std::sqrt(root);

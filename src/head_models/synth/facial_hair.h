@@ -16,12 +16,13 @@ struct FacialHair {
   bool is_beard = false;
   bool female = false;
   double share = 1;    ///< relative frequency
-  double width = 1;    ///< brows: relative height
+  double width = 1;    ///< brows: factor on the height
   double arch = 0;     ///< brows: additional height of the arch, cm
   double dense = 0.9;  ///< brows: density
   /// beards: lengths on cheeks and jaw, on the upper lip and on the chin; see Complexion::beard
   double cheeks = 0, lip = 0, chin = 0;
 };
+/// Returns all styles of brows and beards.
 std::span<const FacialHair> facial_hairs();
 
 /// Brows or a beard as a layer close above the skin of the average head, and its neutral texture.
@@ -30,7 +31,7 @@ struct FacialHairLayer {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;  ///< sRGB and alpha, row by row, first row at v = 1
 };
-/// \param skin  the skin of the average head, cm.
+/// Makes the layer of a style. \param skin  the skin of the average head, cm.
 FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin);
 
 }  // namespace crowdface::synth

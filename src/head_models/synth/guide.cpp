@@ -60,8 +60,8 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
 }};
 // clang-format on
 
-/// A ray origin that replaces the default. Around the nose and under the chin the rays start close
-/// to the skin, so that they meet the skin at nearly right angles.
+/// A ray origin that replaces the default origin. Around the nose and under the chin, rays start
+/// close to the skin, so that they meet the skin at nearly right angles.
 struct NearOrigin {
   int row, column;
   double x, y, z;

@@ -13,9 +13,10 @@ struct GuideRay {
   Eigen::Vector3d origin, guide;
 };
 
-/// Return the rays for an address (a, b) of strip and cap: a smooth interpolation of hand-placed
+/// Returns the ray for an address (a, b) of the strip, interpolated smoothly from hand-placed
 /// lattice points.
 GuideRay strip_ray(double a, double b);
+/// Like strip_ray, for an address of the cap.
 GuideRay cap_ray(double a, double b);
 
 /// Returns the ray at the outer edge of an opening (ring coordinate b = 0), at x > 0.

@@ -22,16 +22,16 @@ double around_head(const Vector3d& p) {
   return p.z() >= 0 ? quarter : 2 - quarter;
 }
 
-/// Returns 0 on the ears, 1 at a distance of `away` ear sizes from their centres.
+/// Returns 0 on the ears, 1 at a distance of `away` ear sizes from the ears' centres.
 double off_ears(const Vector3d& p, double away) {
   const double y = (p.y() + 2.6) / 4.6, z = (p.z() + 1.6) / 3.4;
   const double beside = smooth_step(4.5, 6, std::abs(p.x()));
   return 1 - beside * smooth_step(away, 0.95, std::sqrt(y * y + z * z));
 }
 
-HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index) {
-  const Person person = draw_person(seed, index);
-  const Complexion look = draw_complexion(seed, index);
+HairStyle random_hair_style(std::uint64_t seed, std::uint64_t index) {
+  const Person person = random_person(seed, index);
+  const Complexion look = random_complexion(seed, index);
   const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
   const double kind = random_stratified({seed, index / 2, "synth/hair_style"}, 4);
   HairStyle style;
@@ -60,12 +60,12 @@ HairStyle draw_hair_style(std::uint64_t seed, std::uint64_t index) {
 }  // namespace
 
 bool has_curls(std::uint64_t seed, std::uint64_t index) {
-  return draw_hair_style(seed, index).curls > 0.5;
+  return random_hair_style(seed, index).curls > 0.5;
 }
 
 Hair::Hair(std::uint64_t seed, std::uint64_t index, bool falls)
-    : style_(draw_hair_style(seed, index)),
-      receding_(draw_complexion(seed, index).receding),
+    : style_(random_hair_style(seed, index)),
+      receding_(random_complexion(seed, index).receding),
       hairs_(mix(seed, index, 106), 0.045),
       tufts_(mix(seed, index, 107), 0.3),
       edge_(mix(seed, index, 108), 0.5),
@@ -82,7 +82,8 @@ double Hair::strand(const Vector3d& p) const {
   return straight + style_.curls * (curled - straight);
 }
 
-/// Returns how much long hair falls on the neck here, 0 … 1; it begins behind the ears.
+/// Returns how much long hair falls on the neck at a point, 0 … 1; long hair begins behind the
+/// ears.
 double Hair::falling(const Vector3d& p) const {
   if (style_.nape <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
@@ -100,8 +101,8 @@ double height_above_hairline(const Vector3d& p, bool low_edge, double receding) 
   return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
 }
 
-/// Returns the density that balding leaves, 0 … 1; hair thins from the crown.
-double Hair::thinned(const Vector3d& p) const {
+/// Returns the hair density that balding leaves, 0 … 1; hair thins from the crown on.
+double Hair::density_after_balding(const Vector3d& p) const {
   const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
   return 1 - smooth_step(0.45, 0.9, receding_) * crown;
 }
@@ -114,11 +115,12 @@ double Hair::cover(const Vector3d& p, double strand) const {
   const double frayed =
       above_edge(p) + 0.25 * edge_.at(p) + (style_.low_edge ? 0.15 : 0.25) * strand;
   const double edge = smooth_step(-0.2, style_.low_edge ? 0.6 : 1.0, frayed);
-  return std::max(edge * thinned(p), smooth_step(0.02, 0.2, falling(p)));
+  return std::max(edge * density_after_balding(p), smooth_step(0.02, 0.2, falling(p)));
 }
 
 double Hair::thickness(const Vector3d& p) const {
-  const double rise = smooth_step(-0.2, 2.4, above_edge(p)) * thinned(p) * (1 - 0.6 * receding_);
+  const double rise =
+      smooth_step(-0.2, 2.4, above_edge(p)) * density_after_balding(p) * (1 - 0.6 * receding_);
   const double top = smooth_step(5.5, 10.5, p.y());
   const double fuller = 1 + style_.lean * p.x() / (3 + std::abs(p.x()));
   const double curl = 1 + style_.curls * 0.22 * locks_.at(p);

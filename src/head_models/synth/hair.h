@@ -32,23 +32,23 @@ bool has_curls(std::uint64_t seed, std::uint64_t index);
 /// A person's hair as a layer on the scalp. All points are points of the average head, cm.
 class Hair {
  public:
-  /// \param falls  false: leaves out hair that falls down the neck, whose roots are elsewhere.
+  /// \param falls  whether to include hair that falls down the neck from roots elsewhere.
   Hair(std::uint64_t seed, std::uint64_t index, bool falls = true);
 
-  /// Returns whether hair may grow here; a fast conservative test.
+  /// Returns whether hair may be at a point; a fast conservative test.
   bool reaches(const Eigen::Vector3d& p) const;
-  /// Returns the brightness of the strand here relative to the hair colour, about −1 … 1.
+  /// Returns the brightness of the strand at a point relative to the hair colour, about −1 … 1.
   double strand(const Eigen::Vector3d& p) const;
-  /// Returns the fraction of the skin that hair hides here, 0 … 1. \param strand  strand(p).
+  /// Returns the fraction of the skin that hair hides at a point, 0 … 1. \param strand  strand(p).
   double cover(const Eigen::Vector3d& p, double strand) const;
-  /// Returns the thickness of the hair layer, cm.
+  /// Returns the thickness of the hair layer at a point, cm.
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
   double above_edge(const Eigen::Vector3d& p) const {
     return height_above_hairline(p, style_.low_edge, receding_);
   }
-  double thinned(const Eigen::Vector3d& p) const;
+  double density_after_balding(const Eigen::Vector3d& p) const;
   double falling(const Eigen::Vector3d& p) const;
 
   HairStyle style_;

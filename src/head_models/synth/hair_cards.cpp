@@ -39,7 +39,7 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
     const SkinPoint skin = mean_skin_with_sockets(address);
     const Vector3d& p = skin.position;
     const bool at_nape = cut.layers > 1 && p.y() < 0;  // keep curls off the neck
-    if (skin.relief < 0.5 || hair_within(cut, p) < (at_nape ? 0.6 : least)) continue;
+    if (skin.relief < 0.5 || distance_inside_hair(cut, p) < (at_nape ? 0.6 : least)) continue;
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
       return (other.place - p).squaredNorm() < kBetween * kBetween;
     });
@@ -76,25 +76,25 @@ class Grower {
     const double hem = cut_.hem - 1.2 * unit("hem");
     const double fringe = cut_.fringe + 0.5 * (unit("hem") - 0.5),
                  twist = 0.35 * (unit("twist") - 0.5);
-    const Vector3d way = combed_way(cut_, root.place);
-    // Roots stand in no straight line along the edge.
+    const Vector3d way = combing_direction(cut_, root.place);
+    // Shift the root, so that roots do not form a straight line along the edge.
     Vector3d p = root.place - (0.45 * unit("root") - 0.1) * way;
     double rest = hair_stand_off(cut_, p);
-    p += (rest + 0.02 - head_distance(p)) * away_from_head(p);
+    p += (rest + 0.02 - head_distance(p)) * head_distance_gradient(p);
     Vector3d direction = (0.1 * root.normal + way).normalized();
     Card card;
     for (int i = 0;; ++i) {
-      const Vector3d normal = away_from_head(p);
+      const Vector3d normal = head_distance_gradient(p);
       card.middle.push_back(p);
       card.across.push_back((direction.cross(normal) + twist * normal).normalized());
-      if (i == pieces_ || (i > 1 && cut_off(p, hem, fringe))) return evened(card);
+      if (i == pieces_ || (i > 1 && cut_off(p, hem, fringe))) return resampled(card);
       // Pieces near the root are short, because they follow the curvature of the head.
       const double t = static_cast<double>(i + 1) / pieces_, grown = along(t) * length;
       const double step = grown - along(static_cast<double>(i) / pieces_) * length;
       const double held = cut_.tied ? smooth_step(-3, -6, p.z()) : 1;
       const double falls = held * smooth_step(0.5, 5, grown);
       const double combed = (0.95 - 0.7 * falls) * (1 - falls * smooth_step(1, -3, p.y()));
-      direction += combed * combed_way(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
+      direction += combed * combing_direction(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
       Vector3d next = p + step * direction.normalized();
       const double swing = cut_.wave * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
@@ -102,7 +102,7 @@ class Grower {
       // A lock lies on the hair below it: the lock's distance from the head never decreases along
       // the lock.
       rest = std::max(rest, hair_stand_off(cut_, next));
-      next = laid(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
+      next = moved_off_head(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
       // Cut the lock at the fringe or the hem.
       const double limit = over_face(next) ? fringe : hem;
       if (i > 0 && next.y() < limit && p.y() > limit)
@@ -112,14 +112,14 @@ class Grower {
     }
   }
 
-  /// Moves a point to the distance `off` from the head. A point outside is moved only partly where
-  /// hair hangs freely.
-  Vector3d laid(Vector3d p, double off) const {
+  /// Moves a point to the distance `off` from the head. Where hair hangs freely, moves a point
+  /// farther outside only part of the way.
+  Vector3d moved_off_head(Vector3d p, double off) const {
     for (int k = 0; k < 2; ++k) {
       const double missing = off + 0.05 - head_distance(p);
       const double hangs = cut_.tied ? smooth_step(-4, -9, p.y()) : smooth_step(2.5, -1, p.y());
       const double held = missing > 0 ? 1 : 1 - hangs * (1 - 0.5 * smooth_step(-7, 1, p.y()));
-      p += held * std::max(missing, -2.0) * away_from_head(p);
+      p += held * std::max(missing, -2.0) * head_distance_gradient(p);
     }
     return p;
   }
@@ -150,7 +150,7 @@ class Grower {
       direction = (0.64 * direction + 0.77 * axis.cross(direction) + 0.1 * axis).normalized();
       p += length / kPiecesOfCurl * direction;
       const double missing = 0.15 - head_distance(p);
-      if (missing > 0) p += missing * away_from_head(p);
+      if (missing > 0) p += missing * head_distance_gradient(p);
     }
     return card;
   }
@@ -167,7 +167,7 @@ class Grower {
   }
 
   /// Resamples a card to `pieces_` pieces at equal steps of the index.
-  Card evened(const Card& card) const {
+  Card resampled(const Card& card) const {
     Card even;
     const auto last = static_cast<double>(card.middle.size() - 1);
     for (int i = 0; i <= pieces_; ++i) {
@@ -224,7 +224,7 @@ Mesh head_of_hair(const HairCut& cut) {
   HairMesh hair;
   add_hair_cap(cut, hair);
   add_hair_cards(cut, hair);
-  return std::move(hair).finished();
+  return std::move(hair).to_mesh();
 }
 
 }  // namespace crowdface::synth

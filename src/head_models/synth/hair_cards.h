@@ -11,7 +11,7 @@ namespace crowdface::synth {
 /// every machine.
 void add_hair_cards(const HairCut& cut, HairMesh& hair);
 
-/// Returns the hair cards and the cap below them (add_hair_cap).
+/// Returns a mesh of the hair cards and of the cap below the cards (add_hair_cap).
 Mesh head_of_hair(const HairCut& cut);
 
 }  // namespace crowdface::synth

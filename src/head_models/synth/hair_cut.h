@@ -26,10 +26,11 @@ struct HairCut {
   /// 1: combed locks; more than 1: that many layers of curls in random directions
   int layers = 1;
   bool tied = false;   ///< tied at the back: lies on the head until behind the ears
-  bool young = false;  ///< old people do not wear it
+  bool young = false;  ///< whether old people do not wear the cut
 
   bool has_fringe() const { return fringe < 99; }
 };
+/// Returns all haircuts.
 std::span<const HairCut> hair_cuts();
 
 /// A colour of hair cards.
@@ -37,7 +38,7 @@ struct HairColour {
   std::string_view name;
   ScreenColour colour;
 };
-/// Natural colours, without grey.
+/// Returns the natural hair colours, without grey.
 std::span<const HairColour> hair_colours();
 const HairColour& nearest_hair_colour(const ScreenColour& colour);
 

@@ -26,7 +26,7 @@ constexpr double kFade = 2.1;        // width of the zone in which the cap becom
 constexpr double kStripWidth = 1.5;  // width of the cap that one texture strip covers, cm
 
 /// A triangle wave between 0 and 1, so that neighbouring copies of a strip match.
-double to_and_fro(double x) {
+double triangle_wave(double x) {
   const double whole = std::floor(x), part = x - whole;
   return std::fmod(std::abs(whole), 2.0) < 0.5 ? part : 1 - part;
 }
@@ -35,7 +35,7 @@ double to_and_fro(double x) {
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.back >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
-  // On the forehead the hairline runs from side to side, and hair crosses it.
+  // On the forehead the hairline runs from side to side, and the hair runs across the hairline.
   const double ahead = smooth_step(1, 4, p.z()), x = std::abs(p.x());
   return (1 - ahead) * p.z() + (ahead - smooth_step(-3, -7, p.z())) * x;
 }
@@ -46,7 +46,7 @@ double from_edge(const HairCut& cut, double within) {
   const double closed = within + kRim - kFade;
   if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
   // The cap of a straight cut continues as strands; curls differ in both directions.
-  return kTips + kSpan - (cut.layers > 1 ? 0.25 * to_and_fro(closed / 1.2) : 0);
+  return kTips + kSpan - (cut.layers > 1 ? 0.25 * triangle_wave(closed / 1.2) : 0);
 }
 
 }  // namespace
@@ -57,11 +57,11 @@ double head_distance(const Vector3d& p) {
   return std::min(skin_distance(p), (q.norm() - 1) * radii.x());
 }
 
-Vector3d away_from_head(const Vector3d& p) {
-  return rise(head_distance, p, 1e-3).normalized();
+Vector3d head_distance_gradient(const Vector3d& p) {
+  return central_differences(head_distance, p, 1e-3).normalized();
 }
 
-double hair_within(const HairCut& cut, const Vector3d& p) {
+double distance_inside_hair(const HairCut& cut, const Vector3d& p) {
   const double above = height_above_hairline(p, cut.female),
                height = p.y() + 0.25 * std::max(0.0, p.z());
   if (cut.crown_bald) return std::min(above, 6.2 - height);
@@ -69,7 +69,8 @@ double hair_within(const HairCut& cut, const Vector3d& p) {
 }
 
 double hair_stand_off(const HairCut& cut, const Vector3d& p) {
-  const double rises = smooth_step(0, 2.6, hair_within(cut, p)), top = smooth_step(3, 8, p.y());
+  const double rises = smooth_step(0, 2.6, distance_inside_hair(cut, p)),
+               top = smooth_step(3, 8, p.y());
   if (cut.layers > 1) return 0.5 * cut.volume * rises * (0.45 + 0.35 * smooth_step(1, 7, p.y()));
   const bool parted = cut.back < 0.8 && !cut.has_fringe();
   const double parting =
@@ -77,7 +78,7 @@ double hair_stand_off(const HairCut& cut, const Vector3d& p) {
   return 0.7 * cut.volume * rises * (0.55 + 0.45 * top) * (parted ? 1 - 0.55 * parting : 1);
 }
 
-Vector3d combed_way(const HairCut& cut, const Vector3d& p) {
+Vector3d combing_direction(const HairCut& cut, const Vector3d& p) {
   // The parting ends at the crown; further back the direction changes gradually.
   const double wide = cut.back >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
   const double side = std::clamp((p.x() - cut.parting) / wide, -1.0, 1.0);
@@ -86,12 +87,12 @@ Vector3d combed_way(const HairCut& cut, const Vector3d& p) {
     const double ahead = smooth_step(0, 2.5, p.z()) * smooth_step(6.0, 4.6, std::abs(p.x()));
     way += ahead * (Vector3d(0.1 * p.x() / 5, -0.3, 1.2) - way);
   }
-  const Vector3d normal = away_from_head(p);
+  const Vector3d normal = head_distance_gradient(p);
   way -= way.dot(normal) * normal;
   return way.norm() > 1e-6 ? Vector3d(way.normalized()) : way;
 }
 
-Mesh HairMesh::finished() && {
+Mesh HairMesh::to_mesh() && {
   const auto count = static_cast<Index>(points.size());
   topology.vertex_count = count;
   return {std::move(topology), Eigen::Map<const Positions>(points.front().data(), count, 3),
@@ -103,12 +104,12 @@ void add_hair_cap(const HairCut& cut, HairMesh& hair) {
   std::vector<std::uint32_t> place(layout.addresses.size(), kNoIndex);
   for (std::size_t v = 0; v < place.size(); ++v) {
     const SkinPoint skin = mean_skin_with_sockets(layout.addresses[v]);
-    const double within = hair_within(cut, skin.position);
+    const double within = distance_inside_hair(cut, skin.position);
     if (skin.relief < 0.5 || within < -kRim - kCapEdge) continue;
     place[v] = static_cast<std::uint32_t>(hair.points.size());
     hair.points.emplace_back(skin.position +
                              (0.03 + hair_stand_off(cut, skin.position)) * skin.normal);
-    const double u = 0.03 + 0.94 * to_and_fro(across_hair(cut, skin.position) / kStripWidth);
+    const double u = 0.03 + 0.94 * triangle_wave(across_hair(cut, skin.position) / kStripWidth);
     hair.uvs.emplace_back((kCardStrips + u) / kHairStrips, from_edge(cut, within));
   }
   for (Index f = 0; f < layout.topology.face_count(); ++f) {

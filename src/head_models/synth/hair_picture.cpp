@@ -20,7 +20,7 @@ constexpr double kCapClosed = 0.5;
 
 struct Strand {
   double place = 0;  ///< horizontal position, in units of a strip's width
-  double half = 0;   ///< half of its width, in units of a strip's width
+  double half = 0;   ///< half the strand's width, in units of a strip's width
   double start = 0;  ///< start as a fraction of the card's length
   double end = 1;    ///< end as a fraction of the card's length
   double light = 1;  ///< brightness relative to the hair colour

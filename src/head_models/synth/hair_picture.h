@@ -8,8 +8,8 @@
 
 namespace crowdface::synth {
 
-/// Number of vertical strips in hair_picture: kCardStrips for hair cards, then one for the cap
-/// below.
+/// Number of vertical strips in hair_picture: first kCardStrips strips for hair cards, then one
+/// strip for the cap below the cards.
 inline constexpr int kCardStrips = 4, kHairStrips = 5;
 
 /// sRGB value of hair in textures that take the colour of each face, see Tint.

@@ -32,7 +32,7 @@ Pull mirrored(Pull pull) {
 
 }  // namespace
 
-Person draw_person(std::uint64_t seed, std::uint64_t index) {
+Person random_person(std::uint64_t seed, std::uint64_t index) {
   Person person;
   // Stratified, so that a few heads already have both sexes and several ages.
   person.male = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
@@ -44,14 +44,14 @@ Person draw_person(std::uint64_t seed, std::uint64_t index) {
 Identity::Identity(std::uint64_t seed, std::uint64_t index)
     : seed_(seed),
       index_(index),
-      person_(draw_person(seed, index)),
-      lopsided_(mix(seed, index, 1), 5.5) {
+      person_(random_person(seed, index)),
+      asymmetry_noise_(mix(seed, index, 1), 5.5) {
   const auto normal = [&](std::string_view name) {
     const std::string purpose = concat("synth/", name);
     return cut_normal({seed, index, purpose});
   };
-  const double aged = person_.aged();
-  // Draw the value of each measure around the person's average.
+  const double aged = person_.scaled_age();
+  // Choose a random value of each measure around the person's average.
   for (const Measure& measure : measures()) {
     double value = measure.male * person_.male + measure.aged * aged +
                    measure.build * person_.build + measure.spread * normal(measure.name);
@@ -63,13 +63,13 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
     pulls_.push_back(pull);
     if (pull.centre.x() != 0) pulls_.push_back(mirrored(pull));
   }
-  // Draw overall size, proportions and asymmetry.
+  // Choose random overall size, proportions and asymmetry.
   const double size = 0.018 * person_.male + 0.02 * normal("size");
   scale_ =
       Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
                1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
   // The asymmetry of faces increases with age (Skomina et al. 2020).
-  unevenness_ = 0.05 * (1 + 0.25 * aged);
+  asymmetry_amplitude_ = 0.05 * (1 + 0.25 * aged);
   face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
   pulls_.push_back(
       {{0, -2.5, 11}, {2.5, 4, 3}, {0.07 * normal("nose_lean"), 0, 0}, Vector3d::Zero()});
@@ -81,8 +81,10 @@ Vector3d Identity::deform(const Vector3d& point) const {
   for (const Pull& pull : pulls_) moved += displacement(pull, point);
   // Lengthen or shorten the face below the eyes, with a smooth transition at the eyes.
   moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
-  const double uneven = lopsided_.at(point), other = lopsided_.at(point + Vector3d(40, 0, 0));
-  moved += unevenness_ * Vector3d(uneven, other, lopsided_.at(point + Vector3d(0, 40, 0)));
+  const double uneven = asymmetry_noise_.at(point),
+               other = asymmetry_noise_.at(point + Vector3d(40, 0, 0));
+  moved += asymmetry_amplitude_ *
+           Vector3d(uneven, other, asymmetry_noise_.at(point + Vector3d(0, 40, 0)));
   return moved.cwiseProduct(scale_);
 }
 

@@ -11,21 +11,21 @@
 
 namespace crowdface::synth {
 
-/// Attributes of a person that determine the averages of its measures.
+/// Attributes of a person that determine the averages of the person's measures.
 struct Person {
   double male = 0;   ///< −1 (female) … 1 (male)
   double age = 40;   ///< years, 18 … 77
   double build = 0;  ///< standard normal, clamped to ±2: slight … heavy
 
   /// Returns the age in units of 20 years from 40: −1.1 … 1.85.
-  double aged() const { return (age - 40) / 20; }
+  double scaled_age() const { return (age - 40) / 20; }
 };
-/// Draws the person of head `index` of a seed. Stratified: of two successive heads (2k, 2k + 1) one
-/// is female and one male; of five (5k to 5k + 4) each has an age in a different fifth of the
-/// range.
-Person draw_person(std::uint64_t seed, std::uint64_t index);
+/// Returns the random person of head `index` of a seed. Stratified: of two successive heads (2k, 2k
+/// + 1) one is female and one male; of five successive heads (5k to 5k + 4) each has an age in a
+/// different fifth of the range.
+Person random_person(std::uint64_t seed, std::uint64_t index);
 
-/// The identity of a head: its person, and measures drawn around the averages for that person.
+/// The identity of a head: its person, and random measures around the averages for this person.
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);
@@ -40,15 +40,15 @@ class Identity {
   std::uint64_t index() const { return index_; }
 
  private:
-  Identity() : lopsided_(0, 5.5) {}
+  Identity() : asymmetry_noise_(0, 5.5) {}
 
   std::uint64_t seed_ = 0, index_ = 0;
   Person person_;
   std::vector<Pull> pulls_;
   Eigen::Vector3d scale_{1, 1, 1};
   double face_length_ = 0;
-  double unevenness_ = 0;  ///< amplitude of lopsided_, cm
-  SmoothNoise lopsided_;   ///< asymmetry between left and right
+  double asymmetry_amplitude_ = 0;  ///< amplitude of asymmetry_noise_, cm
+  SmoothNoise asymmetry_noise_;     ///< asymmetry between left and right
 };
 
 }  // namespace crowdface::synth

@@ -6,9 +6,9 @@
 namespace crowdface::synth {
 
 /// The patches of the skin. The strip surrounds the head like a sleeve, from the edge of the crown
-/// down to the neck; the cap closes it at the top. The strip has rectangular openings that are
-/// filled with concentric rings. The rings of eyes, nostrils and mouth end in an open hole, those
-/// of an ear in a core.
+/// down to the neck; the cap closes the strip at the top. The strip has rectangular openings that
+/// are filled with concentric rings. The rings of eyes, nostrils and mouth end in an open hole, the
+/// rings of an ear in a core.
 enum class Sheet { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
 
 /// A parametric location on the skin, independent of the tessellation.
@@ -24,8 +24,8 @@ struct Address {
   double b = 0;
 };
 
-/// Size of the lattice of strip and cap; columns go from the midline of the face to that of the
-/// back.
+/// Size of the lattice of strip and cap; columns go from the midline of the face to the midline of
+/// the back.
 inline constexpr int kColumns = 14, kRows = 12;
 inline constexpr int kFrontColumn = 5;  ///< between front and side: front corners of the cap
 inline constexpr int kBackColumn = 8;   ///< between side and back: rear corners of the cap
@@ -40,6 +40,7 @@ struct Opening {
   Sheet sheet;
   int column0, column1, row0, row1;  ///< bounds at x > 0; for the mouth column0 = −column1
 };
+/// Returns the opening whose rings are this patch.
 const Opening& opening_of(Sheet sheet);
 std::span<const Opening> openings();
 

@@ -93,7 +93,7 @@ class Sewing {
       if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
     }
     strip_.resize(strip_index(half_, rows_) + 1);
-    // Skip vertices strictly inside an opening, and quads of an opening.
+    // Leave out vertices strictly inside an opening, and quads of an opening.
     const auto inside = [&](int i, int j) {
       return std::ranges::any_of(
           holes, [&](const Span& s) { return i > s.i0 && i < s.i1 && j > s.j0 && j < s.j1; });

@@ -30,7 +30,7 @@ Vector3d on_ball(int side, double i, double j) {
   return on_cube[static_cast<std::size_t>(side)].normalized();
 }
 
-/// Centre of a row of teeth at one position, and its height there, cm.
+/// Centre and height of a row of teeth at one position along the row, cm.
 struct Row {
   Vector3d middle;
   double height;

@@ -12,14 +12,14 @@ namespace crowdface::synth {
 enum class LoosePiece { kLeftEye, kRightEye, kUpperTeeth, kLowerTeeth };
 
 /// Two eyeballs (spheres) and two rows of teeth (closed bands along the dental arches) as quad
-/// meshes. An identity scales and moves these parts but does not deform them.
+/// meshes. An identity scales and moves these parts but does not deform the parts.
 class LooseParts {
  public:
   /// \param edge_cm  desired edge length in cm.
   explicit LooseParts(double edge_cm);
 
-  /// Appends faces and texture coordinates to those of the skin. The texture coordinates lie in the
-  /// pictures of the eyeballs (unwrap_eyeball) and the hole of the mouth (unwrap_hole).
+  /// Appends faces and texture coordinates of the parts to the skin's. The appended coordinates lie
+  /// in the pictures of the eyeballs (unwrap_eyeball) and the hole of the mouth (unwrap_hole).
   void append_to(Topology& topology, TextureCoordinates& uvs) const;
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }
@@ -31,7 +31,7 @@ class LooseParts {
   /// Returns whether a vertex belongs to an eyeball.
   bool in_eyeball(Index vertex) const { return vertex < first_vertex(LoosePiece::kUpperTeeth); }
   /// Returns the position of an eyeball's vertex on the unit sphere, whose pupil is at +z.
-  const Eigen::Vector3d& on_eyeball(Index vertex) const {
+  const Eigen::Vector3d& point_on_eyeball(Index vertex) const {
     return points_[static_cast<std::size_t>(vertex)];
   }
 

@@ -15,14 +15,15 @@ struct Pull {
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 
-/// An independent measure of a head. Its value is
-/// male · Person::male + aged · Person::aged() + build · Person::build + spread · N(0, 1).
+/// An independent measure of a head, with the value male · Person::male + aged ·
+/// Person::scaled_age() + build · Person::build + spread · N(0, 1).
 struct Measure {
   std::string_view name;
   double male, aged, build;  ///< coefficients of the average
   double spread;             ///< standard deviation of the random part
   Pull pull;                 ///< displacement for a value of 1
 };
+/// Returns all measures.
 std::span<const Measure> measures();
 
 }  // namespace crowdface::synth

@@ -7,8 +7,8 @@
 
 namespace crowdface::synth {
 
-/// Smooth random noise in 3D: C², about −1 … 1, a uniform cubic B-spline with random coefficients
-/// on a lattice.
+/// Smooth random noise in 3D with values of about −1 … 1: a uniform cubic B-spline (C²) with random
+/// coefficients on a lattice.
 class SmoothNoise {
  public:
   /// \param key      selects the noise function.

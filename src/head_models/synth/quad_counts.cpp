@@ -26,7 +26,7 @@ int quads(double weight, double scale) {
 
 }  // namespace
 
-QuadCounts::QuadCounts(double scale_in) : scale(scale_in) {
+QuadCounts::QuadCounts(double quads_per_unit) : scale(quads_per_unit) {
   const auto in_column = [](int k) { return column_unit(k + 1) - column_unit(k); };
   const auto in_row = [](int k) { return row_unit(k + 1) - row_unit(k); };
   for (int i = 0; i + 1 < kColumns; ++i) {
@@ -62,7 +62,7 @@ Index QuadCounts::vertices() const {
   for (const Opening& w : openings()) {
     const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
-    // Subtract the strip's vertices inside the opening; the core of an ear has the same number.
+    // Subtract the strip's vertices inside the opening; the core of an ear has as many vertices.
     if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
   }

@@ -11,8 +11,9 @@ namespace crowdface::synth {
 
 /// Number of quads in every lattice interval and ring span of a layout.
 struct QuadCounts {
-  /// \param scale_in  quads per unit. Each interval has the rounded number of quads, at least one.
-  explicit QuadCounts(double scale_in);
+  /// \param quads_per_unit  quads per unit. Each interval has the rounded number of quads, at least
+  ///                        one.
+  explicit QuadCounts(double quads_per_unit);
 
   /// Returns the number of quads from the midline to lattice column k; negative if k < 0.
   int column(int k) const;
@@ -23,7 +24,7 @@ struct QuadCounts {
   /// Returns the number of vertices of the whole layout.
   Index vertices() const;
 
-  double scale;
+  double scale;  ///< quads per unit
   std::array<int, kColumns - 1> columns{};
   std::array<int, kRows - 1> rows{};
 };

@@ -80,7 +80,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
       breaks_(mix(identity.seed(), identity.index(), 15), 0.9),
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
-  const double aged = identity.person().aged();
+  const double aged = identity.person().scaled_age();
   for (std::size_t i = 0; i < fold_list().size(); ++i) {
     const Fold& fold = fold_list()[i];
     for (const double side : {1.0, -1.0}) {
@@ -101,12 +101,12 @@ Relief::Relief(const Identity& identity, double edge_cm)
   const auto octave = [&](std::uint64_t lane, double spacing, double amplitude) {
     return Octave{{mix(seed, index, lane), spacing}, amplitude};
   };
-  broad_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
+  broad_octaves_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
   // The wavelength of SmoothNoise is about 2.5 to 3 spacings.
   for (const auto& [lane, spacing, amplitude] :
        {std::tuple{23U, 0.22, 0.0035}, std::tuple{24U, 0.1, 0.003}, std::tuple{25U, 0.05, 0.002}}) {
     const double part = carried(2.5 * spacing, edge_cm);
-    if (part > 0) fine_.push_back(octave(lane, spacing, amplitude * rough * part));
+    if (part > 0) fine_octaves_.push_back(octave(lane, spacing, amplitude * rough * part));
   }
   lip_depth_ = 0.012 * carried(0.45, edge_cm) * (1 + 0.4 * aged);
 }
@@ -130,7 +130,7 @@ void Relief::add_stroke(std::size_t which, double side, double depth) {
   strokes_.push_back(stroke);
 }
 
-double Relief::press(const Stroke& stroke, const Vector2d& place) const {
+double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const {
   if (!stroke.reach.contains(place)) return 0;
   // Find the nearest point of the polyline, its parameter, and the side of the curve.
   double nearest = 1e30, along = 0, side = 1;
@@ -159,15 +159,15 @@ double Relief::folds(const Vector3d& p) const {
   if (front <= 0) return 0;
   const Vector2d place(p.x() + 0.08 * waver_x_.at(p), p.y() + 0.08 * waver_y_.at(p));
   double sum = 0;
-  for (const Stroke& stroke : strokes_) sum += press(stroke, place);
+  for (const Stroke& stroke : strokes_) sum += stroke_height(stroke, place);
   return front * sum;
 }
 
 double Relief::grain(const Vector3d& p) const {
   double sum = 0;
-  for (const Octave& octave : broad_) sum += octave.amplitude * octave.noise.at(p);
+  for (const Octave& octave : broad_octaves_) sum += octave.amplitude * octave.noise.at(p);
   const double coarse = coarseness(p);
-  for (const Octave& octave : fine_) sum += coarse * octave.amplitude * octave.noise.at(p);
+  for (const Octave& octave : fine_octaves_) sum += coarse * octave.amplitude * octave.noise.at(p);
   if (lip_depth_ <= 0) return sum;
   const double lips =
       bump(Vector2d(p.x() / 2.5, (p.y() + 7.05) / 0.95).norm()) * smooth_step(7, 8.5, p.z());

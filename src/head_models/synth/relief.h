@@ -19,10 +19,11 @@ class Relief {
   /// \param edge_cm  typical edge length of the mesh; relief too fine for this length is left out.
   Relief(const Identity& identity, double edge_cm);
 
-  /// Returns the displacement along the normal of the average skin, cm.
+  /// Returns the displacement of the relief along the normal of the average skin, cm.
   double height(const SkinPoint& mean) const;
 
-  /// Returns the displacement of folds and lines only, cm. \param position  on the average head.
+  /// Returns the displacement of folds and lines only, cm. \param position  point on the average
+  /// head.
   double folds(const Eigen::Vector3d& position) const;
 
  private:
@@ -36,7 +37,7 @@ class Relief {
     Eigen::AlignedBox2d reach;    ///< bounding box of the curve's effect
   };
   double grain(const Eigen::Vector3d& position) const;
-  double press(const Stroke& stroke, const Eigen::Vector2d& place) const;
+  double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
   void add_stroke(std::size_t which, double side, double depth);
 
   std::vector<Stroke> strokes_;
@@ -45,9 +46,9 @@ class Relief {
     SmoothNoise noise;
     double amplitude;
   };
-  std::vector<Octave> broad_, fine_;
+  std::vector<Octave> broad_octaves_, fine_octaves_;
   SmoothNoise lip_creases_;
-  double lip_depth_;
+  double lip_depth_;  ///< amplitude of lip_creases_
 };
 
 }  // namespace crowdface::synth

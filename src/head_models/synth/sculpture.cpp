@@ -79,7 +79,7 @@ double lower_lip(const Vector3d& p) {
 }
 
 double neck(const Vector3d& p) {
-  // An elliptic tube that widens towards the shoulders and ends inside the head. Its back is
+  // Neck: an elliptic tube that widens towards the shoulders and ends inside the head. Its back is
   // vertical, its front slopes down and back from the chin.
   const double down = std::max(0.0, -10 - p.y());
   const double z = p.z() + 2.3 + 0.1 * (-10 - p.y());
@@ -121,7 +121,7 @@ double skin_distance(const Vector3d& point) {
 
 Vector3d skin_normal(const Vector3d& point) {
   constexpr double kStep = 1e-4;
-  const Vector3d gradient = rise(skin_distance, point, kStep);
+  const Vector3d gradient = central_differences(skin_distance, point, kStep);
   const double length = gradient.norm();
   return length > 0 ? Vector3d(gradient / length) : Vector3d(0, 0, 1);
 }

@@ -12,13 +12,14 @@ double skin_distance(const Eigen::Vector3d& point);
 
 /// Returns the central differences of a distance function, 2 · step · gradient.
 template <class Distance>
-Eigen::Vector3d rise(const Distance& distance, const Eigen::Vector3d& point, double step) {
-  Eigen::Vector3d rise;
+Eigen::Vector3d central_differences(const Distance& distance, const Eigen::Vector3d& point,
+                                    double step) {
+  Eigen::Vector3d central_differences;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d along = step * Eigen::Vector3d::Unit(k);
-    rise[k] = distance(point + along) - distance(point - along);
+    central_differences[k] = distance(point + along) - distance(point - along);
   }
-  return rise;
+  return central_differences;
 }
 
 /// Returns the unit normal of the skin at a point on or near the skin.
@@ -28,7 +29,7 @@ Eigen::Vector3d skin_normal(const Eigen::Vector3d& point);
 /// nearest to `guide`.
 Eigen::Vector3d onto_skin(const Eigen::Vector3d& origin, const Eigen::Vector3d& guide);
 
-/// Centre of the eyeball at x > 0, cm. The eyeball is larger than a real eye, because only its
+/// Centre of the eyeball at x > 0, cm. The eyeball is larger than a real eyeball, because only its
 /// front is visible.
 inline Eigen::Vector3d eye_centre() {
   return {3.12, 0, 6.75};

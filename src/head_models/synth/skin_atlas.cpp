@@ -111,9 +111,9 @@ std::vector<SkinPlace> skin_atlas(int size) {
   for (Index v = 0; v < loose.vertex_count(); ++v) {
     SkinPlace place;
     place.skin = {eye_centre(), Eigen::Vector3d::UnitZ(), 0};
-    place.covered = loose.in_eyeball(v) && loose.on_eyeball(v).z() > -0.1;
+    place.covered = loose.in_eyeball(v) && loose.point_on_eyeball(v).z() > -0.1;
     place.ball = place.covered ? 1 : 0;
-    if (place.covered) place.on_ball = loose.on_eyeball(v);
+    if (place.covered) place.on_ball = loose.point_on_eyeball(v);
     places.push_back(place);
   }
   // Rasterise all faces into the texture, then fill the texels outside the charts.

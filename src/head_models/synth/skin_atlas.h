@@ -23,9 +23,9 @@ struct SkinPlace {
   std::size_t nearest = 0;      ///< index of the covered texel with this place
 };
 
-/// Returns size × size places, row by row, first row at v = 1. Texels that show no surface contain
-/// the place of a near covered texel, so that colours continue beyond the edges of the texture
-/// charts.
+/// Returns the places of size × size texels, row by row, first row at v = 1. Texels that show no
+/// surface contain the place of a near covered texel, so that colours continue beyond the edges of
+/// the texture charts.
 std::vector<SkinPlace> skin_atlas(int size);
 
 /// Calls `body(i)` for all texels i of a size × size texture in parallel. Each task has one square of

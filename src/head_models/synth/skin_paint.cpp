@@ -61,9 +61,9 @@ double on_lips(const Vector3d& p) {
 }  // namespace
 
 SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
-                     const Complexion& look)
-    : person_(draw_person(seed, index)),
-      look_(look),
+                     const Complexion& complexion)
+    : person_(random_person(seed, index)),
+      complexion_(complexion),
       relief_(Identity(seed, index), kFinest),
       mottle_(mix(seed, index, 101), 1.1),
       blotch_(mix(seed, index, 102), 0.35),
@@ -77,8 +77,8 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
       hair_(seed, index, scalp_hair == 1),
       scalp_hair_(scalp_hair) {}
 
-ScreenColour SkinPaint::bare_skin(const Vector& p) const {
-  ScreenColour colour = look_.skin;
+ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
+  ScreenColour colour = complexion_.skin;
   const double mottle = mottle_.at(p);
   const double uneven = 0.022 * mottle + 0.016 * blotch_.at(p) + 0.022 * pores_.at(p);
   colour *= 1 + uneven;
@@ -88,7 +88,7 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
                      0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  const double blood = std::min(1.0, look_.ruddy + 0.2 * look_.made_up);
+  const double blood = std::min(1.0, complexion_.ruddy + 0.2 * complexion_.made_up);
   tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
   // Darken lines and hollows, which are less tanned and shaded.
   const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
@@ -97,15 +97,16 @@ ScreenColour SkinPaint::bare_skin(const Vector& p) const {
 }
 
 void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
-  if (look_.freckles > 0) {
+  if (complexion_.freckles > 0) {
     const double where = patch(p, {2.6, -2.6}, {5.2, 3.6}) + 0.5 * patch(p, {0, 4}, {6, 4});
     const double spot = smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p));
-    tint(colour, {0.80, 0.68, 0.58}, 0.5 * look_.freckles * std::min(1.0, 1.6 * where) * spot);
+    tint(colour, {0.80, 0.68, 0.58},
+         0.5 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
   }
-  if (look_.age_spots > 0) {
+  if (complexion_.age_spots > 0) {
     const double where = smooth_step(2.5, 6, p.y()) + 0.8 * patch(p, {6, -2}, {4, 5});
     const double spot = smooth_step(0.7, 1.0, spots_.at(p));
-    tint(colour, {0.80, 0.70, 0.62}, 0.6 * look_.age_spots * std::min(1.0, where) * spot);
+    tint(colour, {0.80, 0.70, 0.62}, 0.6 * complexion_.age_spots * std::min(1.0, where) * spot);
   }
 }
 
@@ -114,10 +115,10 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
   const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
   if (amount <= 0) return;
   ScreenColour lips = colour;
-  const double pale = 0.25 * std::max(0.0, person_.aged()) + (person_.male > 0 ? 0.35 : 0.0);
+  const double pale = 0.25 * std::max(0.0, person_.scaled_age()) + (person_.male > 0 ? 0.35 : 0.0);
   tint(lips, {0.93, 0.82, 0.81}, 1 - pale);
-  tint(lips, {0.93, 0.58, 0.64}, look_.lipstick);
-  tint(lips, ScreenColour::Constant(0.86), look_.tone);
+  tint(lips, {0.93, 0.58, 0.64}, complexion_.lipstick);
+  tint(lips, ScreenColour::Constant(0.86), complexion_.tone);
   // The upper lip is darker, because it faces down.
   if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
   cover(colour, lips, amount);
@@ -125,7 +126,7 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
 
 void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
-  const double tired = 0.45 + 0.25 * std::max(0.0, person_.aged());
+  const double tired = 0.45 + 0.25 * std::max(0.0, person_.scaled_age());
   tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
@@ -133,16 +134,17 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   const double beside = std::min(1.0, std::abs(std::abs(p.x()) - 3.2) / 2.3);
   const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
   tint(colour, {0.74, 0.64, 0.62}, 0.75 * crease * smooth_step(0, 0.35, lids));
-  tint(colour, {0.76, 0.68, 0.70}, 0.7 * look_.made_up * lids);
+  tint(colour, {0.76, 0.68, 0.70}, 0.7 * complexion_.made_up * lids);
   if (place.eye <= 0) return;
   // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
   const double lashes =
       smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
-  const ScreenColour hair = has_own_hair() ? look_.hair : from_bytes(70, 54, 44);
-  const ScreenColour dark = (0.45 - 0.25 * look_.made_up) * hair + 0.02;
-  cover(colour, dark, lashes * (upper ? 0.75 + 0.25 * look_.made_up : 0.3 + 0.4 * look_.made_up));
-  cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * look_.tone),
+  const ScreenColour hair = has_own_hair() ? complexion_.hair : from_bytes(70, 54, 44);
+  const ScreenColour dark = (0.45 - 0.25 * complexion_.made_up) * hair + 0.02;
+  cover(colour, dark,
+        lashes * (upper ? 0.75 + 0.25 * complexion_.made_up : 0.3 + 0.4 * complexion_.made_up));
+  cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * complexion_.tone),
         0.8 * smooth_step(1.05, 1.15, place.eye));
 }
 
@@ -157,8 +159,8 @@ double SkinPaint::brow_cover(const Vector& p) const {
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
   if (t < -0.1 || t > 1.1) return 0;
   const double arch = 1.95 + 1.45 * t * (1 - t) * (0.8 + 0.6 * t) - 0.12 * t * t +
-                      look_.brow_arch * (0.7 + 1.7 * t * t * (1 - t));
-  const double half = look_.brow_width * (0.34 - 0.18 * t * t);
+                      complexion_.brow_arch * (0.7 + 1.7 * t * t * (1 - t));
+  const double half = complexion_.brow_width * (0.34 - 0.18 * t * t);
   const double off = std::abs(p.y() - arch) / half;
   const double ends = smooth_step(-0.08, 0.14, t) * smooth_step(1.06, 0.72, t);
   const double body = smooth_step(1.25, 0.45, off) * ends;
@@ -166,7 +168,7 @@ double SkinPaint::brow_cover(const Vector& p) const {
   // Hairs point outward: noise stretched along their direction.
   const double along = x - 0.9 * (p.y() - arch), across = (p.y() - arch) + 0.55 * x;
   const double strands = hairs_.at({0.22 * along, across, 7 * (p.x() > 0 ? 1.0 : -1.0)});
-  return look_.brows * body * smooth_step(-0.75, 0.6, strands + 0.9 * (body - 0.5));
+  return complexion_.brows * body * smooth_step(-0.75, 0.6, strands + 0.9 * (body - 0.5));
 }
 
 double SkinPaint::beard_cover(const Vector& p, double strand) const {
@@ -196,9 +198,9 @@ double SkinPaint::beard_length(const Vector& p) const {
   const double joint = smooth_step(0.7, 0.25, std::abs(x - 2.55)) * smooth_step(-6.2, -6.8, p.y()) *
                        smooth_step(-10.2, -9.2, p.y());
   const double chin = std::max(smooth_step(1, 0.7, round) * smooth_step(-7.4, -8.0, p.y()), joint);
-  double length = look_.beard;
-  length += lip * (look_.moustache - length);
-  return length + chin * (look_.chin_beard - length);
+  double length = complexion_.beard;
+  length += lip * (complexion_.moustache - length);
+  return length + chin * (complexion_.chin_beard - length);
 }
 
 double SkinPaint::beard_cover(const Vector& p) const {
@@ -214,7 +216,7 @@ double SkinPaint::beard_cover(const Vector& p) const {
 }
 
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
-  if (look_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
+  if (complexion_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
   // Short hair: noise stretched along y.
   const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
   const double beard = beard_cover(p, strand);
@@ -224,22 +226,23 @@ void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   tint(colour, {0.82, 0.80, 0.80}, 0.8 * beard * std::min(1.0, 1.4 * length));
   const double grown = smooth_step(0.3, 1.0, length);
   const double dense = grown * (0.75 + 0.10 * tufts_.at(p) + 0.30 * strand);
-  cover(colour, look_.brow_hair * (1 + 0.25 * strand), beard * std::clamp(dense, 0.0, 0.95));
+  cover(colour, complexion_.brow_hair * (1 + 0.25 * strand), beard * std::clamp(dense, 0.0, 0.95));
 }
 
 /// Colour of an eyeball: white with redness towards the corners, an iris of radial fibres with a
 /// dark rim, a pupil. \param ball  point on the unit sphere, pupil at +z.
-ScreenColour SkinPaint::eyeball(const Vector& ball) const {
+ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   const double flat = std::sqrt(ball.x() * ball.x() + ball.y() * ball.y());
   ScreenColour colour(0.80, 0.785, 0.765);
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.45, 0.95, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
-  tint(colour, {0.93, 0.87, 0.76}, 0.5 * look_.tone + 0.25 * std::max(0.0, person_.aged()));
+  tint(colour, {0.93, 0.87, 0.76},
+       0.5 * complexion_.tone + 0.25 * std::max(0.0, person_.scaled_age()));
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
   ScreenColour iris =
-      look_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
+      complexion_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
   // Lighter around the pupil, and in the lower half, which light from above reaches.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
   iris *= 1 - 0.62 * smooth_step(kIris - 0.08, kIris, flat);
@@ -250,9 +253,9 @@ ScreenColour SkinPaint::eyeball(const Vector& ball) const {
 }
 
 ScreenColour SkinPaint::at(const SkinPlace& place) const {
-  if (place.ball > 0.5) return eyeball(place.on_ball.normalized()).max(0.0).min(1.0);
+  if (place.ball > 0.5) return eyeball_colour(place.on_ball.normalized()).max(0.0).min(1.0);
   const Vector& p = place.skin.position;
-  ScreenColour colour = bare_skin(p);
+  ScreenColour colour = bare_skin_colour(p);
   paint_spots(p, colour);
   paint_around_eyes(place, colour);
   paint_lips(place, colour);
@@ -261,25 +264,25 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   const bool ear = place.skin.relief < 0.5;
   if (!ear && hair_.reaches(p)) {
     const double lock = hair_.strand(p);
-    const ScreenColour hair = has_own_hair() ? look_.hair : 0.45 * colour;
+    const ScreenColour hair = has_own_hair() ? complexion_.hair : 0.45 * colour;
     cover(colour, hair * (1 + (0.24 - 0.16 * hair.mean()) * lock),
           scalp_hair_ * hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
-  if (has_own_hair()) cover(colour, look_.brow_hair, brow_cover(p));
+  if (has_own_hair()) cover(colour, complexion_.brow_hair, brow_cover(p));
   return colour.max(0.0).min(1.0);
 }
 
 double SkinPaint::roughness_at(const SkinPlace& place) const {
   const Vector& p = place.skin.position;
   double hair = has_own_hair() ? brow_cover(p) : 0;
-  if (has_own_hair() && look_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
+  if (has_own_hair() && complexion_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
     hair = std::max(hair, beard_length(p) * beard_cover(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
   }
   if (place.skin.relief >= 0.5 && hair_.reaches(p)) {
     hair = std::max(hair, scalp_hair_ * hair_.cover(p, hair_.strand(p)));
   }
   const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
-  return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.aged());
+  return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.scaled_age());
 }
 
 }  // namespace crowdface::synth

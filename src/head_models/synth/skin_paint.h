@@ -16,8 +16,9 @@ class SkinPaint {
   ///                    and only roots are painted on the scalp, with this opacity and without
   ///                    hair colour.
   SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
-      : SkinPaint(seed, index, scalp_hair, draw_complexion(seed, index)) {}
-  SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair, const Complexion& look);
+      : SkinPaint(seed, index, scalp_hair, random_complexion(seed, index)) {}
+  SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
+            const Complexion& complexion);
 
   /// Returns the colour at a place, sRGB.
   ScreenColour at(const SkinPlace& place) const;
@@ -25,13 +26,14 @@ class SkinPaint {
   double roughness_at(const SkinPlace& place) const;
 
   using Vector = Eigen::Vector3d;
-  /// The fraction of the skin that the brows and the beard hide at a point of the average head.
+  /// Returns the fraction of the skin that the brows hide at a point of the average head.
   double brow_cover(const Vector& p) const;
+  /// Returns the fraction of the skin that the beard hides at a point of the average head.
   double beard_cover(const Vector& p) const;
 
  private:
-  ScreenColour eyeball(const Vector& ball) const;
-  ScreenColour bare_skin(const Vector& p) const;
+  ScreenColour eyeball_colour(const Vector& ball) const;
+  ScreenColour bare_skin_colour(const Vector& p) const;
   void paint_spots(const Vector& p, ScreenColour& colour) const;
   void paint_lips(const SkinPlace& place, ScreenColour& colour) const;
   void paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const;
@@ -42,7 +44,7 @@ class SkinPaint {
   double beard_length(const Vector& p) const;
 
   Person person_;
-  Complexion look_;
+  Complexion complexion_;
   Relief relief_;
   SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_, grain_;
   Hair hair_;

@@ -23,8 +23,8 @@ class Slopes {
   Slopes(const std::vector<SkinPlace>& atlas, const std::vector<double>& heights, double texel)
       : atlas_(atlas), heights_(heights), farthest_(4 * texel) {}
 
-  /// Returns the slope from `a` over `middle` to `b`. At a border of the skin, returns the
-  /// one-sided difference.
+  /// Returns the slope at `middle` between its neighbours `a` and `b`. At a border of the skin,
+  /// returns the one-sided difference.
   double across(std::size_t a, std::size_t middle, std::size_t b) const {
     const std::size_t from = joined(a, middle) ? a : middle;
     const std::size_t to = joined(middle, b) ? b : middle;

@@ -14,7 +14,7 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas);
 
 /// Returns a tangent-space normal map of the relief that is too fine for the mesh, as 8-bit RGB.
 /// Red points to the right of the texture, green to its top. Eyeballs are smooth.
-/// \param atlas   size × size places.
+/// \param atlas   skin_atlas(size).
 /// \param texel   texel_cm() of the atlas.
 /// \param fine    the complete relief of the head.
 /// \param coarse  the part of the relief that the mesh represents.
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& a
 /// eyes.
 /// \param on_lips  1 on the lips, 0 elsewhere.
 /// \param hair     fraction of the skin that hair covers, 0 … 1.
-/// \param aged     Person::aged().
+/// \param aged     Person::scaled_age().
 double skin_roughness(const SkinPlace& place, double on_lips, double hair, double aged);
 
 }  // namespace crowdface::synth

@@ -104,8 +104,8 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   require(size >= 1, "a mask of ", size, " pixels");
   using synth::row_unit;
   using synth::strip_v;
-  // The transitions lie around the eyes and between nose and lips. Narrower transitions between two
-  // heads would show a ridge.
+  // The transitions lie around the eyes and between nose and lips. A narrower transition between
+  // two heads would show as a ridge.
   const double brow = strip_v(row_unit(2)), under_eye = strip_v(row_unit(3));
   const double nose = strip_v(row_unit(5)), lips = strip_v(row_unit(6));
   const double eye = (brow + under_eye) / 2, half = 0.55 * (brow - under_eye);

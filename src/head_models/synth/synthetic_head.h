@@ -28,7 +28,7 @@ class SyntheticHeads {
     kShorn,   ///< a hair layer of at most 2 mm, for use below hair cards (synth/hair_cards.h)
   };
   /// \param vertices  desired number, 5,000 … 1,200,000. The result differs by at most 10 %.
-  /// \throws BrokenPrecondition outside that range.
+  /// \throws BrokenPrecondition if `vertices` is outside this range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin, Scalp scalp = Scalp::kBare);
 
   /// Name of a component and its first face.
@@ -51,10 +51,10 @@ class SyntheticHeads {
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
   /// Returns the typical edge length in cm. The mesh contains no finer relief.
   double edge_cm() const { return edge_cm_; }
-  /// Returns the average head without hair and relief: #V by 3, cm. Hair cards are made for it.
+  /// Returns the average head without hair and relief, for which hair cards are made: #V by 3, cm.
   Positions average() const;
-  /// Returns a body for the heads: shoulders and chest below the rim of the average head, with
-  /// texture coordinates of its own. The first vertices are those of the rim, cm.
+  /// Returns a body for the heads: shoulders and chest below the rim of the average head, cm, with
+  /// texture coordinates of its own. The first vertices are the vertices of the rim.
   Mesh body() const;
 
  private:

@@ -20,8 +20,8 @@ void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
   for (Eigen::Index c = 0; c < 3; ++c) bytes[c] = synth::to_byte(colour[c]);
 }
 
-/// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface, and the
-/// other texels copy those of their nearest.
+/// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface; each
+/// other texel copies the bytes of its nearest covered texel (SkinPlace::nearest).
 template <class Paint>
 std::vector<std::uint8_t> painted(int size, const std::vector<synth::SkinPlace>& atlas,
                                   std::size_t channels, const Paint& paint) {
@@ -70,7 +70,8 @@ std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
                                                   double edge_cm) const {
   const synth::Identity identity(seed, index);
-  // A texture represents wavelengths from two texels, a mesh from four edges.
+  // A texture can represent wavelengths of two texels or more, a mesh wavelengths of four edges or
+  // more.
   const double finest = texel_cm_ / 2;
   return synth::skin_normals(size_, atlas_, texel_cm_, synth::Relief(identity, finest),
                              synth::Relief(identity, std::max(finest, edge_cm)));

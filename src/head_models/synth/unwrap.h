@@ -7,11 +7,13 @@
 
 namespace crowdface::synth {
 
-/// Returns the texture coordinates of an address in the tile [0, 1]². The map has no overlaps; its
-/// seam is at the back of the head, and the cap is attached to the forehead.
+/// Returns the texture coordinates of an address in the tile [0, 1]². The layout has no overlaps;
+/// its seam is at the back of the head, and the cap is attached to the forehead.
 Eigen::RowVector2d unwrap(const Address& address);
 
-/// Returns texture coordinates in the hole that an opening leaves in the texture.
+/// Returns the texture coordinates (u, v) of a point in the hole that an opening leaves in the
+/// texture.
+/// \param side   1, or −1 for the opening at x < 0.
 /// \param place  point in the unit disc, which maps to the hole.
 Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place);
 
@@ -20,8 +22,8 @@ Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& 
 /// \param place  point in the unit disc.
 Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 
-/// Returns the place of texture coordinates on the picture of an eyeball, on either side; outside the
-/// unit disc if they are elsewhere.
+/// Returns the point in the unit disc that shows at texture coordinates on an eyeball's picture, on
+/// either side; a point outside the unit disc if the coordinates are not on such a picture.
 Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv);
 
 /// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
@@ -30,7 +32,7 @@ double strip_v(double unit);
 /// Returns the point of ring coordinate a on the outline of an opening's square [−1, 1]²: x outward,
 /// y up.
 Eigen::Vector2d on_square(double around);
-/// Returns the point of the unit circle in the same direction.
+/// Returns the point of the unit circle in the direction of on_square(around).
 inline Eigen::Vector2d on_circle(double around) {
   const Eigen::Vector2d start = on_square(around);
   return start / start.norm();
