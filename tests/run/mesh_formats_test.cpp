@@ -321,7 +321,7 @@ TEST(MeshFormats, NameTheFileThatCannotBeWritten) {
     const ConfigOverrides overrides = {{meshes_in(format)}, {}, {}, {}};
     run_to(folder, out, overrides);
     fs::remove(folder / name);
-    folder.folder().write(name + "/last_occluders", "a folder has the name");
+    folder.folder().write(name + "/in_the_way", "a folder has the name");
     testing::expect_error(ExitCode::kCannotCreate, {name}, [&] { run_to(folder, out, overrides); });
   }
 }

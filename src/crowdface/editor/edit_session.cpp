@@ -255,7 +255,7 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
 
 std::vector<FacePlan> EditSession::sample_faces(const SampleRequest& request) const {
   const Judging& judging = judging_.get();
-  return sample_faces(casting_, judging.judge, judging.crowd, request);
+  return crowdface::sample_faces(casting_, judging.judge, judging.crowd, request);
 }
 
 std::vector<float> EditSession::points(const Positions& face) const {

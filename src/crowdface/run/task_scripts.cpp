@@ -155,8 +155,8 @@ complete=yes
 
 constexpr std::string_view kParallel = R"sh(
 command -v parallel >/dev/null || { echo "parallel is not on the path" >&2; exit 66; }
-# joined_pictures STAGE COUNT: each of its tasks up to five times, on another machine if there is one
-joined_pictures() {
+# side_by_side STAGE COUNT: each of its tasks up to five times, on another machine if there is one
+side_by_side() {
   seq "$2" | parallel --will-cite --jobs 1 "${hosts[@]}" --retries 5 "${more[@]}" \
     --joblog "$folder/log/$1.joblog" "$task" "$1" {}
 }
@@ -168,9 +168,9 @@ here() {
 }
 mkdir -p "$folder/log"
 # Whatever becomes of a task: planning prepares what is missing, and gathering says which faces are.
-joined_pictures prepare "$prepares" || true
+side_by_side prepare "$prepares" || true
 here plan
-joined_pictures blend "$shards" || true
+side_by_side blend "$shards" || true
 here gather
 )sh";
 
