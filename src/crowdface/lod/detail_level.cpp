@@ -69,7 +69,7 @@ std::vector<DetailLevel> detail_levels(const HeadSet& faces,
                                        std::span<const std::uint32_t> materials,
                                        std::span<const double> shares, Borders borders) {
   const SplitMesh split = split_mesh(faces.topology, faces.uvs, materials);
-  const Positions positions = split.of(mean_head(faces));
+  const Positions positions = split.corner_positions(mean_head(faces));
   std::vector<DetailLevel> levels(shares.size());
   parallel_for_each(shares.size(), [&](std::size_t l) {
     const double most = shares[l] * static_cast<double>(split.triangles.size());

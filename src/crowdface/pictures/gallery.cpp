@@ -155,7 +155,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
       looks_of(inputs.textures, surfaces.kinds,
                static_cast<std::size_t>(inputs.faces.topology.face_count()));
   const SplitMesh split = split_mesh(topology, surfaces.uvs, looks);
-  const Positions split_mean = split.of(mean);
+  const Positions split_mean = split.corner_positions(mean);
   // Reduce to twice the limit, and find which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
       reduce_triangles(split.triangles, split_mean, 2 * kMaxTriangles);
