@@ -98,14 +98,14 @@ TEST(PreviewMesh, LooksFollowOneAnotherAndKeepTheirBorder) {
   const SplitMesh split = split_mesh(sheet.topology, {}, looks);
   const PreviewMesh mesh = preview_of(split, split.triangles, {});
   EXPECT_TRUE(mesh.uvs.empty());
-  EXPECT_EQ(mesh.looks, (std::vector<std::uint32_t>{0, 2 * kRows * 10}));
+  EXPECT_EQ(mesh.material_starts, (std::vector<std::uint32_t>{0, 2 * kRows * 10}));
   EXPECT_EQ(mesh.triangles.size(), 3 * 2 * kRows * 30);
   for (std::size_t t = 0; t < mesh.triangles.size() / 3; ++t) {
     const auto [left, right] = width_of(mesh, t, sheet);
-    EXPECT_EQ(left >= kMiddle, t >= mesh.looks[1]);
+    EXPECT_EQ(left >= kMiddle, t >= mesh.material_starts[1]);
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = mesh.triangles[3 * t + c];
-      EXPECT_EQ(looks[mesh.faces[v]], t >= mesh.looks[1] ? 7U : 3U);
+      EXPECT_EQ(looks[mesh.faces[v]], t >= mesh.material_starts[1] ? 7U : 3U);
       const auto face = sheet.topology.face(mesh.faces[v]);
       EXPECT_NE(std::ranges::find(face, mesh.vertices[v]), face.end());
     }

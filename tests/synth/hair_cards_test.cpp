@@ -32,7 +32,7 @@ const Mesh& cards_of(const HairCut& cut) {
   if (is_new) {
     HairMesh cards;
     add_hair_cards(cut, cards);
-    found->second = std::move(cards).finished();
+    found->second = std::move(cards).to_mesh();
   }
   return found->second;
 }
