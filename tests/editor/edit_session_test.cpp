@@ -286,7 +286,7 @@ TEST(EditSession, DrawsAnewButForWhatIsLocked) {
   const Editor editor("basis");
   SampleRequest request{editor.face(some_recipe()), {1}, std::nullopt};
   request.count = 3;
-  const std::vector<FacePlan> faces = editor.session->draw(request);
+  const std::vector<FacePlan> faces = editor.session->sample_faces(request);
   ASSERT_EQ(faces.size(), 3U);
   for (const FacePlan& face : faces) {
     EXPECT_EQ(face.id, "edited");
@@ -313,7 +313,7 @@ TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
   SampleRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
   request.count = 3;
   const BandRecipe& locked = request.from.recipe.regions[0].finer[0];
-  for (const FacePlan& face : editor.session->draw(request)) {
+  for (const FacePlan& face : editor.session->sample_faces(request)) {
     const RegionRecipe& top = face.recipe.regions[0];
     EXPECT_EQ(top.finer[0].iterations, locked.iterations);
     EXPECT_EQ(top.finer[0].weights, locked.weights);
@@ -326,12 +326,12 @@ TEST(EditSession, FacesLikeAnotherAreNearerToItTheSmallerTheAmount) {
   const Editor editor("basis");
   SampleRequest request{editor.face(some_recipe()), {}, editor.face(some_recipe())};
   request.amount = 0;
-  const FacePlan same = editor.session->draw(request).front();
+  const FacePlan same = editor.session->sample_faces(request).front();
   EXPECT_EQ(same.recipe.regions[0].position, request.like->recipe.regions[0].position);
   EXPECT_EQ(same.recipe.regions[2].iterations, request.like->recipe.regions[2].iterations);
   const auto far = [&](double amount) {
     request.amount = amount;
-    const FacePlan face = editor.session->draw(request).front();
+    const FacePlan face = editor.session->sample_faces(request).front();
     return (*face.recipe.regions[0].position - *request.like->recipe.regions[0].position).norm();
   };
   EXPECT_GT(far(0.1), 0);
