@@ -139,7 +139,7 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsForged) {
 
 TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {
   SampledHeads still = heads();
-  for (Trajectory& trajectory : still.own) trajectory.setZero();
+  for (Trajectory& trajectory : still.owned_trajectories) trajectory.setZero();
   const FaceSpace first = cached_face_space(folder_.path(), still, weights_, 1);
   EXPECT_EQ(places(cached_face_space(folder_.path(), still, weights_, 1), 1), places(first, 1));
   EXPECT_EQ(entries(), 1U);

@@ -130,7 +130,7 @@ TEST(HairCap, IsClosedInsideAndFraysAtItsEdge) {
   for (const HairCut& cut : hair_cuts()) {
     HairMesh below;
     add_hair_cap(cut, below);
-    const Mesh cap = std::move(below).finished();
+    const Mesh cap = std::move(below).to_mesh();
     ASSERT_GT(cap.topology.face_count(), 100) << cut.name;
     EXPECT_GT(cap.uvs.col(0).minCoeff(), static_cast<double>(kCardStrips) / kHairStrips);
     EXPECT_LT(cap.uvs.col(0).maxCoeff(), 1);

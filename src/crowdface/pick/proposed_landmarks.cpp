@@ -66,7 +66,7 @@ SkinRegions face_regions(const WrapTemplate& shape) {
 MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions) {
   HeadShape head = head_shape(shape);
   head.positions = positions;
-  return {shape.axes.side(), middle_of(shape.topology, head, shape.axes)};
+  return {shape.axes.side(), symmetry_offset(shape.topology, head, shape.axes)};
 }
 
 }  // namespace crowdface
